@@ -695,7 +695,8 @@ static void sdv_check_sharp(sdv_context *context, const subdiv_mesh *mesh, const
     }
 }
 
-static void sdv_check_positions(sdv_context *context, const float *positions, int count)
+static void sdv_check_positions(sdv_context *context, const float *positions, int count,
+                                float limit)
 {
     if (count > 0 && !positions) {
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "positions is NULL");
@@ -704,9 +705,9 @@ static void sdv_check_positions(sdv_context *context, const float *positions, in
     for (int v = 0; v < count; v++) {
         const float *p = positions + 3 * (size_t)v;
         for (int i = 0; i < 3; i++)
-            if (!(p[i] >= -FLT_MAX && p[i] <= FLT_MAX)) {
+            if (!(p[i] >= -limit && p[i] <= limit)) {
                 sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, v,
-                              "vertex %d: coordinate %d is not finite", v, i);
+                              "vertex %d: coordinate %d is not finite, or too large", v, i);
                 return;
             }
     }
@@ -742,6 +743,13 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
             sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, mesh->holes[i], -1,
                           "hole %d: face %d does not exist (the mesh has %d)",
                           i, mesh->holes[i], mesh->face_count);
+}
+
+static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
+{
+    sdv_check_mesh(context, mesh);
+    if (!context->result)
+        sdv_check_positions(context, mesh->positions, mesh->vertex_count, FLT_MAX);
 }
 
 // --------------------------------------------------------------------------------- >>level
@@ -2027,22 +2035,26 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 
 // ------------------------------------------------------------------------------ >>evaluate
 
-// out[i] = the sum of row i. Each sum has one order of additions, so its bits are always the same.
+// out[i] = the weighted sum of row i, in one order of additions, so that its bits are always the
+// same. Weights sum to 1, so p0 + w1 (p1 - p0) + w2 (p2 - p0) + ... is the same sum, whose rounding
+// errors are those of the small differences: exact wherever the mesh stands.
 static void sdv_apply(const sdv_rows *rows, const float *points, float *out, const int *targets)
 {
     for (int i = 0; i < rows->count; i++) {
+        size_t first = rows->starts[i], end = rows->starts[i + 1];
+        const float *p0 = points + 3 * (size_t)rows->indices[first];
         float x = 0, y = 0, z = 0;
-        for (size_t j = rows->starts[i]; j < rows->starts[i + 1]; j++) {
+        for (size_t j = first + 1; j < end; j++) {
             const float *p = points + 3 * (size_t)rows->indices[j];
             float w = rows->weights[j];
-            x += w * p[0];
-            y += w * p[1];
-            z += w * p[2];
+            x += w * (p[0] - p0[0]);
+            y += w * (p[1] - p0[1]);
+            z += w * (p[2] - p0[2]);
         }
         float *q = out + 3 * (size_t)(targets ? targets[i] : i);
-        q[0] = x;
-        q[1] = y;
-        q[2] = z;
+        q[0] = p0[0] + x;
+        q[1] = p0[1] + y;
+        q[2] = p0[2] + z;
     }
 }
 
@@ -2167,7 +2179,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_positions(&context, positions, surface->cage_vertex_count);
+    else sdv_check_positions(&context, positions, surface->cage_vertex_count, FLT_MAX / 2);
     if (context.result) return context.result;
 
     subdiv_mesh made;
@@ -2273,8 +2285,7 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     sdv_context context = sdv_begin(opt);
     if (info) memset(info, 0, sizeof *info);
     else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "info is NULL");
-    if (!context.result) sdv_check_mesh(&context, mesh);
-    if (!context.result) sdv_check_positions(&context, mesh->positions, mesh->vertex_count);
+    if (!context.result) sdv_check_all(&context, mesh);
     if (context.result) return context.result;
 
     sdv_arena arena = { NULL };
@@ -3165,8 +3176,7 @@ static subdiv_result sdv_save(sdv_context *context, const subdiv_mesh *mesh, sub
                               void *user, const subdiv_options *opt)
 {
     if (!write) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    if (!context->result) sdv_check_mesh(context, mesh);
-    if (!context->result) sdv_check_positions(context, mesh->positions, mesh->vertex_count);
+    if (!context->result) sdv_check_all(context, mesh);
 
     sdv_arena arena = { NULL };
     sdv_output out = { context, write, user, NULL, 0 };
@@ -3259,8 +3269,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
 {
     sdv_context context = sdv_begin(opt);
     if (!path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "path is NULL");
-    if (!context.result) sdv_check_mesh(&context, mesh);
-    if (!context.result) sdv_check_positions(&context, mesh->positions, mesh->vertex_count);
+    else sdv_check_all(&context, mesh);            // before the file is overwritten
     if (context.result) return context.result;
     context.name = path;
     errno = 0;
