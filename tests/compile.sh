@@ -1,0 +1,61 @@
+#!/bin/sh
+# Compiles the programs of tests/compile in every way that subdiv.h offers, without a warning, and
+# runs them: each makes a cube and looks whether it is right. CC and CXX name the compilers.
+CC=${CC:-cc}
+CXX=${CXX:-c++}
+warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
+out=build/compile
+from=tests/compile
+passed=0
+failed=0
+mkdir -p $out
+
+# step NAME COMMAND: runs the command and counts it.
+step() {
+    name=$1
+    shift
+    if "$@" > $out/log 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED  $name: $*"
+        head -n 10 $out/log
+    fi
+}
+
+# c NAME FILES...: a C program of so many files, compiled, linked and run.
+c() {
+    name=$1
+    shift
+    step "$name compiles" $CC -std=c99 $warn -I. "$@" -o $out/$name -lm
+    step "$name runs" $out/$name
+}
+
+c c99 $from/c99.c
+c two_files $from/two_files_a.c $from/two_files_b.c
+c include_twice $from/include_twice.c
+c decorated $from/decorated.c
+c no_stdio $from/no_stdio.c
+# Private copies of all functions are more than one file uses.
+c static_twice -Wno-unused-function $from/static_twice_a.c $from/static_twice_b.c
+
+# Nothing that opens, reads, writes or prints may be left under SUBDIV_NO_STDIO.
+$CC -std=c99 -DNDEBUG -I. -c $from/no_stdio.c -o $out/no_stdio.o
+if nm -u $out/no_stdio.o > $out/symbols 2> $out/log && [ -s $out/symbols ]; then
+    files='f(open|close|read|write|error|flush|put[cs])|puts|printf|std(in|out|err)'
+    step "no_stdio references no files" sh -c "! grep -E '$files' $out/symbols"
+fi
+
+if command -v $CXX > $out/log; then
+    step "cpp11 compiles" $CXX -std=c++11 $warn -I. $from/cpp11.cpp -o $out/cpp11 -lm
+    step "cpp11 runs" $out/cpp11
+    step "two_files in C" $CC -std=c99 $warn -I. -c $from/two_files_a.c -o $out/two_files_a.o
+    step "two_files in C and C++" $CXX -std=c++11 $warn -I. $from/two_files_b.cpp \
+        $out/two_files_a.o -o $out/two_files_cpp -lm
+    step "two_files in C and C++ runs" $out/two_files_cpp
+else
+    echo "no C++ compiler: the C++ programs are skipped"
+fi
+
+printf '%-24s %4d passed, %d failed\n' compile $passed $failed
+[ $failed = 0 ]

@@ -1,0 +1,93 @@
+#!/bin/sh
+# Compiles and runs what the documentation shows: the programs in the opening comment of subdiv.h,
+# and the first complete C program of README.md if there is one. CC names the compiler.
+CC=${CC:-cc}
+flags="-std=c99 -Wall -Wextra -Wpedantic -Werror -I."
+out=build/docs
+passed=0
+failed=0
+rm -rf $out
+mkdir -p $out
+
+step() {
+    name=$1
+    shift
+    if "$@" > $out/log 2>&1; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED  $name"
+        head -n 10 $out/log
+    fi
+}
+
+# section TITLE: the indented lines of a section of the opening comment, up to the next title.
+section() {
+    awk -v title="$1" '
+        /\*\// { exit }
+        /^   [A-Z]/ { inside = index($0, title) > 0; next }
+        inside && /^       / { print substr($0, 8); next }
+        inside && /^$/ { print }' subdiv.h
+}
+
+cat > $out/cage.obj <<'END'
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+END
+
+# refines NAME: in its folder the program makes a fine.obj that is a closed mesh of quads.
+refines() {
+    rm -f $out/fine.obj
+    step "$1 compiles" $CC $flags $out/$1.c -o $out/$1 -lm
+    step "$1 runs" sh -c "cd $out && ./$1"
+    step "$1 refines" awk '/^v / { v++ } /^f / && NF == 5 { f++ }
+                           END { exit !(f > 6 && v == f + 2) }' $out/fine.obj
+}
+
+section "QUICK START" > $out/quick_start.c
+refines quick_start
+step "quick_start refines twice" test "$(grep -c '^f ' $out/fine.obj)" = 96
+
+# Without a cage it says what is wrong and returns the error.
+mv $out/cage.obj $out/cage.kept
+step "quick_start fails" sh -c "cd $out && ! ./quick_start > message && grep -q cage.obj message"
+mv $out/cage.kept $out/cage.obj
+
+{
+    echo '#define SUBDIV_IMPLEMENTATION'
+    echo '#include "subdiv.h"'
+    echo 'int main(void)'
+    echo '{'
+    section "BY HAND"
+    echo '    subdiv_mesh fine = {0};'
+    echo '    subdiv_result result = subdiv_refine(&fine, &cube, 2, NULL);'
+    echo '    if (!result) result = subdiv_save_obj(&fine, "fine.obj", NULL);'
+    echo '    subdiv_mesh_free(&fine);'
+    echo '    return (int)result;'
+    echo '}'
+} > $out/by_hand.c
+refines by_hand
+step "by_hand has one crease left" test "$(grep -c '^t crease ' $out/fine.obj)" = 4
+
+# The first fenced block of README.md that holds a main.
+if [ -f README.md ]; then
+    awk '/^```/ { if (inside && main) { printf "%s", text; exit }
+                  inside = !inside; main = 0; text = ""; next }
+         inside { text = text $0 "\n"; if (/int main\(/) main = 1 }' README.md > $out/readme.c
+    if [ -s $out/readme.c ]; then refines readme; fi
+fi
+
+printf '%-24s %4d passed, %d failed\n' docs $passed $failed
+[ $failed = 0 ]

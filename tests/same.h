@@ -1,0 +1,49 @@
+// Comparing meshes field by field. Include it after subdiv.h.
+#ifndef SAME_H
+#define SAME_H
+
+#include <string.h>
+
+static int mesh_is_zero(const subdiv_mesh *m)
+{
+    return !m->vertex_count && !m->positions && !m->face_count && !m->face_size && !m->face_sizes &&
+           !m->face_vertices && !m->crease_count && !m->crease_vertices && !m->crease_sharpness &&
+           !m->corner_count && !m->corner_vertices && !m->corner_sharpness && !m->hole_count &&
+           !m->holes && m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
+           m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
+           m->uv_rule == (subdiv_uv_rule)0 && !m->cage_faces && !m->memory;
+}
+
+static int size_of_face(const subdiv_mesh *m, int f)
+{
+    return m->face_size ? m->face_size : m->face_sizes[f];
+}
+
+static int same_bytes(const void *a, const void *b, int count, size_t size)
+{
+    return count == 0 || memcmp(a, b, (size_t)count * size) == 0;
+}
+
+// Bit by bit the same cage, however the sizes of its faces are stored.
+static int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
+{
+    if (a->vertex_count != b->vertex_count || a->face_count != b->face_count ||
+        a->crease_count != b->crease_count || a->corner_count != b->corner_count ||
+        a->hole_count != b->hole_count || a->scheme != b->scheme || a->boundary != b->boundary ||
+        a->creasing != b->creasing || a->triangles != b->triangles || a->uv_rule != b->uv_rule)
+        return 0;
+    int total = 0;
+    for (int f = 0; f < a->face_count; f++) {
+        if (size_of_face(a, f) != size_of_face(b, f)) return 0;
+        total += size_of_face(a, f);
+    }
+    return same_bytes(a->positions, b->positions, 3 * a->vertex_count, sizeof(float)) &&
+           same_bytes(a->face_vertices, b->face_vertices, total, sizeof(int)) &&
+           same_bytes(a->crease_vertices, b->crease_vertices, 2 * a->crease_count, sizeof(int)) &&
+           same_bytes(a->crease_sharpness, b->crease_sharpness, a->crease_count, sizeof(float)) &&
+           same_bytes(a->corner_vertices, b->corner_vertices, a->corner_count, sizeof(int)) &&
+           same_bytes(a->corner_sharpness, b->corner_sharpness, a->corner_count, sizeof(float)) &&
+           same_bytes(a->holes, b->holes, a->hole_count, sizeof(int));
+}
+
+#endif

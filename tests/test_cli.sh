@@ -1,0 +1,417 @@
+#!/bin/sh
+# The command line: every option, exit codes, messages, standard input and output, failing output.
+#
+#     sh tests/test_cli.sh [PROGRAM]          PROGRAM: build/subdiv when not given
+
+program=$(cd "$(dirname "${1:-build/subdiv}")" && pwd)/$(basename "${1:-build/subdiv}")
+mkdir -p build/cli && cd build/cli || exit 1
+rm -rf ./*
+LC_ALL=C
+export LC_ALL
+passed=0
+failed=0
+
+subdiv() {
+    "$program" "$@"
+}
+
+# fine NAME COMMAND: the command has to succeed.
+fine() {
+    name=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED  $name"
+    fi
+}
+
+# ends STATUS ARGUMENTS: the exit status of subdiv, whose output stands in out and err afterwards.
+# What is wrong takes exactly one line on err, and nothing on out.
+ends() {
+    expected=$1
+    shift
+    subdiv "$@" > out 2> err
+    status=$?
+    fine "subdiv $*: exit $status, not $expected" test $status = "$expected"
+    if [ "$expected" != 0 ]; then
+        fine "subdiv $*: one line on standard error" test "$(wc -l < err)" -eq 1
+        fine "subdiv $*: begins with subdiv:" grep -q '^subdiv: ' err
+        fine "subdiv $*: nothing on standard output" test ! -s out
+    fi
+}
+
+says() {
+    fine "\"$(cat err)\" does not say \"$1\"" grep -qF -e "$1" err
+}
+
+# counts FILE VERTICES FACES
+counts() {
+    fine "$1 has $2 vertices and $3 faces" \
+        awk -v vertices="$2" -v faces="$3" '/^v / { v++ } /^f / { f++ }
+            END { exit !(v + 0 == vertices && f + 0 == faces) }' "$1"
+}
+
+same() {
+    fine "$1 is not $2" cmp -s "$1" "$2"
+}
+
+differ() {
+    fine "$1 is the same as $2" sh -c "! cmp -s $1 $2"
+}
+
+# -------------------------------------------------------------------------------- files to work on
+
+# A cube whose top is sharp, its bottom missing.
+cat > box.obj <<'END'
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+t crease 2/1/0 4 5 1.5
+t crease 2/1/0 5 6 2.5
+t crease 2/1/0 6 7 10
+END
+
+cat > tetrahedron.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+f 1 3 2
+f 1 2 4
+f 2 3 4
+f 3 1 4
+END
+
+# Everything that --info tells apart.
+cat > zoo.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 2 0.5 0
+v 0.5 -1 0
+v 0.5 0 1
+v 9 9 9
+v 5 0 0
+v 6 0 0
+v 6 1 0
+v 5.5 2 0
+v 5 1 -0.1
+f 1 2 3 4
+f 2 5 3
+f 2 1 6
+f 1 2 7
+f 9 10 11 12 13
+t crease 2/1/0 1 2 2
+t crease 2/1/0 2 3 11
+t corner 1/1/0 5 3
+t hole 1/0/0 4
+END
+
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' > bad_index.obj
+printf 'v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n' > bad_vertex.obj
+printf '# nothing\n' > empty.obj
+{ cat box.obj; printf 't hole 1/0/0 77\nt corner 1/1/0 88 1\nf 1 2\n'; } > warnings.obj
+{ cat box.obj; printf 't crease 2/1/0 0 6 1\n'; } > diagonal.obj
+
+# ---------------------------------------------------------------------------------- help, version
+
+ends 0 --help
+for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
+              --triangulate --info --time --help --version; do
+    fine "--help names $option" grep -q -e "$option" out
+done
+fine "--help is not an error" test ! -s err
+cp out help
+ends 0 -h
+same out help
+ends 0 box.obj --help
+same out help
+ends 0 --version
+fine "--version prints one line" grep -qx 'subdiv [0-9]*\.[0-9]*' out
+
+# ----------------------------------------------------------------------------------------- levels
+
+ends 0 box.obj one.obj
+fine "nothing is printed" test ! -s out -a ! -s err
+counts one.obj 25 20
+ends 0 -l 2 box.obj two.obj
+counts two.obj 89 80
+for form in '-l2' '-l 2' '--levels=2' '--levels 2' '-l 7 -l 2'; do
+    # Unquoted: the form is one or several words.
+    ends 0 $form box.obj form.obj
+    same form.obj two.obj
+    ends 0 box.obj $form form.obj
+    same form.obj two.obj
+    ends 0 box.obj form.obj $form
+    same form.obj two.obj
+done
+ends 0 -l0 box.obj zero.obj
+counts zero.obj 8 5
+ends 0 -l 0 zero.obj again.obj
+same zero.obj again.obj
+ends 0 -l1 one.obj one_and_one.obj
+counts one_and_one.obj 89 80
+ends 1 -l 40 box.obj form.obj
+ends 1 -l 2147483647 box.obj form.obj
+ends 2 -l 2147483648 box.obj
+says "whole number"
+ends 2 -l 4294967298 box.obj
+ends 2 -l -1 box.obj
+says "'-1'"
+ends 2 --levels=1.5 box.obj
+says "'1.5'"
+ends 2 -l '' box.obj
+ends 2 -l x box.obj
+ends 2 -l2x box.obj
+ends 2 box.obj -l
+says "needs a value"
+
+# --------------------------------------------------------------------------------- scheme and rules
+
+ends 0 -l2 -s bilinear box.obj bilinear.obj
+counts bilinear.obj 89 80
+differ bilinear.obj two.obj
+ends 0 -l2 --scheme=catmull-clark box.obj form.obj
+same form.obj two.obj
+ends 0 -s loop tetrahedron.obj loop.obj
+counts loop.obj 10 16
+ends 1 -s loop box.obj form.obj
+says "face 0"
+ends 0 -s loop --triangulate box.obj form.obj
+counts form.obj 25 40
+ends 2 -s butterfly box.obj
+says "catmull-clark|loop|bilinear"
+says "butterfly"
+ends 2 -s catmull box.obj
+ends 2 -s 'catmull-clark|loop' box.obj
+ends 2 -s '' box.obj
+
+# Each rule changes the result, its default does not, and the file's own tags count until a rule is
+# given. The single face has vertices with one face; the box has semi-sharp creases.
+printf 'v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nf 1 2 3 4\n' > quad.obj
+{ cat quad.obj; echo 't interpolateboundary 1/0/0 1'; } > quad_corner.obj
+ends 0 -l0 quad.obj plain.obj
+ends 0 quad.obj quad_edge_1.obj
+ends 0 -b edge quad.obj form.obj
+same form.obj quad_edge_1.obj
+ends 0 -b edge-and-corner quad.obj quad_corner_1.obj
+differ quad_corner_1.obj quad_edge_1.obj
+ends 0 quad_corner.obj form.obj
+same form.obj quad_corner_1.obj
+ends 0 --boundary edge quad_corner.obj form.obj
+same form.obj quad_edge_1.obj
+ends 0 -bnone quad.obj form.obj
+counts form.obj 9 0
+ends 2 -b corner quad.obj
+says "edge|edge-and-corner|none"
+
+ends 0 -l2 -c chaikin box.obj chaikin.obj
+differ chaikin.obj two.obj
+fine "chaikin is kept for the next refinement" grep -qx 't creasemethod 0/0/1 chaikin' chaikin.obj
+ends 0 -l2 -c uniform box.obj form.obj
+same form.obj two.obj
+{ cat box.obj; echo 't creasemethod 0/0/1 chaikin'; } > box_chaikin.obj
+ends 0 -l2 box_chaikin.obj form.obj
+same form.obj chaikin.obj
+ends 0 -l2 --creasing uniform box_chaikin.obj form.obj
+same form.obj two.obj
+ends 2 -c normal box.obj
+
+ends 0 -t smooth tetrahedron.obj smooth.obj
+ends 0 -t catmull-clark tetrahedron.obj rough.obj
+ends 0 tetrahedron.obj form.obj
+same form.obj rough.obj
+differ smooth.obj rough.obj
+ends 2 --triangles round tetrahedron.obj
+
+# ------------------------------------------------------------------------------------ not yet there
+
+for option in '--uv all' '-u none' '-ucorners-plus1' '--limit' '-L' '--threads 4' '-j2'; do
+    ends 2 $option box.obj form.obj
+    says "not in this release"
+done
+ends 2 --uv blue box.obj
+says "corners-only"
+ends 2 -j 0 box.obj
+says "whole number"
+ends 2 -j many box.obj
+says "whole number"
+
+# ------------------------------------------------------------------------------------- bad usage
+
+ends 2
+says "INPUT"
+says "try subdiv --help"
+ends 2 --frobnicate box.obj
+says "--frobnicate"
+says "try subdiv --help"
+ends 2 -x box.obj
+says "-x"
+ends 2 --level 2 box.obj
+ends 2 --levels2 box.obj
+ends 2 --info=yes box.obj
+says "takes no value"
+ends 2 --time=1 box.obj
+ends 2 -hx
+ends 2 box.obj form.obj third.obj
+says "third.obj"
+fine "a refused command writes nothing" test ! -e third.obj
+cp box.obj ./-box.obj
+ends 0 -l 2 -- -box.obj -fine.obj
+same ./-fine.obj two.obj
+ends 2 -- box.obj form.obj --info
+
+# ----------------------------------------------------------------------- standard input and output
+
+subdiv -l2 box.obj > out
+same out two.obj
+subdiv -l2 box.obj - > out
+same out two.obj
+subdiv -l2 - < box.obj > out
+same out two.obj
+subdiv -l2 - out.obj < box.obj
+same out.obj two.obj
+cat box.obj | subdiv - | subdiv - > out
+same out one_and_one.obj
+subdiv -l2 box.obj box_itself.obj && cp box.obj itself.obj && subdiv -l2 itself.obj itself.obj
+same itself.obj two.obj
+ends 1 - < bad_vertex.obj
+says "line 2"
+ends 1 - < /dev/null
+says "no vertices"
+ends 1 - <&-
+says "reading"
+
+# ----------------------------------------------------------------------------- bad input and output
+
+ends 1 nowhere.obj form.obj
+says "nowhere.obj"
+ends 1 bad_index.obj form.obj
+says "bad_index.obj:4: "
+says "9"
+ends 1 bad_vertex.obj form.obj
+says "bad_vertex.obj:2: "
+ends 1 empty.obj form.obj
+says "no vertices"
+ends 1 . form.obj
+ends 1 box.obj nowhere/form.obj
+says "nowhere/form.obj"
+ends 1 box.obj .
+ends 1 --info bad_index.obj
+says "bad_index.obj:4: "
+
+# An error leaves OUTPUT as it was.
+echo kept > kept.obj
+cp kept.obj kept_copy.obj
+ends 1 bad_index.obj kept.obj
+same kept.obj kept_copy.obj
+ends 1 -s loop box.obj kept.obj
+same kept.obj kept_copy.obj
+ends 1 -l 30 box.obj kept.obj
+same kept.obj kept_copy.obj
+
+if [ -w /dev/full ]; then
+    ends 1 -l 3 box.obj /dev/full
+    says "/dev/full"
+    fine "/dev/full is still there" test -c /dev/full
+    for arguments in 'box.obj' 'box.obj -' '-l 6 box.obj' '--info box.obj' --help --version; do
+        subdiv $arguments > /dev/full 2> err
+        fine "subdiv $arguments > /dev/full: exit 1" test $? = 1
+        fine "subdiv $arguments > /dev/full: one line" test "$(wc -l < err)" -eq 1
+        says "standard output"
+    done
+fi
+subdiv box.obj >&- 2> err
+fine "closed standard output: exit 1" test $? = 1
+says "standard output"
+{ subdiv -l 6 box.obj 2> err; echo $? > status; } | true
+fine "broken pipe: exit 1" test "$(cat status)" = 1
+says "standard output"
+
+# A disk that gets full does not leave half a mesh.
+(ulimit -f 8 2> err && trap '' XFSZ 2> err && exec "$program" -l 6 box.obj half.obj 2> err)
+fine "full disk: exit 1" test $? = 1
+says "half.obj"
+fine "full disk: nothing left in OUTPUT" test ! -s half.obj
+
+# ------------------------------------------------------------------------------------- warnings
+
+ends 0 warnings.obj form.obj
+fine "one line of warning" test "$(wc -l < err)" -eq 1
+fine "the first of three warnings" \
+    grep -q '^subdiv: warning: warnings.obj:[0-9]*: .* (and 2 more)$' err
+same form.obj one.obj
+ends 0 diagonal.obj form.obj
+fine "one warning" grep -q '^subdiv: warning: ' err
+fine "and no more" sh -c '! grep -q more err'
+same form.obj one.obj
+ends 0 --info diagonal.obj form.obj
+fine "a warning is told once" sh -c '! grep -q more err'
+ends 0 --info warnings.obj
+fine "warnings with --info" grep -q '^subdiv: warning: ' err
+
+# ------------------------------------------------------------------------------------- info, time
+
+# row TEXT VALUE: a line of --info.
+row() {
+    fine "--info: $1 is $2: $(grep -F -e "$1" out)" grep -qE -e "^ *$1  +$2\$" out
+}
+
+ends 0 --info zoo.obj
+row vertices 13
+row edges 15
+row faces 5
+row 'of 3' 3
+row 'of 4' 1
+row 'of 5' 1
+row 'boundary edges' 13
+row 'non-manifold edges' 1
+row 'isolated vertices' 1
+row 'extraordinary vertices' 0
+row creases 2
+row 'creases that never fade' 1
+row corners 1
+row holes 1
+row components 2
+row 'bounding box' '0 -1 -0.1 to 9 9 9'
+fine "--info prints no mesh" sh -c '! grep -q "^[vf] " out'
+ends 0 --info box.obj info.obj
+same info.obj one.obj
+row vertices 8
+row 'boundary edges' 4
+row 'extraordinary vertices' 4
+ends 0 -s loop --info tetrahedron.obj
+row 'extraordinary vertices' 4
+ends 0 --info -s loop box.obj
+ends 0 - --info < box.obj
+row vertices 8
+ends 2 --info box.obj -
+says "standard output"
+
+ends 0 --time -l 5 box.obj timed.obj
+fine "--time prints four lines" test "$(wc -l < err)" -eq 4
+for step in load prepare refine save; do
+    fine "--time: $step" grep -qxE "$step [0-9]+\.[0-9]{3} ms [0-9]+\.[0-9]{2} ns/vertex" err
+done
+fine "--time: nothing on standard output" test ! -s out
+fine "--time: ns/vertex are ms by vertices" awk -v n="$(grep -c '^v ' timed.obj)" '
+    { error = $4 * n / 1e6 - $2; if (error * error > (0.001 + 1e-8 * n) ^ 2) exit 1 }' err
+ends 0 --time --info box.obj
+fine "--time --info: one line" test "$(wc -l < err)" -eq 1
+fine "--time --info: load" grep -q '^load ' err
+
+printf '%-24s %4d passed, %d failed\n' cli $passed $failed
+[ $failed = 0 ]

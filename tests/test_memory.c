@@ -1,0 +1,334 @@
+// Every allocation fails once: the answer is SUBDIV_ERROR_MEMORY, the output is zeroed, nothing
+// leaks and nothing is freed twice. The user pointer reaches every call of the allocator.
+//
+//     cc -I. tests/test_memory.c -o build/test_memory -lm && build/test_memory
+
+#include <stdlib.h>
+
+static void *heap_malloc(size_t size, void *user);
+static void  heap_free(void *pointer, void *user);
+
+#define SUBDIV_MALLOC(size, user)  heap_malloc(size, user)
+#define SUBDIV_FREE(pointer, user) heap_free(pointer, user)
+#define SUBDIV_IMPLEMENTATION
+#include "subdiv.h"
+#include "test.h"
+#include "same.h"
+
+// ------------------------------------------------------------------------- the allocator's books
+
+enum { HEAP_BLOCKS = 256 };
+
+typedef struct heap {
+    int    calls, fail_at;            // call number fail_at fails; 0: none
+    int    failures;
+    int    live, wrong;               // blocks in use; frees of what is not in use
+    void  *blocks[HEAP_BLOCKS];
+} heap;
+
+static heap main_heap;
+static int  foreign_calls;            // with another user pointer
+
+static void *heap_malloc(size_t size, void *user)
+{
+    heap *h = &main_heap;
+    if (user != h) foreign_calls++;
+    if (++h->calls == h->fail_at) {
+        h->failures++;
+        return NULL;
+    }
+    void *block = malloc(size ? size : 1);
+    if (block) memset(block, 0xa5, size);           // nobody may count on zeros
+    for (int i = 0; block && i < HEAP_BLOCKS; i++) {
+        if (h->blocks[i]) continue;
+        h->blocks[i] = block;
+        h->live++;
+        return block;
+    }
+    free(block);
+    h->wrong++;
+    return NULL;
+}
+
+static void heap_free(void *pointer, void *user)
+{
+    heap *h = &main_heap;
+    if (user != h) foreign_calls++;
+    if (pointer == NULL) return;
+    for (int i = 0; i < HEAP_BLOCKS; i++) {
+        if (h->blocks[i] != pointer) continue;
+        h->blocks[i] = NULL;
+        h->live--;
+        free(pointer);
+        return;
+    }
+    h->wrong++;
+}
+
+// ------------------------------------------------------------------------------------ the calls
+
+static char obj_text[400000];         // a cage that makes every growing array grow
+static size_t obj_size;
+
+static void write_line(const char *format, int a, int b, int c)
+{
+    int n = snprintf(obj_text + obj_size, sizeof obj_text - obj_size, format, a, b, c);
+    obj_size += (size_t)n;
+}
+
+// A strip of quads that ends in a pentagon and a triangle, with a warning and tags of each kind.
+static void make_obj_text(void)
+{
+    enum { COUNT = 3000 };
+    obj_size = 0;
+    for (int i = 0; i < COUNT; i++) write_line("v %d %d %d\n", i / 2, i % 2, i % 5);
+    for (int i = 1; i + 7 < COUNT; i += 2) write_line("f -%d %d %d", COUNT + 1 - i, i + 2, i + 3),
+                                           write_line(" %d\n", i + 1, 0, 0);
+    write_line("f %d %d %d", COUNT - 5, COUNT - 3, COUNT - 1), write_line(" %d %d\n", COUNT - 2,
+                                                                         COUNT - 4, 0);
+    write_line("f %d %d %d\n", COUNT - 1, COUNT, COUNT - 2);
+    for (int i = 0; i + 9 < COUNT; i += 2) write_line("t crease 2/1/0 %d %d %d\n", i, i + 2, i % 3);
+    for (int i = 0; i + 9 < COUNT; i += 7) write_line("t corner 1/1/0 %d %d\n", i, i % 11, 0);
+    for (int i = 0; i + 9 < COUNT / 2; i += 5) write_line("t hole 1/0/0 %d\n", i, 0, 0);
+    write_line("t hole 1/0/0 %d\n", 999999, 0, 0);
+}
+
+typedef struct cursor {
+    size_t at;
+} cursor;
+
+static size_t read_text(void *user, void *bytes, size_t size)
+{
+    cursor *c = (cursor *)user;
+    size_t n = obj_size - c->at;
+    if (n > size) n = size;
+    memcpy(bytes, obj_text + c->at, n);
+    c->at += n;
+    return n;
+}
+
+static size_t write_away(void *user, const void *bytes, size_t size)
+{
+    (void)user;
+    (void)bytes;
+    return size;
+}
+
+// Every call below: does its work once and reports the result; a failed output must be zeroed.
+// cage is a good one, made without failures.
+typedef subdiv_result (*call)(const subdiv_mesh *cage, const subdiv_options *opt);
+
+static subdiv_result keep_nothing(subdiv_mesh *mesh, subdiv_result result)
+{
+    if (result) CHECK(mesh_is_zero(mesh));
+    subdiv_mesh_free(mesh);
+    return result;
+}
+
+static subdiv_result call_load_memory(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_mesh mesh;
+    (void)cage;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_load_obj_memory(&mesh, obj_text, obj_size, opt));
+}
+
+static subdiv_result call_load_callback(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_mesh mesh;
+    cursor c = {0};
+    (void)cage;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_load_obj_callback(&mesh, read_text, &c, opt));
+}
+
+static subdiv_result refine_as(const subdiv_mesh *cage, subdiv_scheme scheme, int levels,
+                               const subdiv_options *opt)
+{
+    subdiv_mesh mesh, other = *cage;
+    other.scheme = scheme;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_refine(&mesh, &other, levels, opt));
+}
+
+static subdiv_result call_copy(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return refine_as(cage, SUBDIV_CATMULL_CLARK, 0, opt);
+}
+
+static subdiv_result call_refine(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return refine_as(cage, SUBDIV_CATMULL_CLARK, 3, opt);
+}
+
+static subdiv_result call_bilinear(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return refine_as(cage, SUBDIV_BILINEAR, 2, opt);
+}
+
+static subdiv_result call_loop(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    triangulate.keep_holes = 1;
+    return refine_as(cage, SUBDIV_LOOP, 2, &triangulate);
+}
+
+static subdiv_result call_chaikin(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_mesh other = *cage;
+    other.creasing = SUBDIV_CREASING_CHAIKIN;
+    other.boundary = SUBDIV_BOUNDARY_NONE;
+    return refine_as(&other, SUBDIV_CATMULL_CLARK, 2, opt);
+}
+
+static subdiv_result call_prepare(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_surface *surface = (subdiv_surface *)&main_heap;
+    subdiv_mesh mesh;
+    subdiv_result result = subdiv_prepare(&surface, cage, 2, opt);
+    if (result) {
+        CHECK(surface == NULL);
+        return result;
+    }
+    memset(&mesh, 0x55, sizeof mesh);
+    result = keep_nothing(&mesh, subdiv_surface_mesh(&mesh, surface, cage->positions, opt));
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_inspect(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_info info, zero;
+    memset(&zero, 0, sizeof zero);
+    subdiv_result result = subdiv_inspect(&info, cage, opt);
+    if (result) CHECK(memcmp(&info, &zero, sizeof info) == 0);
+    return result;
+}
+
+static subdiv_result call_save_memory(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    size_t size = 0;
+    return subdiv_save_obj_memory(cage, NULL, 0, &size, opt);
+}
+
+static subdiv_result call_save_callback(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return subdiv_save_obj_callback(cage, write_away, NULL, opt);
+}
+
+static const char *const path = "build/test_memory.scratch.obj";
+
+static subdiv_result call_files(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_mesh mesh;
+    subdiv_result result = subdiv_save_obj(cage, path, opt);
+    if (result) return result;
+    memset(&mesh, 0x55, sizeof mesh);
+    result = subdiv_load_obj(&mesh, path, opt);
+    if (result == SUBDIV_OK) CHECK(same_mesh(cage, &mesh));
+    return keep_nothing(&mesh, result);
+}
+
+// ------------------------------------------------------------------------------------ the tests
+
+// Runs a call once to count its allocations, then once for each of them that fails.
+static int check_call(call run)
+{
+    subdiv_mesh cage;
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    memset(&main_heap, 0, sizeof main_heap);
+    foreign_calls = 0;
+    opt.user = &main_heap;
+    opt.error = &error;
+    CHECK_EQUAL(subdiv_load_obj_memory(&cage, obj_text, obj_size, &opt), SUBDIV_OK);
+    CHECK_EQUAL(error.warning_count, 1);
+    int live = main_heap.live;
+    CHECK_EQUAL(live, 1);             // a mesh is one block
+
+    main_heap.calls = 0;
+    CHECK_EQUAL(run(&cage, &opt), SUBDIV_OK);
+    CHECK_EQUAL(main_heap.live, live);
+    int count = main_heap.calls;
+    for (int k = 1; k <= count; k++) {
+        main_heap.calls = main_heap.failures = 0;
+        main_heap.fail_at = k;
+        CHECK_EQUAL(run(&cage, &opt), SUBDIV_ERROR_MEMORY);
+        CHECK_EQUAL(error.code, SUBDIV_ERROR_MEMORY);
+        CHECK(strstr(error.message, "memory") != NULL);
+        CHECK_EQUAL(main_heap.failures, 1);
+        CHECK_EQUAL(main_heap.live, live);
+    }
+    main_heap.fail_at = 0;
+    subdiv_mesh_free(&cage);
+    CHECK_EQUAL(main_heap.live, 0);
+    CHECK_EQUAL(main_heap.wrong, 0);
+    CHECK_EQUAL(foreign_calls, 0);
+    return count;
+}
+
+static void test_load(void)
+{
+    CHECK(check_call(call_load_memory) > 0);
+    CHECK(check_call(call_load_callback) > 0);
+}
+
+static void test_refine(void)
+{
+    CHECK(check_call(call_copy) > 0);
+    CHECK(check_call(call_refine) > 0);
+    CHECK(check_call(call_bilinear) > 0);
+    CHECK(check_call(call_loop) > 0);
+    CHECK(check_call(call_chaikin) > 0);
+}
+
+static void test_prepare(void)
+{
+    CHECK(check_call(call_prepare) > 1);
+}
+
+static void test_inspect(void)
+{
+    CHECK(check_call(call_inspect) > 0);
+}
+
+static void test_save(void)
+{
+    check_call(call_save_memory);
+    check_call(call_save_callback);
+    CHECK(check_call(call_files) > 0);
+    remove(path);
+}
+
+// Errors found half-way have to clean up as well.
+static void test_errors_do_not_leak(void)
+{
+    static const char *const endings[] = {"f 1 2 99999\n", "f 1 x\n", "v 1 2\n", "v 1 nan 2\n"};
+    subdiv_options opt = {0};
+    opt.user = &main_heap;
+    memset(&main_heap, 0, sizeof main_heap);
+    for (int i = 0; i < 4; i++) {
+        subdiv_mesh mesh;
+        size_t before = obj_size, n = strlen(endings[i]);
+        memcpy(obj_text + obj_size, endings[i], n);
+        obj_size += n;
+        CHECK(subdiv_load_obj_memory(&mesh, obj_text, obj_size, &opt) != SUBDIV_OK);
+        obj_size = before;
+        CHECK(main_heap.calls > 0);
+        CHECK_EQUAL(main_heap.live, 0);
+    }
+    CHECK_EQUAL(main_heap.wrong, 0);
+}
+
+int main(void)
+{
+    make_obj_text();
+    RUN(test_load);
+    RUN(test_refine);
+    RUN(test_prepare);
+    RUN(test_inspect);
+    RUN(test_save);
+    RUN(test_errors_do_not_leak);
+    return test_end("test_memory");
+}
