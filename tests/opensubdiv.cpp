@@ -1,0 +1,687 @@
+// Compares subdiv_refine with OpenSubdiv, level by level: the faces and their order, the holes, the
+// map to the cage, the sharpness that is left, and the positions. Needs libosd (-losdCPU).
+//
+//     opensubdiv [--random N] [--seed S] [--levels a-b] [--scheme catmull-clark|loop|bilinear]
+//                [file.obj ...]
+//     opensubdiv --record DIR
+//
+// A file's scheme is that of its name, loop_ or bilinear_ in front, unless --scheme says otherwise.
+// Each file is compared as it is and with every other boundary, creasing and triangle rule in turn.
+// --record writes what OpenSubdiv makes of the cages in DIR, for tests/test_recorded.c.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
+#include <opensubdiv/version.h>
+
+#define SUBDIV_IMPLEMENTATION
+#include "subdiv.h"
+
+#include "order.h"
+#include "random_cage.h"
+#include "test.h"
+
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+static const double position_tolerance = 1e-6;    // of the largest extent of the cage
+static const double sharpness_tolerance = 1e-5;   // Chaikin adds up in the order of the edges
+static const long long largest_result = 2000000;  // faces
+
+struct Point {                        // what OpenSubdiv interpolates
+    double p[3];
+    void Clear() { p[0] = p[1] = p[2] = 0; }
+    void AddWithWeight(const Point &q, double w)
+    {
+        for (int k = 0; k < 3; k++) p[k] += w * q.p[k];
+    }
+};
+
+typedef std::map<std::pair<int, int>, float> Creases;  // by the ends, the lower first
+typedef std::map<int, float> Corners;
+
+// One level of OpenSubdiv's result and how it lies in the order of ours.
+struct Level {
+    std::vector<Point> points;             // by vertex
+    std::vector<order_place> places;       // by face
+    std::vector<char> edges_merely;        // by edge: infinite merely as it is a boundary or
+    std::vector<char> vertices_merely;     // by vertex            non-manifold, not by the lists
+};
+
+struct Reference {
+    std::unique_ptr<Far::TopologyRefiner> refiner;
+    std::vector<Level> levels;
+    std::vector<unsigned char> hidden;     // by cage face: a hole, marked or by the boundary rule
+    int put_right = 0;                     // edge points where OpenSubdiv's are known to be wrong
+};
+
+struct Totals {
+    long long vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0, put_right = 0;
+    double largest_error = 0;
+    std::map<std::string, long> skips;
+};
+
+static Totals totals;
+
+// ------------------------------------------------------------------------ OpenSubdiv's result
+
+static int face_size(const subdiv_mesh &mesh, int face)
+{
+    return mesh.face_size ? mesh.face_size : mesh.face_sizes[face];
+}
+
+static Sdc::Options sdc_options(const subdiv_mesh &cage)
+{
+    Sdc::Options options;
+    options.SetVtxBoundaryInterpolation(
+        cage.boundary == SUBDIV_BOUNDARY_NONE ? Sdc::Options::VTX_BOUNDARY_NONE :
+        cage.boundary == SUBDIV_BOUNDARY_EDGE ? Sdc::Options::VTX_BOUNDARY_EDGE_ONLY :
+                                                Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+    options.SetCreasingMethod(cage.creasing == SUBDIV_CREASING_CHAIKIN
+                              ? Sdc::Options::CREASE_CHAIKIN : Sdc::Options::CREASE_UNIFORM);
+    options.SetTriangleSubdivision(cage.triangles == SUBDIV_TRIANGLES_SMOOTH
+                                   ? Sdc::Options::TRI_SUB_SMOOTH : Sdc::Options::TRI_SUB_CATMARK);
+    return options;
+}
+
+static Far::TopologyRefiner *make_refiner(const subdiv_mesh &cage, int levels)
+{
+    std::vector<int> sizes;
+    for (int f = 0; f < cage.face_count; f++) sizes.push_back(face_size(cage, f));
+
+    Far::TopologyDescriptor d;
+    d.numVertices = cage.vertex_count;
+    d.numFaces = cage.face_count;
+    d.numVertsPerFace = sizes.data();
+    d.vertIndicesPerFace = cage.face_vertices;
+    d.numCreases = cage.crease_count;
+    d.creaseVertexIndexPairs = cage.crease_vertices;
+    d.creaseWeights = cage.crease_sharpness;
+    d.numCorners = cage.corner_count;
+    d.cornerVertexIndices = cage.corner_vertices;
+    d.cornerWeights = cage.corner_sharpness;
+    d.numHoles = cage.hole_count;
+    d.holeIndices = cage.holes;
+
+    const Sdc::SchemeType scheme = cage.scheme == SUBDIV_LOOP ? Sdc::SCHEME_LOOP :
+                                   cage.scheme == SUBDIV_BILINEAR ? Sdc::SCHEME_BILINEAR :
+                                                                    Sdc::SCHEME_CATMARK;
+    typedef Far::TopologyRefinerFactory<Far::TopologyDescriptor> Factory;
+    Far::TopologyRefiner *refiner = Factory::Create(d, Factory::Options(scheme, sdc_options(cage)));
+    if (!refiner) return nullptr;
+    Far::TopologyRefiner::UniformOptions uniform(levels);
+    uniform.fullTopologyInLastLevel = true;
+    refiner->RefineUniform(uniform);
+    return refiner;
+}
+
+// Where child j of a face lies. A quad's children keep the axes of their parent, and so do a
+// triangle's first three; its middle child 3 is turned by half.
+static order_place child_place(subdiv_scheme scheme, order_place parent, int siblings, bool is_cage,
+                               int j)
+{
+    order_place p = parent;
+    if (scheme == SUBDIV_LOOP) {
+        const int turned = parent.turned, first = turned ? 1 : 0;
+        const int rows[2][4] = { {0, 0, 1, 0}, {1, 1, 0, 1} };
+        const int columns[2][4] = { {0, 1, 0, 0}, {1, 0, 1, 1} };
+        p.row = 2 * parent.row + rows[first][j];
+        p.column = 2 * parent.column + columns[first][j];
+        p.turned = j == 3 ? !turned : turned;
+    } else if (is_cage && siblings != 4) {
+        p.quad = j;
+    } else {
+        p.row = 2 * parent.row + (j >= 2);
+        p.column = 2 * parent.column + (j == 1 || j == 2);
+    }
+    return p;
+}
+
+static void find_places(Reference &ref, subdiv_scheme scheme, int l)
+{
+    const Far::TopologyLevel &level = ref.refiner->GetLevel(l);
+    Level &here = ref.levels[(size_t)l];
+    here.places.resize((size_t)level.GetNumFaces());
+    if (l == 0) {
+        for (int f = 0; f < level.GetNumFaces(); f++) {
+            const order_place p = { f, 0, 0, 0, 0 };
+            here.places[(size_t)f] = p;
+            ref.hidden.push_back(level.IsFaceHole(f));
+        }
+        return;
+    }
+    const Far::TopologyLevel &parents = ref.refiner->GetLevel(l - 1);
+    for (int f = 0; f < parents.GetNumFaces(); f++) {
+        const Far::ConstIndexArray children = parents.GetFaceChildFaces(f);
+        const order_place parent = ref.levels[(size_t)l - 1].places[(size_t)f];
+        for (int j = 0; j < children.size(); j++)
+            here.places[(size_t)children[j]] =
+                child_place(scheme, parent, children.size(), l == 1, j);
+    }
+}
+
+// What is infinite at level 0 though the lists of the cage do not say so, and its descendants.
+static void find_merely_infinite(Reference &ref, const subdiv_mesh &cage, int l)
+{
+    const Far::TopologyLevel &level = ref.refiner->GetLevel(l);
+    Level &here = ref.levels[(size_t)l];
+    here.edges_merely.assign((size_t)level.GetNumEdges(), 0);
+    here.vertices_merely.assign((size_t)level.GetNumVertices(), 0);
+    if (l == 0) {
+        for (int e = 0; e < level.GetNumEdges(); e++)
+            here.edges_merely[(size_t)e] = level.GetEdgeSharpness(e) >= SUBDIV_INFINITE;
+        for (int v = 0; v < level.GetNumVertices(); v++)
+            here.vertices_merely[(size_t)v] = level.GetVertexSharpness(v) >= SUBDIV_INFINITE;
+        for (int i = 0; i < cage.crease_count; i++) {
+            const int e = level.FindEdge(cage.crease_vertices[2 * i],
+                                         cage.crease_vertices[2 * i + 1]);
+            if (e < 0) continue;
+            here.edges_merely[(size_t)e] = cage.crease_sharpness[i] < SUBDIV_INFINITE
+                                        && level.GetEdgeSharpness(e) >= SUBDIV_INFINITE;
+        }
+        for (int i = 0; i < cage.corner_count; i++) {
+            const int v = cage.corner_vertices[i];
+            here.vertices_merely[(size_t)v] = cage.corner_sharpness[i] < SUBDIV_INFINITE
+                                           && level.GetVertexSharpness(v) >= SUBDIV_INFINITE;
+        }
+        return;
+    }
+    const Far::TopologyLevel &parents = ref.refiner->GetLevel(l - 1);
+    const Level &above = ref.levels[(size_t)l - 1];
+    for (int e = 0; e < parents.GetNumEdges(); e++) {
+        const Far::ConstIndexArray children = parents.GetEdgeChildEdges(e);
+        for (int j = 0; j < children.size(); j++)
+            here.edges_merely[(size_t)children[j]] = above.edges_merely[(size_t)e];
+    }
+    for (int v = 0; v < parents.GetNumVertices(); v++)
+        here.vertices_merely[(size_t)parents.GetVertexChildVertex(v)] =
+            above.vertices_merely[(size_t)v];
+}
+
+// OpenSubdiv weights an edge point by the edge's sharpness s when its child is no crease. Under
+// Chaikin's rule s can be more than 1, which extrapolates; subdiv.h takes 1 instead, the midpoint
+// of the edge. No other point of the level depends on an edge point, so it can be put right here.
+static int put_edge_points_right(const Far::TopologyLevel &parents, const Far::TopologyLevel &level,
+                                 const std::vector<Point> &from, std::vector<Point> &to)
+{
+    int count = 0;
+    for (int e = 0; e < parents.GetNumEdges(); e++) {
+        const float s = parents.GetEdgeSharpness(e);
+        const int child = parents.GetEdgeChildVertex(e);
+        if (s <= 1 || s >= SUBDIV_INFINITE) continue;
+        if (level.GetVertexRule(child) == Sdc::Crease::RULE_CREASE) continue;
+        const Far::ConstIndexArray ends = parents.GetEdgeVertices(e);
+        to[(size_t)child].Clear();
+        to[(size_t)child].AddWithWeight(from[(size_t)ends[0]], 0.5);
+        to[(size_t)child].AddWithWeight(from[(size_t)ends[1]], 0.5);
+        count++;
+    }
+    return count;
+}
+
+static void find_points(Reference &ref, const subdiv_mesh &cage, int l)
+{
+    std::vector<Point> &points = ref.levels[(size_t)l].points;
+    points.resize((size_t)ref.refiner->GetLevel(l).GetNumVertices());
+    if (l == 0) {
+        for (int i = 0; i < 3 * cage.vertex_count; i++)
+            points[(size_t)i / 3].p[i % 3] = (double)cage.positions[i];
+        return;
+    }
+    const std::vector<Point> &parents = ref.levels[(size_t)l - 1].points;
+    const Far::PrimvarRefinerReal<double> primvars(*ref.refiner);
+    Point *to = points.data();
+    primvars.Interpolate(l, parents, to);
+    if (cage.scheme != SUBDIV_BILINEAR)
+        ref.put_right += put_edge_points_right(ref.refiner->GetLevel(l - 1),
+                                               ref.refiner->GetLevel(l), parents, points);
+}
+
+// Around a vertex that a face uses twice, OpenSubdiv's walk can pass an edge twice and miss
+// another. It then takes the vertex for manifold, with masks that fail an assertion or read past
+// the ring.
+static bool has_broken_ring(const Far::TopologyLevel &level)
+{
+    for (int v = 0; v < level.GetNumVertices(); v++) {
+        const Far::ConstIndexArray ring = level.GetVertexEdges(v);
+        if (level.IsVertexNonManifold(v)) continue;
+        std::vector<int> edges(ring.begin(), ring.end());
+        std::sort(edges.begin(), edges.end());
+        if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return true;
+    }
+    return false;
+}
+
+// Returns why there is none, or NULL.
+static const char *make_reference(Reference &ref, const subdiv_mesh &cage, int levels)
+{
+    ref.refiner.reset(make_refiner(cage, levels));
+    if (!ref.refiner) return "cages that OpenSubdiv refuses";
+    if (has_broken_ring(ref.refiner->GetLevel(0)))
+        return "cages where OpenSubdiv takes a vertex that a face repeats for manifold";
+    ref.levels.resize((size_t)levels + 1);
+    for (int l = 0; l <= levels; l++) {
+        find_places(ref, cage.scheme, l);
+        find_merely_infinite(ref, cage, l);
+        find_points(ref, cage, l);
+    }
+    return nullptr;
+}
+
+// ---------------------------------------------------------------------------------- Comparing
+
+// Our index of each vertex of OpenSubdiv, from the places of all faces, hidden ones too. Reports
+// when the faces disagree or the two numberings are not one to one. A vertex of the cage has the
+// same index in both at every level.
+static std::vector<int> match_vertices(const Reference &ref, const order &o, int l)
+{
+    const Far::TopologyLevel &level = ref.refiner->GetLevel(l);
+    std::vector<int> ours((size_t)level.GetNumVertices(), -1);
+    std::vector<int> theirs((size_t)o.point_count, -1);
+    CHECK_EQUAL(level.GetNumVertices(), o.point_count);
+    for (int v = 0; v < o.cage->vertex_count; v++) ours[(size_t)v] = theirs[(size_t)v] = v;
+    for (int f = 0; f < level.GetNumFaces(); f++) {
+        const Far::ConstIndexArray v = level.GetFaceVertices(f);
+        int points[4];
+        const int size = order_face_points(&o, ref.levels[(size_t)l].places[(size_t)f], points);
+        CHECK_EQUAL(v.size(), size);
+        for (int i = 0; i < size; i++) {
+            int &our = ours[(size_t)v[i]], &their = theirs[(size_t)points[i]];
+            if (our < 0 && their < 0) {
+                our = points[i];
+                their = v[i];
+            }
+            if (our != points[i] || their != v[i])
+                TEST_REPORT("the order gives point %d, OpenSubdiv's vertex %d is point %d",
+                            points[i], v[i], our);
+        }
+    }
+    CHECK(std::count(theirs.begin(), theirs.end(), -1) == 0);
+    return ours;
+}
+
+static void compare_faces(const Reference &ref, const order &o, int l, const subdiv_mesh &fine,
+                          bool keep_holes)
+{
+    const std::vector<order_place> &places = ref.levels[(size_t)l].places;
+    const int size = o.cage->scheme == SUBDIV_LOOP ? 3 : 4;
+    std::vector<char> is_hole((size_t)fine.face_count, 0);
+    CHECK_EQUAL(fine.face_count, o.face_count);
+    if (fine.face_count != o.face_count) return;
+
+    for (int i = 0; i < fine.hole_count; i++) is_hole[(size_t)fine.holes[i]] = 1;
+    if (!keep_holes) CHECK_EQUAL(fine.hole_count, 0);
+    for (size_t i = 0; i < places.size(); i++) {
+        const order_place p = places[i];
+        const bool hidden = ref.hidden[(size_t)p.face];
+        if (hidden && !keep_holes) continue;
+        int points[4];
+        const int f = order_face(&o, p);
+        order_face_points(&o, p, points);
+        CHECK_EQUAL(face_size(fine, f), size);
+        if (memcmp(points, fine.face_vertices + size * f, sizeof(int) * (size_t)size) != 0)
+            TEST_REPORT("fine face %d (face %d, quad %d, row %d, column %d) has other vertices",
+                        f, p.face, p.quad, p.row, p.column);
+        CHECK_EQUAL(fine.cage_faces[f], p.face);
+        CHECK_EQUAL(is_hole[(size_t)f], hidden);
+    }
+}
+
+static double largest_extent(const subdiv_mesh &mesh)
+{
+    double largest = 0;
+    for (int k = 0; k < 3; k++) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int v = 0; v < mesh.vertex_count; v++) {
+            low = std::min(low, (double)mesh.positions[3 * v + k]);
+            high = std::max(high, (double)mesh.positions[3 * v + k]);
+        }
+        largest = std::max(largest, high - low);
+    }
+    return largest;
+}
+
+static void compare_positions(const Level &level, const std::vector<int> &ours,
+                              const subdiv_mesh &cage, const subdiv_mesh &fine)
+{
+    const double extent = largest_extent(cage);
+    for (size_t v = 0; v < ours.size(); v++) {
+        const float *p = fine.positions + 3 * ours[v];
+        double error = 0;
+        for (int k = 0; k < 3; k++)
+            error = std::max(error, std::fabs((double)p[k] - level.points[v].p[k]));
+        if (!(error <= position_tolerance * extent)) {
+            const double *q = level.points[v].p;
+            TEST_REPORT("vertex %d is at (%.7g %.7g %.7g), OpenSubdiv's at (%.7g %.7g %.7g)",
+                        ours[v], (double)p[0], (double)p[1], (double)p[2], q[0], q[1], q[2]);
+        } else if (error > 0) {
+            totals.largest_error = std::max(totals.largest_error, error / extent);
+        }
+    }
+}
+
+// The sharpness that OpenSubdiv has left, under our numbers; without the edges of hidden faces
+// alone when these are left out.
+static Creases their_creases(const Reference &ref, int l, const std::vector<int> &ours,
+                             bool keep_holes)
+{
+    const Far::TopologyLevel &level = ref.refiner->GetLevel(l);
+    Creases creases;
+    for (int e = 0; e < level.GetNumEdges(); e++) {
+        const float s = level.GetEdgeSharpness(e);
+        if (s <= 0 || ref.levels[(size_t)l].edges_merely[(size_t)e]) continue;
+        bool seen = keep_holes;
+        const Far::ConstIndexArray faces = level.GetEdgeFaces(e);
+        for (int i = 0; i < faces.size(); i++) seen = seen || !level.IsFaceHole(faces[i]);
+        if (!seen) continue;
+        const Far::ConstIndexArray ends = level.GetEdgeVertices(e);
+        creases[std::minmax(ours[(size_t)ends[0]], ours[(size_t)ends[1]])] = s;
+    }
+    return creases;
+}
+
+static Corners their_corners(const Reference &ref, int l, const std::vector<int> &ours)
+{
+    const Far::TopologyLevel &level = ref.refiner->GetLevel(l);
+    Corners corners;
+    for (int v = 0; v < level.GetNumVertices(); v++) {
+        const float s = level.GetVertexSharpness(v);
+        if (s > 0 && !ref.levels[(size_t)l].vertices_merely[(size_t)v])
+            corners[ours[(size_t)v]] = s;
+    }
+    return corners;
+}
+
+// Every entry of one list must be in the other; what is missing has sharpness 0.
+static void compare_sharpness(const Creases &creases, const Corners &corners,
+                              const subdiv_mesh &fine)
+{
+    Creases our_creases;
+    Corners our_corners;
+    for (int i = 0; i < fine.crease_count; i++) {
+        const int *v = fine.crease_vertices + 2 * i;
+        CHECK(our_creases.emplace(std::minmax(v[0], v[1]), fine.crease_sharpness[i]).second);
+    }
+    for (int i = 0; i < fine.corner_count; i++)
+        CHECK(our_corners.emplace(fine.corner_vertices[i], fine.corner_sharpness[i]).second);
+
+    std::map<std::pair<int, int>, std::pair<float, float>> both;
+    for (const auto &c : creases) both[c.first].first = c.second;
+    for (const auto &c : our_creases) both[c.first].second = c.second;
+    for (const auto &c : corners) both[std::make_pair(c.first, -1)].first = c.second;
+    for (const auto &c : our_corners) both[std::make_pair(c.first, -1)].second = c.second;
+    for (const auto &c : both) {
+        const double their = (double)c.second.first, our = (double)c.second.second;
+        if (!(std::fabs(their - our) <= sharpness_tolerance))
+            TEST_REPORT("the sharpness of %s %d %d is %.9g, OpenSubdiv's %.9g",
+                        c.first.second < 0 ? "vertex" : "edge", c.first.first, c.first.second, our,
+                        their);
+    }
+    totals.creases += (long long)creases.size();
+    totals.corners += (long long)corners.size();
+}
+
+static void compare_result(const Reference &ref, const order &o, int l, const subdiv_mesh &fine,
+                           bool keep_holes)
+{
+    const std::vector<int> ours = match_vertices(ref, o, l);
+    CHECK_EQUAL(fine.vertex_count, o.point_count);
+    if (test_bad) return;
+    compare_faces(ref, o, l, fine, keep_holes);
+    compare_sharpness(their_creases(ref, l, ours, keep_holes), their_corners(ref, l, ours), fine);
+    compare_positions(ref.levels[(size_t)l], ours, *o.cage, fine);
+    totals.vertices += fine.vertex_count;
+    totals.faces += fine.face_count;
+}
+
+static void compare_level(const Reference &ref, const subdiv_mesh &cage, int l, bool keep_holes)
+{
+    subdiv_mesh fine = {};
+    subdiv_error error = {};
+    subdiv_options opt = {};
+    order o;
+    opt.keep_holes = keep_holes;
+    opt.error = &error;
+    if (!order_make(&o, &cage, l, keep_holes ? nullptr : ref.hidden.data()))
+        TEST_REPORT("no memory");
+    else if (subdiv_refine(&fine, &cage, l, &opt))
+        TEST_REPORT("subdiv_refine fails: %s", error.message);
+    else
+        compare_result(ref, o, l, fine, keep_holes);
+    if (test_bad) printf("    at level %d%s\n", l, keep_holes ? ", holes kept" : "");
+    order_free(&o);
+    subdiv_mesh_free(&fine);
+}
+
+// All levels of one cage, which counts as one test. Even levels keep the faces of holes.
+static void compare_cage(const subdiv_mesh &cage, int first, int last, const std::string &name)
+{
+    Reference ref;
+    test_bad = 0;
+    test_context = name.c_str();
+    if (const char *reason = make_reference(ref, cage, last)) {
+        totals.skips[reason]++;
+        return;
+    }
+    totals.hidden += std::count(ref.hidden.begin(), ref.hidden.end(), 1);
+    totals.put_right += ref.put_right;
+    for (int l = first; l <= last && !test_bad; l++) compare_level(ref, cage, l, l % 2 == 0);
+    if (test_bad) test_failed++;
+    else test_passed++;
+}
+
+// -------------------------------------------------------------------------------------- Cages
+
+static const char *file_part(const std::string &path)
+{
+    const size_t slash = path.find_last_of('/');
+    return path.c_str() + (slash == std::string::npos ? 0 : slash + 1);
+}
+
+static subdiv_scheme scheme_of_name(const std::string &path)
+{
+    if (strncmp(file_part(path), "loop_", 5) == 0) return SUBDIV_LOOP;
+    if (strncmp(file_part(path), "bilinear_", 9) == 0) return SUBDIV_BILINEAR;
+    return SUBDIV_CATMULL_CLARK;
+}
+
+static bool load(subdiv_mesh &cage, const std::string &path)
+{
+    subdiv_error error = {};
+    subdiv_options opt = {};
+    opt.error = &error;
+    if (subdiv_load_obj(&cage, path.c_str(), &opt)) {
+        printf("%s\n", error.message);
+        return false;
+    }
+    return true;
+}
+
+// The levels that keep the result in bounds.
+static int last_level(const subdiv_mesh &cage, int last)
+{
+    long long faces = cage.face_count;
+    int level = 0;
+    while (level < last && faces * 4 <= largest_result) {
+        faces *= 4;
+        level++;
+    }
+    return level;
+}
+
+static void compare_file(const std::string &path, int scheme, int first, int last)
+{
+    subdiv_mesh cage = {};
+    if (!load(cage, path)) {
+        test_failed++;
+        return;
+    }
+    cage.scheme = scheme >= 0 ? (subdiv_scheme)scheme : scheme_of_name(path);
+    last = last_level(cage, last);
+    compare_cage(cage, first, last, path);
+    const subdiv_mesh original = cage;
+    for (int b = 0; b < 3; b++) {
+        cage.boundary = (subdiv_boundary)b;
+        if (cage.boundary != original.boundary)
+            compare_cage(cage, first, last, path + ", boundary " + std::to_string(b));
+    }
+    cage.boundary = original.boundary;
+    cage.creasing = original.creasing == SUBDIV_CREASING_CHAIKIN ? SUBDIV_CREASING_UNIFORM
+                                                                 : SUBDIV_CREASING_CHAIKIN;
+    if (cage.crease_count)
+        compare_cage(cage, first, last, path + ", creasing " + std::to_string(cage.creasing));
+    cage.creasing = original.creasing;
+    cage.triangles = original.triangles == SUBDIV_TRIANGLES_SMOOTH ? SUBDIV_TRIANGLES_CATMULL_CLARK
+                                                                   : SUBDIV_TRIANGLES_SMOOTH;
+    if (cage.scheme == SUBDIV_CATMULL_CLARK)
+        compare_cage(cage, first, last, path + ", triangles " + std::to_string(cage.triangles));
+    cage.triangles = original.triangles;
+    subdiv_mesh_free(&cage);
+}
+
+static void compare_random(unsigned seed, int first, int last)
+{
+    random_cage *random = random_cage_new(seed, RANDOM_ALL);
+    if (!random) {
+        test_failed++;
+        return;
+    }
+    compare_cage(random->mesh, first, last, "seed " + std::to_string(seed));
+    random_cage_free(random);
+}
+
+// ---------------------------------------------------------------------------------- Recording
+
+static const int recorded_level = 2;
+
+static void write_record(FILE *file, const Reference &ref, const subdiv_mesh &cage)
+{
+    order o;
+    CHECK(order_make(&o, &cage, recorded_level, ref.hidden.data()));
+    const std::vector<int> ours = match_vertices(ref, o, recorded_level);
+    const Level &level = ref.levels[(size_t)recorded_level];
+    std::vector<Point> points(ours.size());
+    for (size_t v = 0; v < ours.size(); v++) points[(size_t)ours[v]] = level.points[v];
+
+    fprintf(file, "vertices %zu\n", points.size());
+    for (const Point &q : points) fprintf(file, "%.9g %.9g %.9g\n", q.p[0], q.p[1], q.p[2]);
+    const Creases creases = their_creases(ref, recorded_level, ours, false);
+    fprintf(file, "creases %zu\n", creases.size());
+    for (const auto &c : creases)
+        fprintf(file, "%d %d %.9g\n", c.first.first, c.first.second, (double)c.second);
+    const Corners corners = their_corners(ref, recorded_level, ours);
+    fprintf(file, "corners %zu\n", corners.size());
+    for (const auto &c : corners) fprintf(file, "%d %.9g\n", c.first, (double)c.second);
+    fprintf(file, "hidden %d\n", (int)std::count(ref.hidden.begin(), ref.hidden.end(), 1));
+    for (size_t f = 0; f < ref.hidden.size(); f++)
+        if (ref.hidden[f]) fprintf(file, "%zu\n", f);
+    order_free(&o);
+}
+
+static bool record_cage(const std::string &directory, const std::string &name)
+{
+    subdiv_mesh cage = {};
+    Reference ref;
+    if (!load(cage, directory + "/" + name + ".obj")) return false;
+    cage.scheme = scheme_of_name(name);
+    test_context = name.c_str();
+    bool done = !make_reference(ref, cage, recorded_level) && ref.put_right == 0;
+    FILE *file = done ? fopen((directory + "/" + name + ".txt").c_str(), "w") : nullptr;
+    if (file) write_record(file, ref, cage);
+    done = file && fclose(file) == 0 && !test_bad;
+    if (!done) printf("%s: not recorded\n", name.c_str());
+    subdiv_mesh_free(&cage);
+    return done;
+}
+
+// DIR/list.txt names the cages, one a line.
+static int record(const std::string &directory)
+{
+    FILE *list = fopen((directory + "/list.txt").c_str(), "r");
+    char name[64];
+    int count = 0;
+    bool done = list != nullptr;
+    while (done && fscanf(list, "%63s", name) == 1) {
+        done = record_cage(directory, name);
+        count += done;
+    }
+    if (list) fclose(list);
+    printf("%d cages recorded from OpenSubdiv %d.%d.%d\n", count, OPENSUBDIV_VERSION_MAJOR,
+           OPENSUBDIV_VERSION_MINOR, OPENSUBDIV_VERSION_PATCH);
+    return !done;
+}
+
+// --------------------------------------------------------------------------------------- main
+
+static void ignore_warning(const char *)
+{
+}
+
+static int usage(void)
+{
+    printf("opensubdiv [--random N] [--seed S] [--levels a-b] "
+           "[--scheme catmull-clark|loop|bilinear] [file.obj ...]\n"
+           "opensubdiv --record DIR\n");
+    return 2;
+}
+
+static int report(void)
+{
+    printf("%lld vertices, %lld faces, %lld creases, %lld corners compared, %lld faces hidden, "
+           "largest error %.3g of the extent\n", totals.vertices, totals.faces, totals.creases,
+           totals.corners, totals.hidden, totals.largest_error);
+    printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1\n",
+           totals.put_right);
+    for (const auto &skip : totals.skips)
+        printf("skipped: %ld %s\n", skip.second, skip.first.c_str());
+    return test_end("opensubdiv");
+}
+
+int main(int argc, char **argv)
+{
+    const char *schemes[] = { "catmull-clark", "loop", "bilinear" };
+    int random_count = 0, scheme = -1, first = 0, last = 0;
+    unsigned seed = 1;
+    std::vector<std::string> files;
+    Far::SetWarningCallback(ignore_warning);
+    for (int i = 1; i < argc; i++) {
+        const std::string arg = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
+        if (arg.compare(0, 2, "--") != 0) {
+            files.push_back(arg);
+            continue;
+        }
+        if (arg == "--record") {
+            return record(value);
+        } else if (arg == "--random") {
+            random_count = atoi(value.c_str());
+        } else if (arg == "--seed") {
+            seed = (unsigned)strtoul(value.c_str(), nullptr, 10);
+        } else if (arg == "--levels") {
+            if (sscanf(value.c_str(), "%d-%d", &first, &last) != 2 || first < 1 || last < first)
+                return usage();
+        } else if (arg == "--scheme") {
+            for (int k = 0; k < 3; k++) if (value == schemes[k]) scheme = k;
+            if (scheme < 0) return usage();
+        } else {
+            return usage();
+        }
+        i++;
+    }
+    if (random_count == 0 && files.empty()) return usage();
+    for (int k = 0; k < random_count; k++)
+        compare_random(seed + (unsigned)k, first ? first : 1, last ? last : 3);
+    for (const std::string &path : files)
+        compare_file(path, scheme, first ? first : 1, last ? last : 4);
+    return report();
+}
