@@ -150,7 +150,7 @@
 
 #ifndef SUBDIV_DEF
 #if defined(SUBDIV_STATIC)
-#define SUBDIV_DEF static
+#define SUBDIV_DEF static inline            // inline: no warning about what is not used
 #elif defined(__cplusplus)
 #define SUBDIV_DEF extern "C"
 #else
@@ -257,6 +257,7 @@ typedef struct subdiv_error {
 typedef struct subdiv_options {
     int           triangulate;        // Loop: cut larger faces into fans instead of refusing them
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
+    int           linear;             // split only: points stay on the cage's faces and edges
     int           no_tags;            // OBJ: write no crease, corner, hole and rule tags
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC and SUBDIV_FREE
@@ -391,6 +392,80 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
 #ifndef SUBDIV_ASSERT
 #include <assert.h>
 #define SUBDIV_ASSERT(condition) assert(condition)
+#endif
+
+// Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
+// bits are the same with and without.
+#if defined(SUBDIV_NO_SIMD)
+#elif defined(__SSE2__) || defined(_M_X64) || (defined(_M_IX86_FP) && _M_IX86_FP >= 2)
+#include <emmintrin.h>
+#define SDV_SIMD
+typedef __m128 sdv_four;
+static sdv_four sdv_load(const float *p)               { return _mm_loadu_ps(p); }
+static void     sdv_store(float *p, sdv_four a)        { _mm_storeu_ps(p, a); }
+static sdv_four sdv_all(float x)                       { return _mm_set1_ps(x); }
+static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
+static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
+static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
+#elif defined(__ARM_NEON) || defined(_M_ARM64)
+#include <arm_neon.h>
+#define SDV_SIMD
+typedef float32x4_t sdv_four;
+static sdv_four sdv_load(const float *p)               { return vld1q_f32(p); }
+static void     sdv_store(float *p, sdv_four a)        { vst1q_f32(p, a); }
+static sdv_four sdv_all(float x)                       { return vdupq_n_f32(x); }
+static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
+static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
+static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#define SDV_SIMD
+typedef v128_t sdv_four;
+static sdv_four sdv_load(const float *p)               { return wasm_v128_load(p); }
+static void     sdv_store(float *p, sdv_four a)        { wasm_v128_store(p, a); }
+static sdv_four sdv_all(float x)                       { return wasm_f32x4_splat(x); }
+static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
+static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
+static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
+#endif
+
+#ifndef SDV_SIMD
+typedef struct sdv_four { float x[4]; } sdv_four;
+
+static sdv_four sdv_load(const float *p)
+{
+    sdv_four a = { { p[0], p[1], p[2], p[3] } };
+    return a;
+}
+
+static void sdv_store(float *p, sdv_four a)
+{
+    for (int i = 0; i < 4; i++) p[i] = a.x[i];
+}
+
+static sdv_four sdv_all(float x)
+{
+    sdv_four a = { { x, x, x, x } };
+    return a;
+}
+
+static sdv_four sdv_plus(sdv_four a, sdv_four b)
+{
+    for (int i = 0; i < 4; i++) a.x[i] += b.x[i];
+    return a;
+}
+
+static sdv_four sdv_minus(sdv_four a, sdv_four b)
+{
+    for (int i = 0; i < 4; i++) a.x[i] -= b.x[i];
+    return a;
+}
+
+static sdv_four sdv_times(sdv_four a, sdv_four b)
+{
+    for (int i = 0; i < 4; i++) a.x[i] *= b.x[i];
+    return a;
+}
 #endif
 
 #define SDV_NEW(context, arena, type, count) \
@@ -731,6 +806,9 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     sdv_check_array(context, "corner_sharpness", mesh->corner_count, mesh->corner_sharpness);
     sdv_check_array(context, "holes", mesh->hole_count, mesh->holes);
     sdv_check_rules(context, mesh);
+    uint64_t size = mesh->face_size > 0 ? (uint64_t)mesh->face_size : 0;
+    if (size * (uint64_t)mesh->face_count > PTRDIFF_MAX / sizeof(int))
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the faces have too many vertices together");
     if (context->result) return;
 
     sdv_check_faces(context, mesh);
@@ -760,10 +838,22 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 // vertex of the face. An edge-end k = 2 * edge + 0 or 1 is a place in edge_vertices; k ^ 1 is the
 // edge's other end. Any number of faces may share an edge, and any number of fans a vertex.
 
+typedef struct sdv_rules {
+    int loop;                           // faces split into 4 triangles, else into quads
+    int linear;                         // nothing is smoothed
+    subdiv_creasing creasing;
+    subdiv_triangles triangles;
+} sdv_rules;
+
 typedef struct sdv_lists {              // one list per vertex or edge, one after the other
     int *starts;                        // [lists + 1]  list i is items[starts[i] .. starts[i+1]-1]
     int *items;
 } sdv_lists;
+
+typedef struct sdv_place {              // of a face on its cage face's grid (see >>order)
+    int h;                              // the cage face-vertex of the grid
+    int row, column, step;              // of vertex 0; step -1: a triangle turned by half
+} sdv_place;
 
 typedef struct sdv_level {
     int vertex_count, edge_count, face_count, face_vertex_count;
@@ -777,6 +867,15 @@ typedef struct sdv_level {
     float *vertex_sharpness;            // [vertex_count]
     float *end_sharpness;               // [2 * edge_count]     one level down: the halves of edges
     float *next_sharpness;              // [vertex_count]       one level down: the vertices
+
+    int    first_point;                 // vertex v is work point first_point + v
+    int   *face_point;                  // [face_count]         work points of the face points
+    sdv_place *places;                  // [face_count]         NULL on level 0
+    unsigned char *core;                // [face_count]         makes points of the result; the
+                                        //                      others are there for their masks
+    unsigned char *rough;               // [face_count]         in the core, and not a patch
+    unsigned char *edge_done;           // [edge_count]         points of the result that a patch
+    unsigned char *vertex_done;         // [vertex_count]       or a copy makes
 
     sdv_lists vertex_faces;             // at each vertex: its face-vertices
     sdv_lists vertex_edges;             // at each vertex: its edge-ends
@@ -808,10 +907,39 @@ static int sdv_around(const sdv_level *level, int h, int steps)
     return start + (h - start + steps) % size;
 }
 
+// The number of vertices of the face of h.
+static int sdv_size_of(const sdv_level *level, int h)
+{
+    int face = sdv_face_of(level, h);
+    return sdv_face_end(level, face) - sdv_face_start(level, face);
+}
+
 static int sdv_previous(const sdv_level *level, int h)
 {
     int face = sdv_face_of(level, h);
     return h > sdv_face_start(level, face) ? h - 1 : sdv_face_end(level, face) - 1;
+}
+
+static sdv_place sdv_first_place(int h)
+{
+    sdv_place place = { h, 0, 0, 1 };
+    return place;
+}
+
+// The arrays that each level has besides its faces and edges.
+static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level)
+{
+    size_t vertices = (size_t)level->vertex_count, edges = (size_t)level->edge_count;
+    size_t faces = (size_t)level->face_count;
+    level->edge_sharpness = SDV_NEW(context, arena, float, edges);
+    level->vertex_sharpness = SDV_NEW(context, arena, float, vertices);
+    level->end_sharpness = SDV_NEW(context, arena, float, 2 * edges);
+    level->next_sharpness = SDV_NEW(context, arena, float, vertices);
+    level->face_point = SDV_NEW(context, arena, int, faces);
+    level->core = SDV_NEW(context, arena, unsigned char, faces);
+    level->rough = SDV_NEW(context, arena, unsigned char, faces);
+    level->edge_done = SDV_NEW(context, arena, unsigned char, edges);
+    level->vertex_done = SDV_NEW(context, arena, unsigned char, vertices);
 }
 
 // lists[i] = the places in keys that hold i, in order.
@@ -1092,8 +1220,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *arena, sdv_cage *cag
         sdv_cage_edges(cage, last_face, uses);
     }
     sdv_arena_free(&scratch);
-    level->edge_sharpness = SDV_NEW(context, arena, float, level->edge_count);
-    level->vertex_sharpness = SDV_NEW(context, arena, float, vertices);
+    sdv_level_new(context, arena, level);
     sdv_level_connect(context, arena, level);
     if (context->result) return;
 
@@ -1116,31 +1243,36 @@ static float sdv_fade(float sharpness)
     return sharpness > 1 ? sharpness - 1 : 0;
 }
 
-// Chaikin, for the half of an edge at edge-end k, whose vertex is v: a quarter of the sharpness
-// comes from the other semi-sharp edges at v.
+// Chaikin, for the half of an edge at one of its ends, where sum and count are of all semi-sharp
+// edges: a quarter of the sharpness comes from the others.
 //
 //     s' = max(0, 3/4 s + 1/4 mean(others) - 1)
-static float sdv_fade_chaikin(const sdv_level *level, int k)
+static float sdv_fade_chaikin(float s, float sum, int count)
+{
+    if (s <= 0 || s >= SUBDIV_INFINITE) return s;
+    if (count > 1) s = 0.75f * s + 0.25f * ((sum - s) / (float)(count - 1));
+    return s > 1 ? s - 1 : 0;
+}
+
+static float sdv_fade_end(const sdv_level *level, int k, subdiv_creasing creasing)
 {
     float s = level->edge_sharpness[k >> 1], sum = 0;
     int v = level->edge_vertices[k], count = 0;
-    if (s <= 0 || s >= SUBDIV_INFINITE) return sdv_fade(s);
+    if (s <= 0 || creasing == SUBDIV_CREASING_UNIFORM) return sdv_fade(s);
     for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
         float other = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
         if (other <= 0 || other >= SUBDIV_INFINITE) continue;
         sum += other;
         count++;
     }
-    if (count > 1) s = 0.75f * s + 0.25f * ((sum - s) / (float)(count - 1));
-    return s > 1 ? s - 1 : 0;
+    return sdv_fade_chaikin(s, sum, count);
 }
 
 // What the edges' halves and the vertices inherit. Sharp vertices fade uniformly in either case.
 static void sdv_level_fade(sdv_level *level, subdiv_creasing creasing)
 {
     for (int k = 0; k < 2 * level->edge_count; k++)
-        level->end_sharpness[k] = creasing == SUBDIV_CREASING_CHAIKIN ?
-            sdv_fade_chaikin(level, k) : sdv_fade(level->edge_sharpness[k >> 1]);
+        level->end_sharpness[k] = sdv_fade_end(level, k, creasing);
     for (int v = 0; v < level->vertex_count; v++)
         level->next_sharpness[v] = sdv_fade(level->vertex_sharpness[v]);
 }
@@ -1308,62 +1440,229 @@ static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
 }
 
 // The mask of a rule at a vertex with so many faces. A dart is smooth.
-static sdv_mask sdv_rule_mask(subdiv_scheme scheme, sdv_rule rule, int faces)
+static sdv_mask sdv_rule_mask(const sdv_rules *rules, sdv_rule rule, int faces)
 {
-    if (rule == SDV_CORNER || scheme == SUBDIV_BILINEAR) return sdv_corner_vertex();
+    if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
     if (rule == SDV_CREASE) return sdv_crease_vertex();
-    return scheme == SUBDIV_LOOP ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
+    return rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
 }
 
-static sdv_mask sdv_vertex_mask(subdiv_scheme scheme, sdv_fading fading, int faces)
+static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int faces)
 {
-    sdv_mask mask = sdv_rule_mask(scheme, fading.rule, faces);
+    sdv_mask mask = sdv_rule_mask(rules, fading.rule, faces);
     if (fading.rule < SDV_CREASE || fading.rule == fading.next) return mask;
-    return sdv_blend(fading.weight, mask, sdv_rule_mask(scheme, fading.next, faces));
+    return sdv_blend(fading.weight, mask, sdv_rule_mask(rules, fading.next, faces));
 }
 
 // The mask of an edge's edge point: sharp while both its halves stay sharp, a blend where one of
 // them turns smooth. triangles: how many of its two faces are, under the rule "smooth"; else 0.
-static sdv_mask sdv_edge_mask(subdiv_scheme scheme, float sharpness, int stays_sharp,
+static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays_sharp,
                               int faces, int triangles)
 {
-    if (scheme == SUBDIV_BILINEAR || (sharpness > 0 && stays_sharp)) return sdv_crease_edge();
-    sdv_mask smooth = scheme == SUBDIV_LOOP ? sdv_loop_edge(faces) :
+    if (rules->linear || (sharpness > 0 && stays_sharp)) return sdv_crease_edge();
+    sdv_mask smooth = rules->loop ? sdv_loop_edge(faces) :
                       triangles ? sdv_smooth_triangle_edge(triangles) :
                       sdv_catmull_clark_edge(faces);
     return sdv_blend(sharpness < 1 ? sharpness : 1, sdv_crease_edge(), smooth);
 }
 
+// ----------------------------------------------------------------------------------- >>order
+// THE ORDER OF THE RESULT (see the top) as formulas. Every cage face is a grid: a quad or a Loop
+// triangle one of n segments a side, n = 2^levels, any other polygon one quad of m = n / 2 segments
+// for each of its vertices. The points along each side of a grid and those inside it, row by
+// row, are evenly spaced in the result: so an index needs a first one and a step.
+
+typedef struct sdv_side {               // of a grid: where point t stands, 0 < t < size
+    int first, step;                    // first + step * t
+} sdv_side;
+
+typedef struct sdv_grid {
+    int size;                           // segments a side
+    int triangle;
+    int inside;                         // the index of (1, 1)
+    int corner[4];
+    sdv_side side[4];                   // row 0; last column (triangle: the slanted side), by row;
+} sdv_grid;                             // last row (quads alone); column 0, by row
+
+typedef struct sdv_order {
+    sdv_level cage;                     // faces and edges alone
+    int loop, n, m;
+    int first_edge_point, first_face_point;
+} sdv_order;
+
+// The cage edge that leads on from face-vertex h, seen from there or from its other end.
+static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
+{
+    const sdv_level *cage = &order->cage;
+    int a = cage->face_vertices[h], b = cage->face_vertices[sdv_around(cage, h, 1)];
+    int first = order->first_edge_point + cage->face_edges[h] * (order->n - 1) - 1;
+    sdv_side forward = { first, 1 }, reverse = { first + order->n, -1 };
+    return (a > b) != backwards ? reverse : forward;
+}
+
+// The first point inside face f: every face has one centre, and m (m - 1) points for each of its
+// vertices; a triangle under Loop (n - 1)(n - 2) / 2.
+static int sdv_first_inside(const sdv_order *order, int f)
+{
+    int n = order->n, m = order->m;
+    if (order->loop) return order->first_face_point + f * ((n - 1) * (n - 2) / 2);
+    return order->first_face_point + f + sdv_face_start(&order->cage, f) * (m * (m - 1));
+}
+
+static int sdv_is_ngon(const sdv_order *order, int f)
+{
+    return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
+}
+
+// The grid of the face whose first face-vertex is h.
+static sdv_grid sdv_face_grid(const sdv_order *order, int h)
+{
+    sdv_grid grid;
+    int sides = order->loop ? 3 : 4;
+    grid.size = order->n;
+    grid.triangle = order->loop;
+    grid.inside = sdv_first_inside(order, sdv_face_of(&order->cage, h));
+    for (int i = 0; i < sides; i++) grid.corner[i] = order->cage.face_vertices[h + i];
+    grid.side[0] = sdv_edge_side(order, h, 0);
+    grid.side[1] = sdv_edge_side(order, h + 1, 0);
+    grid.side[2] = sdv_edge_side(order, h + 2, 1);
+    grid.side[3] = sdv_edge_side(order, h + sides - 1, 1);
+    return grid;
+}
+
+// The quad at face-vertex h of an n-gon: vertex, middle of the edge, centre, middle of the edge
+// before. The second half of that edge is seen backwards.
+static sdv_grid sdv_ngon_grid(const sdv_order *order, int h)
+{
+    const sdv_level *cage = &order->cage;
+    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), m = order->m;
+    int size = sdv_face_end(cage, f) - start, before = sdv_previous(cage, h);
+    int centre = sdv_first_inside(order, f), spokes = centre + m;   // backwards from its edge
+    sdv_grid grid;
+    grid.size = m;
+    grid.triangle = 0;
+    grid.inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
+    grid.side[0] = sdv_edge_side(order, h, 0);
+    grid.side[3] = sdv_edge_side(order, before, 1);
+    grid.side[1].first = spokes + (h - start) * (m - 1);
+    grid.side[2].first = spokes + (before - start) * (m - 1);
+    grid.side[1].step = grid.side[2].step = -1;
+    grid.corner[0] = cage->face_vertices[h];
+    grid.corner[1] = grid.side[0].first + grid.side[0].step * m;
+    grid.corner[2] = centre;
+    grid.corner[3] = grid.side[3].first + grid.side[3].step * m;
+    return grid;
+}
+
+static sdv_grid sdv_grid_at(const sdv_order *order, int h)
+{
+    return sdv_is_ngon(order, sdv_face_of(&order->cage, h)) ? sdv_ngon_grid(order, h)
+                                                            : sdv_face_grid(order, h);
+}
+
+static int sdv_side_index(const sdv_grid *grid, int side, int t)
+{
+    return grid->side[side].first + grid->side[side].step * t;
+}
+
+static int sdv_quad_index(const sdv_grid *grid, int row, int column)
+{
+    int n = grid->size, top = row == n, right = column == n;
+    if ((row == 0 || top) && (column == 0 || right)) return grid->corner[top ? 3 - right : right];
+    if (row == 0) return sdv_side_index(grid, 0, column);
+    if (right) return sdv_side_index(grid, 1, row);
+    if (top) return sdv_side_index(grid, 2, column);
+    if (column == 0) return sdv_side_index(grid, 3, row);
+    return grid->inside + (row - 1) * (n - 1) + column - 1;
+}
+
+static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
+{
+    int n = grid->size;
+    if (row == n) return grid->corner[2];
+    if (row == 0 && (column == 0 || column == n)) return grid->corner[column == n];
+    if (row == 0) return sdv_side_index(grid, 0, column);
+    if (column == 0) return sdv_side_index(grid, 3, row);
+    if (row + column == n) return sdv_side_index(grid, 1, row);
+    return grid->inside + (row - 1) * (n - 1) - row * (row - 1) / 2 + column - 1;
+}
+
+static int sdv_grid_index(const sdv_grid *grid, int row, int column)
+{
+    return grid->triangle ? sdv_triangle_index(grid, row, column)
+                          : sdv_quad_index(grid, row, column);
+}
+
+// The quads between two rows of a grid. Inside, all four indices grow by one from quad to quad.
+static int *sdv_quad_row(const sdv_grid *grid, int row, int *out)
+{
+    for (int column = 0; column < grid->size; column++, out += 4) {
+        int inside = row > 0 && row + 1 < grid->size && column > 1 && column + 1 < grid->size;
+        if (inside) {
+            for (int i = 0; i < 4; i++) out[i] = out[i - 4] + 1;
+        } else {
+            out[0] = sdv_quad_index(grid, row, column);
+            out[1] = sdv_quad_index(grid, row, column + 1);
+            out[2] = sdv_quad_index(grid, row + 1, column + 1);
+            out[3] = sdv_quad_index(grid, row + 1, column);
+        }
+    }
+    return out;
+}
+
+static int *sdv_triangle_row(const sdv_grid *grid, int row, int *out)
+{
+    int count = grid->size - row;
+    for (int column = 0; column < count; column++) {
+        *out++ = sdv_triangle_index(grid, row, column);
+        *out++ = sdv_triangle_index(grid, row, column + 1);
+        *out++ = sdv_triangle_index(grid, row + 1, column);
+        if (column + 1 == count) break;
+        *out++ = sdv_triangle_index(grid, row + 1, column + 1);
+        *out++ = sdv_triangle_index(grid, row + 1, column);
+        *out++ = sdv_triangle_index(grid, row, column + 1);
+    }
+    return out;
+}
+
+// The fine faces of cage face f.
+static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
+{
+    int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
+    int grids = sdv_is_ngon(order, f) ? end - start : 1;
+    for (int h = start; h < start + grids; h++) {
+        sdv_grid grid = sdv_grid_at(order, h);
+        for (int row = 0; row < grid.size; row++)
+            out = grid.triangle ? sdv_triangle_row(&grid, row, out)
+                                : sdv_quad_row(&grid, row, out);
+    }
+    return out;
+}
+
 // ---------------------------------------------------------------------------------- >>rows
-// The masks of a level written out: row i says which points to add with which weights. A step
-// from level to level is two sets of rows, and evaluation knows nothing else:
-//
-//     face rows:  the level's vertices                   -> its face points
-//     point rows: the level's vertices and face points   -> vertex points, then edge points
-//
-// The next level's vertices are the vertex points, face points and edge points, in this order.
+// Masks written out: row i says which points to add with which weights. All points that are ever
+// looked at, of all levels, stand in one array, the work points: level 0, then level 1, and so on.
+// So a row's indices mean work points, and evaluation need not know what a level is.
 
 typedef struct sdv_rows {
     int     count;
     size_t *starts;                     // [count + 1], and one more while they are written
     int    *indices;                    // [starts[count]]
     float  *weights;                    // [starts[count]]
+    int     first;                      // row i makes work point first + i, or if there are
+    int    *targets;                    // [count] targets, point targets[i] of the result,
+    int    *faces;                      // [count] which belongs to this cage face, never falling
 } sdv_rows;
 
-typedef struct sdv_step {
-    int      vertex_count, face_point_count, edge_count;
-    sdv_rows faces, points;
-    int     *targets;                   // [vertex_count + face_point_count + edge_count] where the
-                                        // points stand in the result; NULL: in the level's order
-} sdv_step;
-
 static void sdv_rows_new(sdv_context *context, sdv_arena *arena, sdv_rows *rows,
-                         int count, size_t entries)
+                         int count, size_t entries, int result)
 {
-    rows->count = 0;
+    memset(rows, 0, sizeof *rows);
     rows->starts = SDV_NEW(context, arena, size_t, (size_t)count + 2);
     rows->indices = SDV_NEW(context, arena, int, entries);
     rows->weights = SDV_NEW(context, arena, float, entries);
+    if (result) rows->targets = SDV_NEW(context, arena, int, count);
+    if (result) rows->faces = SDV_NEW(context, arena, int, count);
     if (!context->result) rows->starts[0] = rows->starts[1] = 0;
 }
 
@@ -1381,34 +1680,39 @@ static void sdv_end_row(sdv_rows *rows)
     rows->starts[rows->count + 1] = rows->starts[rows->count];
 }
 
-static void sdv_face_rows(const sdv_level *level, sdv_rows *rows)
+static void sdv_end_result_row(sdv_rows *rows, int target, int face)
 {
-    for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-        double weight = sdv_face_point(end - start);
-        for (int h = start; h < end; h++) sdv_add(rows, level->face_vertices[h], weight);
-        sdv_end_row(rows);
-    }
+    rows->targets[rows->count] = target;
+    rows->faces[rows->count] = face;
+    sdv_end_row(rows);
+}
+
+static void sdv_face_row(const sdv_level *level, int f, sdv_rows *rows)
+{
+    int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+    double weight = sdv_face_point(end - start);
+    for (int h = start; h < end; h++)
+        sdv_add(rows, level->first_point + level->face_vertices[h], weight);
 }
 
 // The neighbours along a crease are the other ends of the two edges that are sharp: now, or on
 // the next level where a corner turns into a crease.
-static void sdv_vertex_row(const sdv_level *level, const subdiv_mesh *rules, int v, sdv_rows *rows)
+static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v, sdv_rows *rows)
 {
     sdv_fading fading = sdv_vertex_fading(level, v, rules->creasing);
-    sdv_mask mask = sdv_vertex_mask(rules->scheme, fading, sdv_list_size(&level->vertex_faces, v));
-    if (mask.self != 0) sdv_add(rows, v, mask.self);
+    sdv_mask mask = sdv_vertex_mask(rules, fading, sdv_list_size(&level->vertex_faces, v));
+    if (mask.self != 0) sdv_add(rows, level->first_point + v, mask.self);
     for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
         int k = level->vertex_edges.items[i];
         float s = fading.rule == SDV_CREASE ? level->edge_sharpness[k >> 1]
                                             : level->end_sharpness[k];
         double weight = mask.edge + (s > 0 ? mask.crease : 0);
-        if (weight != 0) sdv_add(rows, level->edge_vertices[k ^ 1], weight);
+        if (weight != 0) sdv_add(rows, level->first_point + level->edge_vertices[k ^ 1], weight);
     }
     if (mask.face == 0) return;
     for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++) {
         int f = sdv_face_of(level, level->vertex_faces.items[i]);
-        sdv_add(rows, level->vertex_count + f, mask.face);
+        sdv_add(rows, level->face_point[f], mask.face);
     }
 }
 
@@ -1417,7 +1721,7 @@ static int sdv_is_triangle(const sdv_level *level, int face)
     return sdv_face_end(level, face) - sdv_face_start(level, face) == 3;
 }
 
-static void sdv_edge_row(const sdv_level *level, const subdiv_mesh *rules, int e, sdv_rows *rows)
+static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int e, sdv_rows *rows)
 {
     const int *faces = level->edge_faces.items + level->edge_faces.starts[e];
     int count = sdv_list_size(&level->edge_faces, e), triangles = 0;
@@ -1425,65 +1729,127 @@ static void sdv_edge_row(const sdv_level *level, const subdiv_mesh *rules, int e
         triangles = sdv_is_triangle(level, sdv_face_of(level, faces[0])) +
                     sdv_is_triangle(level, sdv_face_of(level, faces[1]));
     int stays_sharp = level->end_sharpness[2 * e] > 0 && level->end_sharpness[2 * e + 1] > 0;
-    sdv_mask mask = sdv_edge_mask(rules->scheme, level->edge_sharpness[e], stays_sharp,
-                                  count, triangles);
-    sdv_add(rows, level->edge_vertices[2 * e], mask.self);
-    sdv_add(rows, level->edge_vertices[2 * e + 1], mask.self);
+    sdv_mask mask = sdv_edge_mask(rules, level->edge_sharpness[e], stays_sharp, count, triangles);
+    sdv_add(rows, level->first_point + level->edge_vertices[2 * e], mask.self);
+    sdv_add(rows, level->first_point + level->edge_vertices[2 * e + 1], mask.self);
     if (mask.face == 0) return;
     for (int i = 0; i < count; i++) {
-        int opposite = rules->scheme == SUBDIV_LOOP ?
-            level->face_vertices[sdv_previous(level, faces[i])] :
-            level->vertex_count + sdv_face_of(level, faces[i]);
+        int opposite = rules->loop ?
+            level->first_point + level->face_vertices[sdv_previous(level, faces[i])] :
+            level->face_point[sdv_face_of(level, faces[i])];
         sdv_add(rows, opposite, mask.face);
     }
 }
 
-static void sdv_step_build(sdv_context *context, sdv_arena *arena, sdv_step *step,
-                           const sdv_level *level, const subdiv_mesh *rules)
-{
-    size_t ends = 2 * (size_t)level->edge_count, corners = (size_t)level->face_vertex_count;
-    step->vertex_count = level->vertex_count;
-    step->face_point_count = rules->scheme == SUBDIV_LOOP ? 0 : level->face_count;
-    step->edge_count = level->edge_count;
-    step->targets = NULL;
-    sdv_rows_new(context, arena, &step->faces, step->face_point_count, corners);
-    sdv_rows_new(context, arena, &step->points, level->vertex_count + level->edge_count,
-                 (size_t)level->vertex_count + 2 * (ends + corners));
-    if (context->result) return;
+// --------------------------------------------------------------------------------- >>split
+// The next level, of which only a part is made: what touches an active vertex. All of it would do;
+// but once a region is regular, patches take it to the last level at once (see >>patches). Active
+// are the vertices of the faces that are not yet regular. A face-vertex makes a child face if its
+// vertex is active: the children of such a face and the ring of faces around them.
+//
+// Edges of the next level: those inside the faces, then the two halves of each edge, which lead
+// from the edge point to the vertex.
 
-    if (step->face_point_count) sdv_face_rows(level, &step->faces);
-    for (int v = 0; v < level->vertex_count; v++) {
-        sdv_vertex_row(level, rules, v, &step->points);
-        sdv_end_row(&step->points);
-    }
-    for (int e = 0; e < level->edge_count; e++) {
-        sdv_edge_row(level, rules, e, &step->points);
-        sdv_end_row(&step->points);
-    }
+typedef struct sdv_split {
+    unsigned char *active;              // [vertex_count]
+    int *vertex, *face, *edge;          // [counts] their points as vertices of the next level,
+    int *inside, *half;                 // [face-vertices, edge-ends] its edges,
+    int *child;                         // [face-vertices; Loop: and one per face] its faces; or -1
+    int vertex_points, face_points, edge_points, edges, faces;
+} sdv_split;
+
+static int sdv_edge_active(const sdv_level *level, const sdv_split *split, int e)
+{
+    return split->active[level->edge_vertices[2 * e]] |
+           split->active[level->edge_vertices[2 * e + 1]];
 }
 
-// --------------------------------------------------------------------------------- >>split
-// The next level. Its edges are those inside the faces, one for each face-vertex of this level,
-// then the two halves of each edge; a half leads from the edge point to the vertex.
+static int sdv_active_count(const sdv_level *level, const sdv_split *split, int f)
+{
+    int count = 0;
+    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
+        count += split->active[level->face_vertices[h]];
+    return count;
+}
+
+// Numbers what the next level will have: vertex points, face points, edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
+{
+    int next = 0;
+    for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
+    split->vertex_points = next;
+    for (int f = 0; f < level->face_count; f++)
+        split->face[f] = !loop && sdv_active_count(level, split, f) ? next++ : -1;
+    split->face_points = next - split->vertex_points;
+    for (int e = 0; e < level->edge_count; e++)
+        split->edge[e] = sdv_edge_active(level, split, e) ? next++ : -1;
+    split->edge_points = next - split->vertex_points - split->face_points;
+}
+
+// Faces and edges. Catmull-Clark: the edge inside from the face point to edge h parts the children
+// of h and of the next face-vertex. Loop: that at h parts the child of h from the middle one, which
+// is there for two active vertices.
+static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
+{
+    int face = 0, edge = 0;
+    for (int f = 0; f < level->face_count; f++) {
+        int middle = loop && sdv_active_count(level, split, f) >= 2;
+        for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
+            int active = split->active[level->face_vertices[h]];
+            split->child[loop ? h + f : h] = active ? face++ : -1;
+            split->inside[h] = (loop ? active || middle : split->edge[level->face_edges[h]] >= 0) ?
+                edge++ : -1;
+        }
+        if (loop) split->child[4 * f + 3] = middle ? face++ : -1;
+    }
+    for (int k = 0; k < 2 * level->edge_count; k++)
+        split->half[k] = split->active[level->edge_vertices[k]] ? edge++ : -1;
+    split->edges = edge;
+    split->faces = face;
+}
+
+static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                          sdv_split *split)
+{
+    memset(split, 0, sizeof *split);
+    split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
+    split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
+    split->face = SDV_NEW(context, arena, int, level->face_count);
+    split->edge = SDV_NEW(context, arena, int, level->edge_count);
+    split->inside = SDV_NEW(context, arena, int, level->face_vertex_count);
+    split->half = SDV_NEW(context, arena, int, 2 * (size_t)level->edge_count);
+    split->child = SDV_NEW(context, arena, int,
+                           (size_t)level->face_vertex_count + (size_t)level->face_count);
+}
 
 // The half of edge e at vertex v. If both its ends are v: the first or second.
-static int sdv_half(const sdv_level *level, int e, int v, int which)
+static int sdv_half(const sdv_level *level, const sdv_split *split, int e, int v, int which)
 {
     const int *ends = level->edge_vertices + 2 * (size_t)e;
     if (ends[0] != ends[1]) which = ends[1] == v;
-    return level->face_vertex_count + 2 * e + which;
+    return split->half[2 * e + which];
 }
 
-static void sdv_split_edges(const sdv_level *level, sdv_level *next, int first_edge_point)
+// Sharpness and what is done pass from edges to their halves and from vertices to vertex points.
+static void sdv_split_edges(const sdv_level *level, const sdv_split *split, sdv_level *next)
 {
-    for (int v = 0; v < next->vertex_count; v++)
-        next->vertex_sharpness[v] = v < level->vertex_count ? level->next_sharpness[v] : 0;
-    for (int e = 0; e < level->face_vertex_count; e++) next->edge_sharpness[e] = 0;
+    memset(next->vertex_sharpness, 0, (size_t)next->vertex_count * sizeof(float));
+    memset(next->edge_sharpness, 0, (size_t)next->edge_count * sizeof(float));
+    memset(next->vertex_done, 0, (size_t)next->vertex_count);
+    memset(next->edge_done, 0, (size_t)next->edge_count);
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (split->vertex[v] < 0) continue;
+        next->vertex_sharpness[split->vertex[v]] = level->next_sharpness[v];
+        next->vertex_done[split->vertex[v]] = level->vertex_done[v];
+    }
     for (int k = 0; k < 2 * level->edge_count; k++) {
-        int half = level->face_vertex_count + k;
-        next->edge_vertices[2 * half] = first_edge_point + (k >> 1);
-        next->edge_vertices[2 * half + 1] = level->edge_vertices[k];
+        int half = split->half[k], e = k >> 1;
+        if (half < 0) continue;
+        next->edge_vertices[2 * half] = split->edge[e];
+        next->edge_vertices[2 * half + 1] = split->vertex[level->edge_vertices[k]];
         next->edge_sharpness[half] = level->end_sharpness[k];
+        next->edge_done[half] = level->edge_done[e];
+        next->vertex_done[split->edge[e]] = level->edge_done[e];
     }
 }
 
@@ -1493,27 +1859,34 @@ static void sdv_split_edges(const sdv_level *level, sdv_level *next, int first_e
 //     | 3|2 |        vertex i as its own vertex i, so that all descendants have their
 //     |--F--|        parent's orientation; of any other polygon it is vertex 0.
 //     | 0|1 |
-//     0-----1        Face-vertex h makes face h, and the edge h from the face point to its edge.
-static void sdv_split_quads(const sdv_level *level, sdv_level *next)
+//     0-----1
+static void sdv_split_quads(const sdv_level *level, const sdv_split *split, sdv_level *next)
 {
-    int face_point = level->vertex_count, edge_point = face_point + level->face_count;
-    for (int f = 0; f < level->face_count; f++, face_point++) {
+    for (int f = 0; f < level->face_count; f++) {
         int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
         for (int h = start; h < end; h++) {
             int previous = h > start ? h - 1 : end - 1, v = level->face_vertices[h];
-            int e = level->face_edges[h], d = level->face_edges[previous];
-            int vertices[4] = { v, edge_point + e, face_point, edge_point + d };
-            int edges[4] = { sdv_half(level, e, v, 0), h, previous, sdv_half(level, d, v, 1) };
-            int turn = end - start == 4 ? h - start : 0;
-            for (int i = 0; i < 4; i++) {
-                next->face_vertices[4 * h + ((i + turn) & 3)] = vertices[i];
-                next->face_edges[4 * h + ((i + turn) & 3)] = edges[i];
+            int e = level->face_edges[h], d = level->face_edges[previous], child = split->child[h];
+            if (split->inside[h] >= 0) {
+                next->edge_vertices[2 * split->inside[h]] = split->face[f];
+                next->edge_vertices[2 * split->inside[h] + 1] = split->edge[e];
             }
-            next->edge_vertices[2 * h] = face_point;
-            next->edge_vertices[2 * h + 1] = edge_point + e;
+            if (child < 0) continue;
+            int vertices[4] = { split->vertex[v], split->edge[e], split->face[f], split->edge[d] };
+            int edges[4] = { sdv_half(level, split, e, v, 0), split->inside[h],
+                             split->inside[previous], sdv_half(level, split, d, v, 1) };
+            int quad = end - start == 4, turn = quad ? h - start : 0;
+            for (int i = 0; i < 4; i++) {
+                next->face_vertices[4 * child + ((i + turn) & 3)] = vertices[i];
+                next->face_edges[4 * child + ((i + turn) & 3)] = edges[i];
+            }
+            sdv_place *place = &next->places[child];
+            *place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
+            place->row = 2 * place->row + (turn >> 1);
+            place->column = 2 * place->column + (turn == 1 || turn == 2);
+            next->core[child] = level->rough[f];
         }
     }
-    sdv_split_edges(level, next, edge_point);
 }
 
 // Loop: four triangles, the middle one turned by half.
@@ -1521,243 +1894,417 @@ static void sdv_split_quads(const sdv_level *level, sdv_level *next)
 //         2
 //        /2\             child i keeps vertex i; the middle child is e1 e2 e0
 //      e2---e1
-//      /0\3/1\           the edge inside next to vertex i is edge 3 f + i
+//      /0\3/1\           the edge inside at vertex i leads from edge point i to i-1
 //     0---e0--1
-static void sdv_split_triangles(const sdv_level *level, sdv_level *next)
+static void sdv_split_triangle(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                               int f)
 {
-    for (int f = 0; f < level->face_count; f++) {
-        const int *v = level->face_vertices + 3 * (size_t)f, *e = level->face_edges + 3 * (size_t)f;
-        int p[3], half0[3], half1[3], inside = 3 * f;
-        for (int i = 0; i < 3; i++) {
-            p[i] = level->vertex_count + e[i];
-            half0[i] = sdv_half(level, e[i], v[i], 0);
-            half1[i] = 2 * (level->face_vertex_count + 2 * e[i]) + 1 - half0[i];
-        }
-        for (int i = 0; i < 3; i++) {
-            next->edge_vertices[2 * (inside + i)] = p[i];
-            next->edge_vertices[2 * (inside + i) + 1] = p[(i + 2) % 3];
-        }
-        int vertices[12] = { v[0], p[0], p[2],  p[0], v[1], p[1],  p[2], p[1], v[2],
-                             p[1], p[2], p[0] };
-        int edges[12] = { half0[0], inside, half1[2],       half1[0], half0[1], inside + 1,
-                          inside + 2, half1[1], half0[2],   inside + 2, inside, inside + 1 };
-        memcpy(next->face_vertices + 12 * (size_t)f, vertices, sizeof vertices);
-        memcpy(next->face_edges + 12 * (size_t)f, edges, sizeof edges);
+    const int *v = level->face_vertices + 3 * (size_t)f, *e = level->face_edges + 3 * (size_t)f;
+    const int *in = split->inside + 3 * (size_t)f, *child = split->child + 4 * (size_t)f;
+    int V[3], p[3], half[3], other[3];
+    for (int i = 0; i < 3; i++) {
+        int which = level->edge_vertices[2 * e[i]] != v[i];
+        V[i] = split->vertex[v[i]];
+        p[i] = split->edge[e[i]];
+        half[i] = split->half[2 * e[i] + which];
+        other[i] = split->half[2 * e[i] + !which];
     }
-    sdv_split_edges(level, next, level->vertex_count);
+    int vertices[4][3] = { { V[0], p[0], p[2] }, { p[0], V[1], p[1] }, { p[2], p[1], V[2] },
+                           { p[1], p[2], p[0] } };
+    int edges[4][3] = { { half[0], in[0], other[2] }, { other[0], half[1], in[1] },
+                        { in[2], other[1], half[2] }, { in[2], in[0], in[1] } };
+    for (int i = 0; i < 3; i++) {
+        if (in[i] < 0) continue;
+        next->edge_vertices[2 * in[i]] = p[i];
+        next->edge_vertices[2 * in[i] + 1] = p[(i + 2) % 3];
+    }
+    for (int i = 0; i < 4; i++) {
+        if (child[i] < 0) continue;
+        memcpy(next->face_vertices + 3 * (size_t)child[i], vertices[i], sizeof vertices[i]);
+        memcpy(next->face_edges + 3 * (size_t)child[i], edges[i], sizeof edges[i]);
+        sdv_place *place = &next->places[child[i]];
+        *place = level->places ? level->places[f] : sdv_first_place(3 * f);
+        place->row = 2 * place->row + (i >= 2 ? place->step : 0);
+        place->column = 2 * place->column + (i & 1 ? place->step : 0);
+        if (i == 3) place->step = -place->step;
+        next->core[child[i]] = level->rough[f];
+    }
 }
 
-static void sdv_split(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                      sdv_level *next, subdiv_scheme scheme)
+static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                            const sdv_split *split, sdv_level *next, int loop)
 {
     memset(next, 0, sizeof *next);
-    int loop = scheme == SUBDIV_LOOP;
     next->face_size = loop ? 3 : 4;
-    next->face_count = loop ? 4 * level->face_count : level->face_vertex_count;
+    next->face_count = split->faces;
     next->face_vertex_count = next->face_count * next->face_size;
-    next->edge_count = level->face_vertex_count + 2 * level->edge_count;
-    next->vertex_count = level->vertex_count + level->edge_count + (loop ? 0 : level->face_count);
+    next->edge_count = split->edges;
+    next->vertex_count = split->vertex_points + split->face_points + split->edge_points;
+    next->first_point = level->first_point + level->vertex_count;
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->face_edges = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->edge_vertices = SDV_NEW(context, arena, int, 2 * (size_t)next->edge_count);
-    next->edge_sharpness = SDV_NEW(context, arena, float, next->edge_count);
-    next->vertex_sharpness = SDV_NEW(context, arena, float, next->vertex_count);
+    next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
+    sdv_level_new(context, arena, next);
     if (context->result) return;
-    if (loop) sdv_split_triangles(level, next);
-    else sdv_split_quads(level, next);
+    if (!loop) sdv_split_quads(level, split, next);
+    for (int f = 0; loop && f < level->face_count; f++)
+        sdv_split_triangle(level, split, next, f);
+    sdv_split_edges(level, split, next);
     sdv_level_connect(context, arena, next);
 }
 
-// --------------------------------------------------------------------------------- >>order
-// THE ORDER OF THE RESULT (see the top) as formulas. n is the number of segments of a cage edge;
-// m = n / 2 that of the quads of an n-gon.
+// ------------------------------------------------------------------------------- >>patches
+// A face whose surroundings are regular, and stay so, refines in closed form: all its points on the
+// last level follow from the 4 x 4 control points around it (Loop: 12 points). An edge that stays
+// sharp to the last level parts the surface; beyond it the control points are mirrored, so that a
+// face beside a boundary or crease is regular too:
+//
+//     Catmull-Clark   outside = 2 edge - inside            Loop   outside = a + b - inside
+//
+// This gives the B-spline curve along the edge, on every level: the masks of a crease.
 
-typedef struct sdv_order {
-    sdv_level cage;                     // faces and edges alone
-    int loop, n, m;
-    int first_edge_point, first_face_point;
-} sdv_order;
+typedef struct sdv_patch {
+    int points[16];                     // work points; what is mirrored is not set
+    int h;                              // the cage face-vertex of its grid (see >>order)
+    int row, column;                    // of vertex 0 on that grid, in segments of the last level
+    signed char step;                   // -1 for a triangle that is turned by half
+    unsigned char depth;                // levels to go
+    unsigned char sharp;                // bit i: edge i is sharp
+    unsigned char owned;                // bit i: writes side i; bit 4 + i: writes vertex i
+    unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
+} sdv_patch;
 
-// Point t of n along the edge that leads on from face-vertex h.
-static int sdv_edge_index(const sdv_order *order, int h, int t)
+// Patches pay for so many levels at least.
+#define SDV_QUAD_PATCH_DEPTH 2
+#define SDV_LOOP_PATCH_DEPTH 2
+
+typedef struct sdv_patches {
+    sdv_patch *items;                   // [count] in the order of cage faces
+    int count;
+} sdv_patches;
+
+// The same for triangles: the control points of level k lie on a polynomial of degree 4. With p the
+// polynomial of the limit, a quartic box spline [Stam98], that is
+//
+//     p  -  h^2 / 12 S p  +  11 h^4 / 2880 S S p        S = 2 (Dx Dx - Dx Dy + Dy Dy), h = 2^-k
+//
+// the inverse of summing box splines of width h: the product of (sinh(hD/2) / (hD/2))^-2 over the
+// three directions D of the grid. S sums the second derivatives in these directions.
+
+static const int sdv_power[15][2] = {   // exponents of x (column) and y (row)
+    {0,0}, {1,0}, {2,0}, {3,0}, {4,0}, {0,1}, {1,1}, {2,1}, {3,1}, {0,2}, {1,2}, {2,2}, {0,3},
+    {1,3}, {0,4} };
+
+// 24 times the coefficients of p in the 12 control points, numbered as in sdv_gather_triangle.
+static const signed char sdv_box_spline[15][12] = {
+    {  2,  2, 0,  2, 12,  2,  2,  0,  2,  0, 0,  0 },
+    { -4,  4, 0, -8,  0,  8, -4,  0,  4,  0, 0,  0 },
+    {  0,  0, 0, 12,-24, 12,  0,  0,  0,  0, 0,  0 },
+    {  4, -8, 4, -8, 16, -8,  4,  0, -8,  0, 0,  4 },
+    { -2,  4,-2,  2, -2, -2, -2,  2,  4,  0, 0, -2 },
+    { -8, -4, 0, -4,  0,  4,  4,  0,  8,  0, 0,  0 },
+    { 12,-12, 0, 12,-24, 12,-12,  0, 12,  0, 0,  0 },
+    {  0,  0, 0,-12, 24,-12, 12,  0,-24,  0, 0, 12 },
+    { -4,  8,-4,  4, -4, -4, -4,  4,  8,  0, 0, -4 },
+    { 12,  0, 0,  0,-24,  0,  0,  0, 12,  0, 0,  0 },
+    {-12, 12, 0,  0, 24,-24,  0,  0,-12,  0, 0, 12 },
+    {  0,  0, 0,  0,  0,  0,  0,  0,  0,  0, 0,  0 },
+    { -8,  4, 0,  4, 16, -8, -8,  0, -8,  4, 0,  4 },
+    {  4, -4, 0, -4, -4,  8,  8,  0, -4, -4, 4, -4 },
+    {  2, -2, 0, -2, -2,  4,  4,  0, -2, -2, 2, -2 } };
+
+static int sdv_power_index(int x, int y)
 {
-    const sdv_level *cage = &order->cage;
-    int a = cage->face_vertices[h], b = cage->face_vertices[sdv_around(cage, h, 1)];
-    if (t == 0) return a;
-    if (t == order->n) return b;
-    if (a > b) t = order->n - t;
-    return order->first_edge_point + cage->face_edges[h] * (order->n - 1) + t - 1;
+    return y * 5 - y * (y - 1) / 2 + x;
 }
 
-// The first point inside face f: every face has one centre, and m (m - 1) points for each of its
-// vertices; a triangle under Loop (n - 1)(n - 2) / 2.
-static int sdv_first_inside(const sdv_order *order, int f)
+// out = S in, both by their coefficients.
+static void sdv_second_derivatives(const double *in, double *out)
 {
-    int n = order->n, m = order->m;
-    if (order->loop) return order->first_face_point + f * ((n - 1) * (n - 2) / 2);
-    return order->first_face_point + f + sdv_face_start(&order->cage, f) * (m * (m - 1));
-}
-
-static int sdv_quad_index(const sdv_order *order, int f, int row, int column)
-{
-    int n = order->n, h = sdv_face_start(&order->cage, f);
-    if (row == 0) return sdv_edge_index(order, h, column);
-    if (row == n) return sdv_edge_index(order, h + 2, n - column);
-    if (column == 0) return sdv_edge_index(order, h + 3, n - row);
-    if (column == n) return sdv_edge_index(order, h + 1, row);
-    return sdv_first_inside(order, f) + (row - 1) * (n - 1) + column - 1;
-}
-
-// In the quad at face-vertex h of an n-gon; its corners: vertex, edge point, centre, edge point.
-static int sdv_ngon_index(const sdv_order *order, int h, int row, int column)
-{
-    const sdv_level *cage = &order->cage;
-    int m = order->m, f = sdv_face_of(cage, h), start = sdv_face_start(cage, f);
-    int size = sdv_face_end(cage, f) - start, previous = sdv_previous(cage, h);
-    int centre = sdv_first_inside(order, f), spokes = centre + 1;
-    if (row == 0) return sdv_edge_index(order, h, column);
-    if (column == 0) return sdv_edge_index(order, previous, order->n - row);
-    if (row == m && column == m) return centre;
-    if (column == m) return spokes + (h - start) * (m - 1) + m - row - 1;
-    if (row == m) return spokes + (previous - start) * (m - 1) + m - column - 1;
-    return spokes + size * (m - 1) + (h - start) * (m - 1) * (m - 1) +
-           (row - 1) * (m - 1) + column - 1;
-}
-
-static int sdv_triangle_index(const sdv_order *order, int f, int row, int column)
-{
-    int n = order->n, h = 3 * f;
-    if (row == 0) return sdv_edge_index(order, h, column);
-    if (column == 0) return sdv_edge_index(order, h + 2, n - row);
-    if (row + column == n) return sdv_edge_index(order, h + 1, row);
-    return sdv_first_inside(order, f) + (row - 1) * (n - 1) - row * (row - 1) / 2 + column - 1;
-}
-
-// Where the children of face x stand, x on the level before the last: of a quad with its points
-// at (row, column) and one step on, the index at offset (i, j) in half steps, 0 to 2.
-static void sdv_quad_place(const sdv_order *order, int level, int x, int index[3][3])
-{
-    const sdv_level *cage = &order->cage;
-    int h = x >> 2 * (level - 1), f = sdv_face_of(cage, h), start = sdv_face_start(cage, f);
-    int quad = sdv_face_end(cage, f) - start == 4;
-    int row = 0, column = 0;
-    for (int shift = 2 * (level - 1); shift >= 0; shift -= 2) {
-        int child = (shift == 2 * (level - 1) ? (quad ? h - start : 0) : x >> shift) & 3;
-        row = 2 * row + (child >> 1);
-        column = 2 * column + (child == 1 || child == 2);
+    for (int i = 0; i < 15; i++) out[i] = 0;
+    for (int i = 0; i < 15; i++) {
+        int x = sdv_power[i][0], y = sdv_power[i][1];
+        if (x >= 2) out[sdv_power_index(x - 2, y)] += 2 * x * (x - 1) * in[i];
+        if (y >= 2) out[sdv_power_index(x, y - 2)] += 2 * y * (y - 1) * in[i];
+        if (x >= 1 && y >= 1) out[sdv_power_index(x - 1, y - 1)] -= 2 * x * y * in[i];
     }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            index[i][j] = quad ? sdv_quad_index(order, f, 2 * row + i, 2 * column + j)
-                               : sdv_ngon_index(order, h, 2 * row + i, 2 * column + j);
 }
 
-// The same for a triangle: its vertex 0 is at (row, column), and step is 1, or -1 if it is turned.
-static void sdv_triangle_place(const sdv_order *order, int level, int x, int index[3][3])
+// basis[15 * j + i]: the coefficient of power i for a control point j that is 1, the others 0.
+static void sdv_triangle_basis(double h, float *basis)
 {
-    int f = x >> 2 * level, row = 0, column = 0, step = 1;
-    for (int shift = 2 * (level - 1); shift >= 0; shift -= 2) {
-        int child = x >> shift & 3;
-        row = 2 * row + (child >= 2 ? step : 0);
-        column = 2 * column + (child & 1 ? step : 0);
-        if (child == 3) step = -step;
+    double hh = h * h;
+    for (int j = 0; j < 12; j++) {
+        double p[15], s[15], ss[15];
+        for (int i = 0; i < 15; i++) p[i] = sdv_box_spline[i][j] / 24.0;
+        sdv_second_derivatives(p, s);
+        sdv_second_derivatives(s, ss);
+        for (int i = 0; i < 15; i++)
+            basis[15 * j + i] = (float)(p[i] - hh / 12 * s[i] + 11 * hh * hh / 2880 * ss[i]);
     }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3 - i; j++)
-            index[i][j] = sdv_triangle_index(order, f, 2 * row + i * step, 2 * column + j * step);
 }
 
-// targets = places in the result of the last level's vertex points, face points and edge points.
-static void sdv_find_targets(const sdv_order *order, const sdv_level *level, int depth,
-                             int *targets)
+static void sdv_linear_triangle_basis(float *basis)
 {
-    int *faces = targets + level->vertex_count;
-    int *edges = faces + (order->loop ? 0 : level->face_count);
-    static const int quad[4][4] = { {0,0, 0,1}, {0,2, 1,2}, {2,2, 2,1}, {2,0, 1,0} };
-    static const int triangle[3][4] = { {0,0, 0,1}, {0,2, 1,1}, {2,0, 1,0} };
-    if (depth == 0) {
-        for (int v = 0; v < level->vertex_count; v++) targets[v] = v;
-        for (int e = 0; e < level->edge_count; e++) edges[e] = order->first_edge_point + e;
-        for (int f = 0; f < level->face_count && !order->loop; f++)
-            faces[f] = order->first_face_point + f;
-        return;
+    memset(basis, 0, 180 * sizeof(float));
+    basis[15 * 4] = 1;                  // p4 + (p5 - p4) x + (p8 - p4) y
+    basis[15 * 4 + 1] = basis[15 * 4 + 5] = -1;
+    basis[15 * 5 + 1] = basis[15 * 8 + 5] = 1;
+}
+
+// Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
+// even behind the last of them; with just as much sharpness as levels its own masks are all
+// sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading).
+static int sdv_stays(float sharpness, int levels, subdiv_creasing creasing)
+{
+    return sharpness >= SUBDIV_INFINITE ||
+           (creasing == SUBDIV_CREASING_UNIFORM && sharpness >= (float)levels);
+}
+
+static int sdv_lasts(float sharpness, int levels, subdiv_creasing creasing)
+{
+    return sharpness >= SUBDIV_INFINITE ||
+           (creasing == SUBDIV_CREASING_UNIFORM && sharpness > (float)levels);
+}
+
+// How the surface goes on at a vertex, down to the last level.
+typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_EDGED, SDV_PINNED } sdv_kind;
+
+// Free: smooth with the regular valence, in faces of the regular size. Edged: on a crease that
+// stays sharp. Pinned: a corner that stays one. Everything else is rough.
+static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
+{
+    int sharp = 0, stay = 0, last = 0, faces = sdv_list_size(&level->vertex_faces, v);
+    for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
+        float s = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
+        sharp += s > 0;
+        stay += sdv_stays(s, levels, rules->creasing);
+        last += sdv_lasts(s, levels, rules->creasing);
     }
-    for (int v = 0; v < level->vertex_count; v++) targets[v] = v;  // those without faces stay
-    for (int x = 0; x < level->face_count; x++) {
-        int index[3][3] = { {0} };
-        if (order->loop) sdv_triangle_place(order, depth, x, index);
-        else sdv_quad_place(order, depth, x, index);
-        for (int i = 0; i < level->face_size; i++) {
-            const int *at = order->loop ? triangle[i] : quad[i];
-            int h = x * level->face_size + i;
-            targets[level->face_vertices[h]] = index[at[0]][at[1]];
-            edges[level->face_edges[h]] = index[at[2]][at[3]];
+    float s = level->vertex_sharpness[v];
+    if (last > 2 || sdv_lasts(s, levels, rules->creasing)) return SDV_PINNED;
+    if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules->creasing))) return SDV_ROUGH;
+    if (s > 0 || sharp > 2) return SDV_PINNED;
+    if (sharp) return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
+    if (faces != (rules->loop ? 6 : 4)) return SDV_ROUGH;
+    for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++) {
+        int f = sdv_face_of(level, level->vertex_faces.items[i]);
+        if (sdv_face_end(level, f) - sdv_face_start(level, f) != (rules->loop ? 3 : 4))
+            return SDV_ROUGH;
+    }
+    return SDV_FREE;
+}
+
+// The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
+// back. -1 across a sharp edge.
+static int sdv_across(const sdv_level *level, int h)
+{
+    int e = level->face_edges[h];
+    const int *two = level->edge_faces.items + level->edge_faces.starts[e];
+    if (level->edge_sharpness[e] > 0 || sdv_list_size(&level->edge_faces, e) != 2) return -1;
+    return two[0] == h ? two[1] : two[0];
+}
+
+// The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
+static int sdv_clockwise(const sdv_level *level, int h)
+{
+    int across = sdv_across(level, h);
+    return across < 0 ? -1 : sdv_around(level, across, 1);
+}
+
+static int sdv_counter_clockwise(const sdv_level *level, int h)
+{
+    return sdv_across(level, sdv_previous(level, h));
+}
+
+// Where a face stands among the faces between two sharp edges at its vertex, or without any: in a
+// ring; first, in the middle or last along a crease, counter-clockwise; alone in a corner.
+typedef enum sdv_fan { SDV_FAN_ROUGH, SDV_FAN_RING, SDV_FAN_FIRST, SDV_FAN_MIDDLE, SDV_FAN_LAST,
+                       SDV_FAN_CORNER } sdv_fan;
+
+static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int loop)
+{
+    int faces = loop ? 3 : 2, size = loop ? 3 : 4, right = h, left = h, count = 1;
+    if (kind == SDV_FREE) return SDV_FAN_RING;
+    if (kind == SDV_ROUGH) return SDV_FAN_ROUGH;
+    for (int i = sdv_clockwise(level, h); i >= 0 && count <= faces; i = sdv_clockwise(level, i)) {
+        right = i;
+        count += sdv_size_of(level, i) == size ? 1 : faces;
+    }
+    for (int i = sdv_counter_clockwise(level, h); i >= 0 && count <= faces;
+         i = sdv_counter_clockwise(level, i)) {
+        left = i;
+        count += sdv_size_of(level, i) == size ? 1 : faces;
+    }
+    if (kind == SDV_PINNED) return count == 1 ? SDV_FAN_CORNER : SDV_FAN_ROUGH;
+    // The two edges are the crease, unless a non-manifold edge is both.
+    int first = level->face_edges[right], last = level->face_edges[sdv_previous(level, left)];
+    if (count != faces || first == last) return SDV_FAN_ROUGH;
+    return right == h ? SDV_FAN_FIRST : left == h ? SDV_FAN_LAST : SDV_FAN_MIDDLE;
+}
+
+static int sdv_point_at(const sdv_level *level, int h)
+{
+    return level->first_point + level->face_vertices[h];
+}
+
+// The 4 x 4 control points. Each smooth edge adds the two points of the face across it, and each
+// vertex in a ring the one diagonally across.
+//
+//     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
+//      8  9 10 11
+//      4  5  6  7
+//      0  1  2  3
+static void sdv_gather_quad(const sdv_level *level, int h, const sdv_fan *fan, int *points)
+{
+    static const int own[4] = { 5, 6, 10, 9 }, diagonal[4] = { 0, 3, 15, 12 };
+    static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
+    for (int i = 0; i < 4; i++) {
+        points[own[i]] = sdv_point_at(level, h + i);
+        int across = sdv_across(level, h + i);
+        if (across < 0) continue;
+        int at = sdv_around(level, across, 1);      // the face-vertex at vertex i
+        points[beside[i]] = sdv_point_at(level, sdv_around(level, at, 1));
+        points[next[i]] = sdv_point_at(level, sdv_around(level, at, 2));
+        if (fan[i] != SDV_FAN_RING) continue;
+        int opposite = sdv_across(level, at);
+        points[diagonal[i]] = sdv_point_at(level, sdv_previous(level, opposite));
+    }
+}
+
+// The 12 control points. Those around vertex i, counter-clockwise: its two neighbours in the face,
+// the one across edge i-1, two more, the one across edge i.
+//
+//      9 10             vertices 0 1 2 are points 4 5 8
+//      6  8 11          (drawn on the grid: rows go up, columns to the right, and the
+//      3  4  5  7        neighbours of a point are right, left, above, below, above left
+//         0  1  2        and below right)
+//
+//     in columns:       9 (-1,2)  10 (0,2)   6 (-1,1)  8 (0,1)  11 (1,1)
+//                       3 (-1,0)   4 (0,0)   5 (1,0)   7 (2,0)
+//                       0 (0,-1)   1 (1,-1)  2 (2,-1)
+static const int sdv_triangle_ring[3][6] = {
+    { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
+
+static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fan, int *points)
+{
+    static const int own[3] = { 4, 5, 8 };
+    for (int i = 0; i < 3; i++) {
+        const int *ring = sdv_triangle_ring[i];
+        points[own[i]] = sdv_point_at(level, h + i);
+        int left = h + i, right = h + i, lefts = 0, rights = 0;
+        if (fan[i] == SDV_FAN_RING) lefts = 4;
+        if (fan[i] == SDV_FAN_FIRST) lefts = 2;
+        if (fan[i] == SDV_FAN_MIDDLE) lefts = rights = 1;
+        if (fan[i] == SDV_FAN_LAST) rights = 2;
+        for (int j = 0; j < lefts; j++) {
+            left = sdv_counter_clockwise(level, left);
+            points[ring[2 + j]] = sdv_point_at(level, sdv_previous(level, left));
         }
-        if (!order->loop) faces[x] = index[1][1];
-    }
-}
-
-// Quads between two rows of points, count along the row.
-static int *sdv_quad_row(int *out, const int *low, const int *high, int count)
-{
-    for (int i = 0; i < count; i++, out += 4) {
-        out[0] = low[i];
-        out[1] = low[i + 1];
-        out[2] = high[i + 1];
-        out[3] = high[i];
-    }
-    return out;
-}
-
-// Triangles between a row of points and the shorter next one.
-static int *sdv_triangle_row(int *out, const int *low, const int *high, int count)
-{
-    for (int i = 0; i < count; i++) {
-        *out++ = low[i];
-        *out++ = low[i + 1];
-        *out++ = high[i];
-        if (i + 1 == count) break;
-        *out++ = high[i + 1];
-        *out++ = high[i];
-        *out++ = low[i + 1];
-    }
-    return out;
-}
-
-// The fine faces of cage face f; rows: room for 2 (n + 1) indices.
-static int *sdv_fine_faces(const sdv_order *order, int f, int *rows, int *out)
-{
-    const sdv_level *cage = &order->cage;
-    int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
-    int quad = !order->loop && end - start == 4;
-    int n = quad || order->loop ? order->n : order->m;
-    for (int h = start; h < (quad || order->loop ? start + 1 : end); h++) {
-        int *low = rows, *high = rows + order->n + 1;
-        for (int row = 0; row <= n; row++) {
-            int last = order->loop ? n - row : n;
-            for (int i = 0; i <= last; i++)
-                high[i] = quad ? sdv_quad_index(order, f, row, i) :
-                          order->loop ? sdv_triangle_index(order, f, row, i) :
-                          sdv_ngon_index(order, h, row, i);
-            if (row > 0) out = order->loop ? sdv_triangle_row(out, low, high, n - row + 1)
-                                           : sdv_quad_row(out, low, high, n);
-            int *swap = low;
-            low = high;
-            high = swap;
+        for (int j = 0; j < rights; j++) {
+            right = sdv_clockwise(level, right);
+            points[ring[5 - j]] = sdv_point_at(level, sdv_around(level, right, 1));
         }
     }
-    return out;
+}
+
+// Bilinear: the four vertices; the others have no weight.
+static void sdv_gather_linear(const sdv_level *level, int h, int size, int *points)
+{
+    static const int quad[4] = { 5, 6, 10, 9 }, triangle[3] = { 4, 5, 8 };
+    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, h);
+    for (int i = 0; i < size; i++)
+        points[size == 4 ? quad[i] : triangle[i]] = sdv_point_at(level, h + i);
+}
+
+// Makes the patch of face f, if it has one.
+static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
+                          const unsigned char *kinds, int f, int levels, sdv_patch *patch)
+{
+    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+    sdv_fan fan[4];
+    if (size != (rules->loop ? 3 : 4)) return 0;
+    memset(patch, 0, sizeof *patch);
+    for (int i = 0; i < size && !rules->linear; i++) {
+        float s = level->edge_sharpness[level->face_edges[h + i]];
+        if (s > 0 && !sdv_stays(s, levels, rules->creasing)) return 0;
+        patch->sharp |= (unsigned char)((s > 0) << i);
+        sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
+        fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
+        if (fan[i] == SDV_FAN_ROUGH) return 0;
+        if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
+    }
+    if (rules->linear) sdv_gather_linear(level, h, size, patch->points);
+    else if (rules->loop) sdv_gather_triangle(level, h, fan, patch->points);
+    else sdv_gather_quad(level, h, fan, patch->points);
+    sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
+    patch->h = place.h;
+    patch->row = (int)((unsigned)place.row << levels);
+    patch->column = (int)((unsigned)place.column << levels);
+    patch->step = (signed char)place.step;
+    patch->depth = (unsigned char)levels;
+    return 1;
+}
+
+// Every point of the result is written by one patch or one row. The first patch of a level that
+// has an edge or vertex writes its points, unless a level before did.
+static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
+{
+    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+    for (int i = 0; i < size; i++) {
+        unsigned char *edge = &level->edge_done[level->face_edges[h + i]];
+        unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
+        patch->owned |= (unsigned char)(!*edge << i | !*vertex << (4 + i));
+        *edge = *vertex = 1;
+    }
+}
+
+// Finds the patches of a level and marks the faces of the core that have none as rough.
+static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
+                             const sdv_rules *rules, int levels, sdv_patches *patches)
+{
+    sdv_arena scratch = { NULL };
+    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
+    int use = levels >= (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH), count = 0;
+    if (context->result) return;
+    patches->count = 0;
+    memcpy(level->rough, level->core, (size_t)level->face_count);
+    for (int v = 0; v < level->vertex_count && use; v++)
+        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
+    sdv_patch patch;
+    for (int f = 0; f < level->face_count && use; f++) {
+        if (!level->core[f] || !sdv_make_patch(level, rules, kinds, f, levels, &patch)) continue;
+        level->rough[f] = 0;
+        count++;
+    }
+    patches->items = SDV_NEW(context, arena, sdv_patch, count);
+    for (int f = 0; f < level->face_count && use && !context->result; f++) {
+        if (!level->core[f] || level->rough[f]) continue;
+        sdv_patch *item = &patches->items[patches->count++];
+        sdv_make_patch(level, rules, kinds, f, levels, item);
+        sdv_claim(level, f, item);
+    }
+    sdv_arena_free(&scratch);
 }
 
 // ------------------------------------------------------------------------------- >>prepare
 
+// One step from a level to the next: face points first, as the others are made from them.
+typedef struct sdv_step {
+    sdv_rows faces, vertices, edges;
+} sdv_step;
+
 struct subdiv_surface {
     sdv_arena arena;
-    void     *user;
     int       levels;
     int       cage_vertex_count;
-    size_t    most_points;              // that any step reads
-    sdv_step *steps;                    // [levels]
+    sdv_rules rules;
+    sdv_step    *steps;                 // [levels] the last makes face points alone
+    sdv_patches *patches;               // [levels]
+    float    *triangle_basis;           // [180 * levels] Loop: for the patches of each level
+    sdv_rows  copies, last;             // rows that make points of the result
+    int       work_count;               // work points
     sdv_order order;
     unsigned char *hole;                // [cage face_count]
     int      *cage_face;                // [cage face_count] the user's face; NULL: the same
@@ -1862,67 +2409,327 @@ static int sdv_survives(float sharpness)
     return sharpness > 0 && sharpness <= SUBDIV_INFINITE;
 }
 
-static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surface,
-                                    const sdv_level *level, const int *targets)
+// The creases of the result: each cage edge's, piece by piece along it. Sharpness fades without
+// regard to anything but other creases, so it is followed here apart from the surface: pieces
+// [n * count] of the sharp edges e [count], whose first and last pieces meet at vertices.
+static void sdv_fade_pieces(const sdv_level *cage, const int *e, int count, int n,
+                            const float *pieces, float *next, float *sums, subdiv_creasing creasing)
 {
-    subdiv_mesh *fine = &surface->fine;
-    const int *edge_targets = targets + level->vertex_count;
-    if (!surface->order.loop) edge_targets += level->face_count;
-    int creases = 0, corners = 0;
-    for (int k = 0; k < 2 * level->edge_count; k++)
-        creases += sdv_survives(level->end_sharpness[k]);
-    for (int v = 0; v < level->vertex_count; v++)
-        corners += sdv_survives(level->next_sharpness[v]);
-    fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * (size_t)creases);
-    fine->crease_sharpness = SDV_NEW(context, &surface->arena, float, creases);
-    fine->corner_vertices = SDV_NEW(context, &surface->arena, int, corners);
-    fine->corner_sharpness = SDV_NEW(context, &surface->arena, float, corners);
-    if (context->result) return;
-
-    for (int k = 0; k < 2 * level->edge_count; k++) {
-        if (!sdv_survives(level->end_sharpness[k])) continue;
-        int i = fine->crease_count++;
-        fine->crease_vertices[2 * i] = edge_targets[k >> 1];
-        fine->crease_vertices[2 * i + 1] = targets[level->edge_vertices[k]];
-        fine->crease_sharpness[i] = level->end_sharpness[k];
+    // At vertex v: the sum and number of semi-sharp ends.
+    memset(sums, 0, 2 * (size_t)cage->vertex_count * sizeof(float));
+    for (int i = 0; i < 2 * count; i++) {
+        float s = pieces[(size_t)(i / 2) * (size_t)n + (size_t)(i & 1 ? n - 1 : 0)];
+        float *sum = sums + 2 * (size_t)cage->edge_vertices[2 * e[i / 2] + (i & 1)];
+        if (s <= 0 || s >= SUBDIV_INFINITE) continue;
+        sum[0] += s;
+        sum[1] += 1;
     }
-    for (int v = 0; v < level->vertex_count; v++) {
-        if (!sdv_survives(level->next_sharpness[v])) continue;
-        int i = fine->corner_count++;
-        fine->corner_vertices[i] = targets[v];
-        fine->corner_sharpness[i] = level->next_sharpness[v];
+    for (int i = 0; i < count; i++) {
+        const float *piece = pieces + (size_t)i * (size_t)n;
+        float *out = next + 2 * (size_t)i * (size_t)n;
+        for (int j = 0; j < 2 * n; j++) {
+            float s = piece[j / 2], sum[2] = { 0, 0 };
+            int beside = j & 1 ? j / 2 + 1 : j / 2 - 1;         // the piece that this half meets
+            if (beside < 0 || beside == n) {
+                const float *at = sums + 2 * (size_t)cage->edge_vertices[2 * e[i] + (beside == n)];
+                sum[0] = at[0];
+                sum[1] = at[1];
+            } else if (piece[beside] > 0) {
+                sum[0] = s + piece[beside];
+                sum[1] = 2;
+            }
+            out[j] = creasing == SUBDIV_CREASING_CHAIKIN ?
+                sdv_fade_chaikin(s, sum[0], (int)sum[1]) : sdv_fade(s);
+        }
     }
 }
 
-// All steps: masks of a level, then the next level, of which two are in memory at a time.
-static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
-                               const subdiv_mesh *rules)
+static void sdv_add_creases(const sdv_order *order, int e, const float *pieces, subdiv_mesh *fine)
+{
+    int a = order->cage.edge_vertices[2 * e], b = order->cage.edge_vertices[2 * e + 1];
+    int n = order->n, first = order->first_edge_point + e * (n - 1) - 1, from = a;
+    for (int j = 0; j < n; j++) {
+        int to = j + 1 == n ? b : a > b ? first + n - j - 1 : first + j + 1;
+        if (sdv_survives(pieces[j])) {
+            int i = fine->crease_count++;
+            fine->crease_vertices[2 * i] = from;
+            fine->crease_vertices[2 * i + 1] = to;
+            fine->crease_sharpness[i] = pieces[j];
+        }
+        from = to;
+    }
+}
+
+// Has the edge a face that is not left out of the result?
+static int sdv_edge_is_seen(const subdiv_surface *surface, int e)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int seen = surface->fine.hole_count > 0;
+    for (int i = cage->edge_faces.starts[e]; i < cage->edge_faces.starts[e + 1]; i++)
+        seen |= !surface->hole[sdv_face_of(cage, cage->edge_faces.items[i])];
+    return seen;
+}
+
+static void sdv_surviving_creases(sdv_context *context, subdiv_surface *surface,
+                                  const float *pieces, const int *edges, int count)
+{
+    subdiv_mesh *fine = &surface->fine;
+    size_t n = (size_t)surface->order.n, left = 0;
+    for (int i = 0; i < count; i++)
+        for (size_t j = 0; j < n && sdv_edge_is_seen(surface, edges[i]); j++)
+            left += (size_t)sdv_survives(pieces[(size_t)i * n + j]);
+    if (left > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
+    fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * left);
+    fine->crease_sharpness = SDV_NEW(context, &surface->arena, float, left);
+    for (int i = 0; i < count && !context->result; i++)
+        if (sdv_edge_is_seen(surface, edges[i]))
+            sdv_add_creases(&surface->order, edges[i], pieces + (size_t)i * n, fine);
+}
+
+static void sdv_surviving_corners(sdv_context *context, subdiv_surface *surface,
+                                  const sdv_level *cage)
+{
+    subdiv_mesh *fine = &surface->fine;
+    int left = 0;
+    for (int v = 0; v < cage->vertex_count; v++) left += sdv_survives(cage->vertex_sharpness[v]);
+    fine->corner_vertices = SDV_NEW(context, &surface->arena, int, left);
+    fine->corner_sharpness = SDV_NEW(context, &surface->arena, float, left);
+    for (int v = 0; v < cage->vertex_count && !context->result; v++) {
+        float s = cage->vertex_sharpness[v];
+        for (int i = 0; i < surface->levels; i++) s = sdv_fade(s);
+        if (!sdv_survives(s)) continue;
+        fine->corner_vertices[fine->corner_count] = v;
+        fine->corner_sharpness[fine->corner_count++] = s;
+    }
+}
+
+// What is left of the user's creases and corners on the last level.
+static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surface,
+                                    const sdv_level *cage)
+{
+    sdv_arena scratch = { NULL };
+    int *edges = SDV_NEW(context, &scratch, int, cage->edge_count), count = 0;
+    for (int e = 0; e < cage->edge_count && !context->result; e++)
+        if (sdv_survives(cage->edge_sharpness[e])) edges[count++] = e;
+    size_t pieces = (size_t)count << surface->levels;
+    float *from = SDV_NEW(context, &scratch, float, pieces);
+    float *to = SDV_NEW(context, &scratch, float, pieces);
+    float *sums = SDV_NEW(context, &scratch, float, 2 * (size_t)cage->vertex_count);
+    for (int i = 0; i < count && !context->result; i++) from[i] = cage->edge_sharpness[edges[i]];
+    for (int i = 0; i < surface->levels && !context->result; i++) {
+        sdv_fade_pieces(cage, edges, count, 1 << i, from, to, sums, surface->rules.creasing);
+        float *swap = from;
+        from = to;
+        to = swap;
+    }
+    if (!context->result) sdv_surviving_creases(context, surface, from, edges, count);
+    sdv_surviving_corners(context, surface, cage);
+    sdv_arena_free(&scratch);
+}
+
+// Vertices that never move are copied: those without faces, corners that stay, all if linear.
+static void sdv_find_copies(sdv_context *context, subdiv_surface *surface, sdv_level *cage)
+{
+    const sdv_rules *rules = &surface->rules;
+    sdv_rows *rows = &surface->copies;
+    sdv_rows_new(context, &surface->arena, rows, cage->vertex_count, (size_t)cage->vertex_count, 1);
+    if (context->result) return;
+    for (int v = 0; v < cage->vertex_count; v++) {
+        if (sdv_list_size(&cage->vertex_faces, v)) continue;
+        sdv_add(rows, v, 1);
+        sdv_end_result_row(rows, v, 0);
+    }
+    for (int h = 0; h < cage->face_vertex_count; h++) {
+        int v = cage->face_vertices[h];
+        if (cage->vertex_done[v]) continue;
+        if (!rules->linear &&
+            sdv_vertex_kind(cage, rules, v, surface->levels) != SDV_PINNED) continue;
+        cage->vertex_done[v] = 1;
+        sdv_add(rows, v, 1);
+        sdv_end_result_row(rows, v, sdv_face_of(cage, h));
+    }
+}
+
+// Rows for the vertex and edge points of the next level.
+static void sdv_step_rows(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                          const sdv_split *split, const sdv_rules *rules, sdv_step *step)
+{
+    size_t vertex_entries = 0, edge_entries = 0;
+    for (int v = 0; v < level->vertex_count; v++)
+        if (split->active[v])
+            vertex_entries += 1 + (size_t)sdv_list_size(&level->vertex_edges, v) +
+                                  (size_t)sdv_list_size(&level->vertex_faces, v);
+    for (int e = 0; e < level->edge_count; e++)
+        if (split->edge[e] >= 0) edge_entries += 2 + (size_t)sdv_list_size(&level->edge_faces, e);
+    sdv_rows_new(context, arena, &step->vertices, split->vertex_points, vertex_entries, 0);
+    sdv_rows_new(context, arena, &step->edges, split->edge_points, edge_entries, 0);
+    if (context->result) return;
+
+    step->vertices.first = level->first_point + level->vertex_count;
+    step->edges.first = step->vertices.first + split->vertex_points + split->face_points;
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (!split->active[v]) continue;
+        sdv_vertex_row(level, rules, v, &step->vertices);
+        sdv_end_row(&step->vertices);
+    }
+    for (int e = 0; e < level->edge_count; e++) {
+        if (split->edge[e] < 0) continue;
+        sdv_edge_row(level, rules, e, &step->edges);
+        sdv_end_row(&step->edges);
+    }
+}
+
+// Face points become work points: behind the vertex points of the next level, or alone if the
+// next level is the last.
+static void sdv_step_face_rows(sdv_context *context, sdv_arena *arena, sdv_level *level,
+                               const sdv_split *split, int last, sdv_step *step)
+{
+    size_t entries = 0;
+    for (int f = 0; f < level->face_count; f++)
+        if (split->face[f] >= 0)
+            entries += (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
+    sdv_rows_new(context, arena, &step->faces, split->face_points, entries, 0);
+    if (context->result) return;
+
+    int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
+    step->faces.first = next + split->vertex_points;
+    for (int f = 0; f < level->face_count; f++) {
+        level->face_point[f] = next + split->face[f];
+        if (split->face[f] < 0) continue;
+        sdv_face_row(level, f, &step->faces);
+        sdv_end_row(&step->faces);
+    }
+}
+
+// The places in the result of a face's vertex points, edge points and face point.
+static void sdv_find_targets(const sdv_order *order, const sdv_level *level, int f, int *vertices,
+                             int *edges, int *face)
+{
+    int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
+    static const int quad[5][2] = { {0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0} };
+    static const int triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
+    const int (*corner)[2] = order->loop ? triangle : quad;
+    if (!level->places) {
+        for (int i = 0; i < size; i++) {
+            sdv_side side = sdv_edge_side(order, start + i, 0);
+            vertices[i] = level->face_vertices[start + i];
+            edges[i] = side.first + side.step;
+        }
+        *face = sdv_first_inside(order, f);
+        return;
+    }
+    sdv_place place = level->places[f];
+    sdv_grid grid = sdv_grid_at(order, place.h);
+    int row = 2 * place.row, column = 2 * place.column, step = place.step;
+    for (int i = 0; i < size; i++) {
+        const int *a = corner[i], *b = corner[i + 1];
+        vertices[i] = sdv_grid_index(&grid, row + step * a[0], column + step * a[1]);
+        edges[i] = sdv_grid_index(&grid, row + step * (a[0] + b[0]) / 2,
+                                  column + step * (a[1] + b[1]) / 2);
+    }
+    *face = order->loop ? 0 : sdv_grid_index(&grid, row + 1, column + 1);
+}
+
+// The result's points that no patch makes: those of the faces that are rough to the end.
+static void sdv_last_rows(sdv_context *context, subdiv_surface *surface, sdv_level *level)
+{
+    const sdv_order *order = &surface->order;
+    sdv_rows *rows = &surface->last;
+    size_t count = 0, entries = 0;
+    int most = 4;
+    for (int f = 0; f < level->face_count; f++) {
+        int size = sdv_face_end(level, f) - sdv_face_start(level, f);
+        count += level->rough[f] && !order->loop;
+        most = size > most ? size : most;
+    }
+    entries = count;
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (level->vertex_done[v]) continue;
+        count++;
+        entries += 1 + (size_t)sdv_list_size(&level->vertex_edges, v) +
+                       (size_t)sdv_list_size(&level->vertex_faces, v);
+    }
+    for (int e = 0; e < level->edge_count; e++) {
+        if (level->edge_done[e]) continue;
+        count++;
+        entries += 2 + (size_t)sdv_list_size(&level->edge_faces, e);
+    }
+    sdv_arena scratch = { NULL };
+    int *vertices = SDV_NEW(context, &scratch, int, most);
+    int *edges = SDV_NEW(context, &scratch, int, most), face;
+    sdv_rows_new(context, &surface->arena, rows, (int)count, entries, 1);
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        if (!level->rough[f]) continue;
+        int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+        int cage_face = level->places ? sdv_face_of(&order->cage, level->places[f].h) : f;
+        sdv_find_targets(order, level, f, vertices, edges, &face);
+        if (!order->loop) {
+            sdv_add(rows, level->face_point[f], 1);
+            sdv_end_result_row(rows, face, cage_face);
+        }
+        for (int i = 0; i < size; i++) {
+            int v = level->face_vertices[h + i], e = level->face_edges[h + i];
+            if (!level->vertex_done[v]) {
+                sdv_vertex_row(level, &surface->rules, v, rows);
+                sdv_end_result_row(rows, vertices[i], cage_face);
+            }
+            if (!level->edge_done[e]) {
+                sdv_edge_row(level, &surface->rules, e, rows);
+                sdv_end_result_row(rows, edges[i], cage_face);
+            }
+            level->vertex_done[v] = level->edge_done[e] = 1;
+        }
+    }
+    sdv_arena_free(&scratch);
+}
+
+// A level: its patches; then, of what is rough, the rows to the next level and the next level.
+static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int depth,
+                              sdv_level *level, sdv_arena *arena, sdv_level *next,
+                              sdv_arena *next_arena)
+{
+    const sdv_rules *rules = &surface->rules;
+    sdv_step *step = &surface->steps[depth];
+    int last = depth + 1 == surface->levels;
+    sdv_split split;
+    sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
+                     &surface->patches[depth]);
+    sdv_split_new(context, arena, level, &split);
+    if (context->result) return;
+
+    memset(split.active, 0, (size_t)level->vertex_count);
+    for (int h = 0; h < level->face_vertex_count; h++)
+        split.active[level->face_vertices[h]] |= level->rough[sdv_face_of(level, h)];
+    sdv_number_points(level, &split, rules->loop);
+    sdv_level_fade(level, rules->creasing);
+    sdv_step_face_rows(context, &surface->arena, level, &split, last, step);
+    surface->work_count = level->first_point + level->vertex_count + split.face_points;
+    if (context->result) return;
+    if (last) {
+        sdv_last_rows(context, surface, level);
+        return;
+    }
+    sdv_step_rows(context, &surface->arena, level, &split, rules, step);
+    sdv_number_faces(level, &split, rules->loop);
+    sdv_split_level(context, next_arena, level, &split, next, rules->loop);
+    surface->work_count = next->first_point + next->vertex_count;
+}
+
+static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage)
 {
     sdv_arena arena = { NULL }, next_arena = { NULL };
-    sdv_level level = *cage;
+    sdv_level level = *cage, next;
+    memset(level.core, 1, (size_t)level.face_count);
+    memset(level.edge_done, 0, (size_t)level.edge_count);
+    memset(level.vertex_done, 0, (size_t)level.vertex_count);
+    sdv_find_copies(context, surface, &level);
     for (int i = 0; i < surface->levels && !context->result; i++) {
-        sdv_step *step = &surface->steps[i];
-        level.end_sharpness = SDV_NEW(context, &arena, float, 2 * (size_t)level.edge_count);
-        level.next_sharpness = SDV_NEW(context, &arena, float, level.vertex_count);
-        if (context->result) break;
-        sdv_level_fade(&level, rules->creasing);
-        sdv_step_build(context, &surface->arena, step, &level, rules);
-        size_t points = (size_t)level.vertex_count + (size_t)step->face_point_count;
-        if (points > surface->most_points) surface->most_points = points;
-        if (i + 1 < surface->levels) {
-            sdv_level next;
-            sdv_split(context, &next_arena, &level, &next, rules->scheme);
-            sdv_arena_free(&arena);
-            arena = next_arena;
-            next_arena.blocks = NULL;
-            level = next;
-        } else {
-            step->targets = SDV_NEW(context, &surface->arena, int,
-                                    points + (size_t)level.edge_count);
-            if (context->result) break;
-            sdv_find_targets(&surface->order, &level, i, step->targets);
-            sdv_surviving_sharpness(context, surface, &level, step->targets);
-        }
+        next = level;
+        sdv_prepare_level(context, surface, i, &level, &arena, &next, &next_arena);
+        sdv_arena_free(&arena);
+        arena = next_arena;
+        next_arena.blocks = NULL;
+        level = next;
     }
     sdv_arena_free(&arena);
     sdv_arena_free(&next_arena);
@@ -1977,6 +2784,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     subdiv_mesh work = *cage;
     surface->cage_vertex_count = cage->vertex_count;
     sdv_copy_faces(context, surface, &work, cage);
+    if (context->result) return;
     sdv_cut_holes(context, surface, &work, cage);
     sdv_check_size(context, &work, surface->levels, -1);
     if (context->result) return;
@@ -1988,8 +2796,14 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     sdv_cage built;
     sdv_cage_build(context, &surface->arena, &built, &work);
     sdv_check_size(context, &work, surface->levels, built.level.edge_count);
-    surface->steps = SDV_NEW(context, &surface->arena, sdv_step, surface->levels);
+    size_t levels = (size_t)surface->levels;
+    surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
+    surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
+    if (work.scheme == SUBDIV_LOOP)
+        surface->triangle_basis = SDV_NEW(context, &surface->arena, float, 180 * levels);
     if (context->result) return;
+    memset(surface->steps, 0, levels * sizeof *surface->steps);
+    memset(surface->patches, 0, levels * sizeof *surface->patches);
     surface->order.cage = built.level;
     surface->hole = built.hole;
     surface->fine.scheme = cage->scheme;
@@ -1997,8 +2811,17 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     surface->fine.creasing = cage->creasing;
     surface->fine.triangles = cage->triangles;
     surface->fine.uv_rule = cage->uv_rule;
+    surface->rules.loop = cage->scheme == SUBDIV_LOOP;
+    surface->rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
+    surface->rules.creasing = cage->creasing;
+    surface->rules.triangles = cage->triangles;
+    int n = 1 << surface->levels;
+    for (size_t i = 0; i < levels && surface->rules.loop; i++)
+        if (surface->rules.linear) sdv_linear_triangle_basis(surface->triangle_basis + 180 * i);
+        else sdv_triangle_basis(1.0 / (n >> i), surface->triangle_basis + 180 * i);
     sdv_prepare_result(surface, &work, opt && opt->keep_holes);
-    sdv_prepare_levels(context, surface, &built.level, &work);
+    sdv_surviving_sharpness(context, surface, &built.level);
+    sdv_prepare_levels(context, surface, &built.level);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
@@ -2034,64 +2857,333 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 }
 
 // ------------------------------------------------------------------------------ >>evaluate
+// Values through the surface, four channels at a time. First the rows of all steps make the
+// work points; then patches and the last rows make the points of the result, cage face by cage face
+// and in any order, since each point is made once and from work points alone.
 
-// out[i] = the weighted sum of row i, in one order of additions, so that its bits are always the
-// same. Weights sum to 1, so p0 + w1 (p1 - p0) + w2 (p2 - p0) + ... is the same sum, whose rounding
-// errors are those of the small differences: exact wherever the mesh stands.
-static void sdv_apply(const sdv_rows *rows, const float *points, float *out, const int *targets)
+typedef struct sdv_output_points {      // four channels of the result, or fewer
+    float *values;                      // of point 0
+    size_t stride;                      // floats from point to point
+    int    lanes;                       // 1 to 4 channels
+} sdv_output_points;
+
+static void sdv_store_some(float *p, sdv_four a, int lanes)
 {
-    for (int i = 0; i < rows->count; i++) {
-        size_t first = rows->starts[i], end = rows->starts[i + 1];
-        const float *p0 = points + 3 * (size_t)rows->indices[first];
-        float x = 0, y = 0, z = 0;
-        for (size_t j = first + 1; j < end; j++) {
-            const float *p = points + 3 * (size_t)rows->indices[j];
-            float w = rows->weights[j];
-            x += w * (p[0] - p0[0]);
-            y += w * (p[1] - p0[1]);
-            z += w * (p[2] - p0[2]);
-        }
-        float *q = out + 3 * (size_t)(targets ? targets[i] : i);
-        q[0] = p0[0] + x;
-        q[1] = p0[1] + y;
-        q[2] = p0[2] + z;
+    float x[4];
+    sdv_store(x, a);
+    for (int i = 0; i < lanes; i++) p[i] = x[i];
+}
+
+static void sdv_put_point(const sdv_output_points *out, int index, sdv_four a)
+{
+    float *p = out->values + out->stride * (size_t)index;
+    if (out->lanes == 4) sdv_store(p, a);
+    else sdv_store_some(p, a, out->lanes);
+}
+
+// The weighted sum of a row, in one order of additions, so that its bits are always the same.
+// Weights sum to 1, so p0 + w1 (p1 - p0) + w2 (p2 - p0) + ... is the same sum, whose rounding
+// errors are those of the small differences: exact wherever the mesh stands.
+static sdv_four sdv_row_sum(const sdv_rows *rows, int row, const float *work)
+{
+    size_t first = rows->starts[row], end = rows->starts[row + 1];
+    sdv_four p0 = sdv_load(work + 4 * (size_t)rows->indices[first]), sum = sdv_all(0);
+    for (size_t i = first + 1; i < end; i++) {
+        sdv_four p = sdv_load(work + 4 * (size_t)rows->indices[i]);
+        sum = sdv_plus(sum, sdv_times(sdv_all(rows->weights[i]), sdv_minus(p, p0)));
+    }
+    return sdv_plus(p0, sum);
+}
+
+static void sdv_apply(const sdv_rows *rows, float *work)
+{
+    for (int i = 0; i < rows->count; i++)
+        sdv_store(work + 4 * (size_t)(rows->first + i), sdv_row_sum(rows, i, work));
+}
+
+// The first patch of a cage face or one behind it.
+static int sdv_first_patch(const sdv_order *order, const sdv_patches *patches, int face)
+{
+    int low = 0, high = patches->count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (sdv_face_of(&order->cage, patches->items[middle].h) < face) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+// The first row of a cage face or one behind it.
+static int sdv_first_row(const sdv_rows *rows, int face)
+{
+    int low = 0, high = rows->count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (rows->faces[middle] < face) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+static void sdv_apply_result(const sdv_rows *rows, const float *work, int face, int end,
+                             const sdv_output_points *out)
+{
+    int last = sdv_first_row(rows, end);
+    for (int i = sdv_first_row(rows, face); i < last; i++)
+        sdv_put_point(out, rows->targets[i], sdv_row_sum(rows, i, work));
+}
+
+// The control points of level k of a uniform cubic B-spline segment lie on a cubic polynomial: that
+// of the point at t is the blossom f(t - h, t, t + h) of the segment's own cubic f, h = 2^-k. (A
+// blossom is symmetric, linear in each argument, and f(t, t, t) = f(t).) With the control points
+// p0 p1 p2 p3 around the segment from t = 0 to 1 that is
+//
+//     p1 + (1 - h^2) s / 6  +  ((p2 - p0) / 2 - h^2 c) t  +  s / 2 t^2  +  c t^3
+//     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
+//
+// h = 1 gives p1 and p2 back, h = 0 the limit curve. a[i] becomes the coefficient of t^i.
+static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, float hh, sdv_four *a)
+{
+    sdv_four d0 = sdv_minus(p1, p0), d1 = sdv_minus(p2, p1), d2 = sdv_minus(p3, p2);
+    sdv_four s = sdv_minus(d1, d0);
+    sdv_four c = sdv_times(sdv_all(1.0f / 6), sdv_minus(sdv_minus(d2, d1), s));
+    a[0] = sdv_plus(p1, sdv_times(sdv_all((1 - hh) / 6), s));
+    a[1] = sdv_minus(sdv_times(sdv_all(0.5f), sdv_plus(d0, d1)), sdv_times(sdv_all(hh), c));
+    a[2] = sdv_times(sdv_all(0.5f), s);
+    a[3] = c;
+}
+
+// Bilinear: from p1 to p2 straight on.
+static void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
+{
+    a[0] = p1;
+    a[1] = sdv_minus(p2, p1);
+    a[2] = a[3] = sdv_all(0);
+}
+
+// a0 + a1 t + a2 t^2 + a3 t^3
+static sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
+{
+    sdv_four p = sdv_plus(a[2], sdv_times(a[3], t));
+    p = sdv_plus(a[1], sdv_times(p, t));
+    return sdv_plus(a[0], sdv_times(p, t));
+}
+
+// A row of a patch: the polynomial origin + a0 + a1 t + ... of degree 3 or 4.
+typedef struct sdv_curve {
+    sdv_four origin, a[5];
+    int degree;
+} sdv_curve;
+
+static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four t)
+{
+    const sdv_four *a = curve->a;
+    sdv_four p = a[3];
+    if (curve->degree == 4) p = sdv_plus(p, sdv_times(a[4], t));
+    p = sdv_plus(a[2], sdv_times(p, t));
+    p = sdv_plus(a[1], sdv_times(p, t));
+    p = sdv_plus(a[0], sdv_times(p, t));
+    return sdv_plus(curve->origin, p);
+}
+
+// Count points from t on in steps of h, to places index, index + step, ... of the result.
+static void sdv_put_points(const sdv_output_points *out, int index, int step, int count,
+                           const sdv_curve *curve, float t, float h)
+{
+    float *p = out->values + out->stride * (size_t)index;
+    ptrdiff_t next = (ptrdiff_t)out->stride * step;
+    // Three lanes side by side are stored as four: the next point overwrites the fourth.
+    int whole = out->lanes == 4 ? count : out->lanes == 3 && next == 3 ? count - 1 : 0, i = 0;
+    for (; i < whole; i++, p += next, t += h) sdv_store(p, sdv_curve_point(curve, sdv_all(t)));
+    for (; i < count; i++, p += next, t += h)
+        sdv_store_some(p, sdv_curve_point(curve, sdv_all(t)), out->lanes);
+}
+
+// The row of a patch that starts at a place of the grid, n segments: what lies between its ends if
+// inside is set, and the ends if left and right are. Between the ends the places are evenly spaced.
+static void sdv_put_row(const sdv_output_points *out, const sdv_grid *grid, int row, int column,
+                        int step, int n, int left, int inside, int right, float h,
+                        const sdv_curve *curve)
+{
+    if (left) sdv_put_points(out, sdv_grid_index(grid, row, column), 1, 1, curve, 0, h);
+    if (inside && n > 1) {
+        int first = sdv_grid_index(grid, row, column + step);
+        int second = n > 2 ? sdv_grid_index(grid, row, column + 2 * step) : first;
+        sdv_put_points(out, first, second - first, n - 1, curve, h, h);
+    }
+    if (right)
+        sdv_put_points(out, sdv_grid_index(grid, row, column + n * step), 1, 1, curve,
+                       (float)n * h, h);
+}
+
+// Beyond a sharp edge: outside = 2 edge - inside.
+static sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
+{
+    return sdv_minus(sdv_plus(edge, edge), inside);
+}
+
+// The 16 control points relative to vertex 0. What lies beyond sharp edges is mirrored: first to
+// the left and right in the two middle rows, then below and above.
+static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four origin, sdv_four *p)
+{
+    int known[16];
+    for (int i = 0; i < 16; i++) {
+        int row = i >> 2, column = i & 3;
+        known[i] = !((patch->sharp & 1 && row == 0) || (patch->sharp & 2 && column == 3) ||
+                     (patch->sharp & 4 && row == 3) || (patch->sharp & 8 && column == 0));
+        if (known[i])
+            p[i] = sdv_minus(sdv_load(work + 4 * (size_t)patch->points[i]), origin);
+    }
+    for (int i = 0; i < 16; i += 4) {
+        if (patch->sharp & 8 && known[i + 1]) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
+        if (patch->sharp & 2 && known[i + 1]) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
+    }
+    for (int column = 0; column < 4; column++) {
+        if (patch->sharp & 1) p[column] = sdv_mirror(p[4 + column], p[8 + column]);
+        if (patch->sharp & 4) p[12 + column] = sdv_mirror(p[8 + column], p[4 + column]);
     }
 }
 
-// One level: the step's face points are put behind the points that it starts from; then vertex
-// points, face points and edge points go to out, in this order or to their targets.
-static void sdv_apply_step(const sdv_step *step, float *points, float *out)
+// All owned points of a quad's patch: the cubics along its four columns, then, row by row, the
+// cubic along the row.
+static void sdv_quad_patch(const sdv_patch *patch, const sdv_grid *grid, int linear,
+                           const float *work, const sdv_output_points *out)
 {
-    int vertices = step->vertex_count, faces = step->face_point_count;
-    float *face_points = points + 3 * (size_t)vertices;
-    sdv_apply(&step->faces, points, face_points, NULL);
-    for (int f = 0; f < faces; f++) {
-        size_t target = (size_t)(step->targets ? step->targets[vertices + f] : vertices + f);
-        memcpy(out + 3 * target, face_points + 3 * (size_t)f, 3 * sizeof(float));
+    int n = 1 << patch->depth, owned = patch->owned;
+    float h = 1.0f / (float)n;
+    sdv_four p[16], up[4][4], b[4];
+    sdv_curve curve;
+    curve.degree = 3;
+    curve.origin = sdv_load(work + 4 * (size_t)patch->points[5]);
+    sdv_quad_points(patch, work, curve.origin, p);
+    for (int i = 0; i < 4; i++)
+        if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], h * h, up[i]);
+    for (int row = 0; row <= n; row++) {
+        sdv_four t = sdv_all((float)row * h);
+        for (int i = 0; i < 4; i++) b[i] = sdv_horner3(up[i], t);
+        if (linear) sdv_line(b[1], b[2], curve.a);
+        else sdv_cubic(b[0], b[1], b[2], b[3], h * h, curve.a);
+        int left = 8, inside = 1, right = 2;        // bits of owned: sides 3 and 1
+        if (row == 0) left = 16, inside = 1, right = 32;
+        else if (row == n) left = 128, inside = 4, right = 64;
+        else inside = owned;
+        sdv_put_row(out, grid, patch->row + row, patch->column, 1, n, owned & left,
+                    row > 0 && row < n ? 1 : owned & inside, owned & right, h, &curve);
     }
-    sdv_rows part = step->points;
-    part.count = vertices;
-    sdv_apply(&part, points, out, step->targets);
-    part.count = step->edge_count;
-    part.starts += vertices;
-    if (step->targets) sdv_apply(&part, points, out, step->targets + vertices + faces);
-    else sdv_apply(&part, points, out + 3 * (size_t)(vertices + faces), NULL);
+}
+
+// The 12 control points relative to vertex 0. At each vertex the two points next to those across
+// its edges are known or follow from the others around it: r[0] and r[1] are the vertices of the
+// face, r[2] is across the edge before, r[5] across the edge after.
+static void sdv_triangle_points(const sdv_patch *patch, const float *work, sdv_four origin,
+                                sdv_four *p)
+{
+    static const unsigned char known[6] = { 0x00, 0x3f, 0x0f, 0x27, 0x33, 0x03 };    // by fan
+    static const int own[3] = { 4, 5, 8 };
+    for (int i = 0; i < 3; i++) {
+        const int *ring = sdv_triangle_ring[i];
+        p[own[i]] = sdv_minus(sdv_load(work + 4 * (size_t)patch->points[own[i]]), origin);
+        for (int j = 2; j < 6; j++)
+            if (known[patch->fan[i]] >> j & 1)
+                p[ring[j]] = sdv_minus(sdv_load(work + 4 * (size_t)patch->points[ring[j]]), origin);
+    }
+    for (int i = 0; i < 3; i++) {
+        const int *ring = sdv_triangle_ring[i];
+        sdv_four v = p[own[i]];
+        sdv_fan fan = (sdv_fan)patch->fan[i];
+#define SDV_BEYOND(j, a, b, inside) \
+        p[ring[j]] = sdv_minus(sdv_plus(a, b), inside)
+        if (patch->sharp >> i & 1) SDV_BEYOND(5, v, p[ring[0]], p[ring[1]]);
+        if (patch->sharp >> (i + 2) % 3 & 1) SDV_BEYOND(2, v, p[ring[1]], p[ring[0]]);
+        if (fan == SDV_FAN_FIRST) SDV_BEYOND(4, v, p[ring[3]], p[ring[2]]);
+        if (fan == SDV_FAN_LAST) SDV_BEYOND(3, v, p[ring[4]], p[ring[5]]);
+        if (fan == SDV_FAN_MIDDLE || fan == SDV_FAN_CORNER) {
+            SDV_BEYOND(3, v, fan == SDV_FAN_CORNER ? v : p[ring[2]],
+                       fan == SDV_FAN_CORNER ? p[ring[0]] : p[ring[1]]);
+            SDV_BEYOND(4, v, fan == SDV_FAN_CORNER ? v : p[ring[5]],
+                       fan == SDV_FAN_CORNER ? p[ring[1]] : p[ring[0]]);
+        }
+#undef SDV_BEYOND
+    }
+}
+
+// All owned points of a triangle's patch: its 15 coefficients, then, row by row, those of the row.
+// owned: bits 0 1 2 the sides row 0, slanted, column 0; bits 4 5 6 the vertices.
+static void sdv_triangle_patch(const sdv_patch *patch, const sdv_grid *grid, const float *basis,
+                               const float *work, const sdv_output_points *out)
+{
+    int n = 1 << patch->depth, owned = patch->owned, step = patch->step;
+    float h = 1.0f / (float)n;
+    sdv_four p[12], c[15];
+    sdv_curve curve;
+    curve.degree = 4;
+    curve.origin = sdv_load(work + 4 * (size_t)patch->points[4]);
+    sdv_triangle_points(patch, work, curve.origin, p);
+    for (int i = 0; i < 15; i++) {
+        c[i] = sdv_times(sdv_all(basis[i]), p[0]);
+        for (int j = 1; j < 12; j++)
+            c[i] = sdv_plus(c[i], sdv_times(sdv_all(basis[15 * j + i]), p[j]));
+    }
+    for (int row = 0; row <= n; row++) {
+        sdv_four y = sdv_all((float)row * h);
+        for (int x = 0; x < 5; x++) {
+            sdv_four a = c[sdv_power_index(x, 4 - x)];
+            for (int i = 3 - x; i >= 0; i--)
+                a = sdv_plus(c[sdv_power_index(x, i)], sdv_times(a, y));
+            curve.a[x] = a;
+        }
+        int left = owned & (row == 0 ? 16 : row == n ? 64 : 4);
+        int right = row == n ? 0 : owned & (row == 0 ? 32 : 2);
+        sdv_put_row(out, grid, patch->row + step * row, patch->column, step, n - row, left,
+                    row > 0 || owned & 1, right, h, &curve);
+    }
+}
+
+// Cage faces face to end - 1: the points of the result that belong to them.
+static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
+                           const sdv_output_points *out)
+{
+    const sdv_order *order = &surface->order;
+    sdv_apply_result(&surface->copies, work, face, end, out);
+    for (int level = 0; level < surface->levels; level++) {
+        const sdv_patches *patches = &surface->patches[level];
+        const float *basis = surface->triangle_basis + 180 * (size_t)level;
+        int last = sdv_first_patch(order, patches, end), h = -1;
+        sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+        for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
+            const sdv_patch *patch = &patches->items[i];
+            if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+            if (order->loop) sdv_triangle_patch(patch, &grid, basis, work, out);
+            else sdv_quad_patch(patch, &grid, surface->rules.linear, work, out);
+        }
+    }
+    sdv_apply_result(&surface->last, work, face, end, out);
+}
+
+// The work points: those of level 0 from the input, the others step by step.
+static void sdv_make_work(const subdiv_surface *surface, const float *in, size_t stride, int lanes,
+                          float *work)
+{
+    for (int v = 0; v < surface->cage_vertex_count; v++)
+        for (int i = 0; i < 4; i++)
+            work[4 * (size_t)v + (size_t)i] = i < lanes ? in[stride * (size_t)v + (size_t)i] : 0;
+    for (int i = 0; i < surface->levels; i++) {
+        sdv_apply(&surface->steps[i].faces, work);
+        sdv_apply(&surface->steps[i].vertices, work);
+        sdv_apply(&surface->steps[i].edges, work);
+    }
 }
 
 static void sdv_evaluate(sdv_context *context, const subdiv_surface *surface,
                          const float *positions, float *out)
 {
     sdv_arena arena = { NULL };
-    float *points = SDV_NEW(context, &arena, float, 3 * surface->most_points);
-    float *next = SDV_NEW(context, &arena, float, 3 * surface->most_points);
+    float *work = SDV_NEW(context, &arena, float, 4 * (size_t)surface->work_count);
+    sdv_output_points points = { out, 3, 3 };
     if (!context->result) {
-        sdv_copy(points, positions, (size_t)surface->cage_vertex_count, 3 * sizeof(float));
-        for (int i = 0; i < surface->levels; i++) {
-            sdv_apply_step(&surface->steps[i], points, i + 1 < surface->levels ? next : out);
-            float *swap = points;
-            points = next;
-            next = swap;
-        }
+        sdv_make_work(surface, positions, 3, 3, work);
+        sdv_make_faces(surface, work, 0, surface->order.cage.face_count + 1, &points);
     }
     sdv_arena_free(&arena);
 }
@@ -2150,12 +3242,12 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
 }
 
 // All fine faces in order, the faces of the cage they belong to, and which are holes.
-static void sdv_fill_faces(const subdiv_surface *surface, subdiv_mesh *fine, int *rows)
+static void sdv_fill_faces(const subdiv_surface *surface, subdiv_mesh *fine)
 {
     int *out = fine->face_vertices, face = 0, holes = 0;
     for (int f = 0; f < surface->order.cage.face_count; f++) {
         if (surface->hole[f] && !fine->hole_count) continue;
-        int *end = sdv_fine_faces(&surface->order, f, rows, out);
+        int *end = sdv_fine_faces(&surface->order, f, out);
         for (; out < end; out += fine->face_size, face++) {
             fine->cage_faces[face] = surface->cage_face ? surface->cage_face[f] : f;
             if (surface->hole[f]) fine->holes[holes++] = face;
@@ -2183,16 +3275,13 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
     if (context.result) return context.result;
 
     subdiv_mesh made;
-    sdv_arena scratch = { NULL };
     sdv_new_mesh(&context, &made, &surface->fine, 1);
-    int *rows = SDV_NEW(&context, &scratch, int, 2 * ((size_t)surface->order.n + 1));
     if (!context.result && surface->levels == 0) {
         sdv_fill_copy(surface, &made, positions);
     } else if (!context.result) {
-        sdv_fill_faces(surface, &made, rows);
+        sdv_fill_faces(surface, &made);
         sdv_evaluate(&context, surface, positions, made.positions);
     }
-    sdv_arena_free(&scratch);
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
     return context.result;
@@ -2454,7 +3543,8 @@ static int sdv_read_number(const char *p, const char *end, float *out)
 static uint64_t sdv_shortest(float number, int *ten)
 {
     double size = fabs((double)number);
-    int e = (int)floor(log10(size));
+    int e = (int)floor(log10(size)), binary;
+    int twice_above = frexp(size, &binary) == 0.5;  // the next float is farther above than below
     if (sdv_scale(size, -e) < 1) e--;
     if (sdv_scale(size, -e) >= 10) e++;
     sdv_decimal decimal = { 0, 0, 0, 0, NULL, NULL };
@@ -2465,6 +3555,8 @@ static uint64_t sdv_shortest(float number, int *ten)
         decimal.exponent = *ten;
         decimal.head_count = count;
         if (sdv_nearest_float(&decimal) == (float)size) break;
+        decimal.head += (uint64_t)twice_above;
+        if (twice_above && sdv_nearest_float(&decimal) == (float)size) break;
     }
     for (; decimal.head % 10 == 0; decimal.head /= 10) ++*ten;
     return decimal.head;
@@ -2577,6 +3669,7 @@ typedef struct sdv_obj {
     void        *user;
     sdv_array    text;                  // what was read and not yet used: begin to text.count
     size_t       begin;
+    size_t       newline;               // the next LF, or the end of what was read; 0: look for it
     int          ended;                 // nothing more to read
     int          line, next_line;       // of the statement, and of what follows
     subdiv_mesh  mesh;                  // rules and counts
@@ -2602,7 +3695,8 @@ static sdv_token sdv_next_token(const char **at, const char *end)
     while (p < end && sdv_is_blank(*p)) p++;
     token.begin = p;
     if (p < end && *p == '#') p = token.begin = end;
-    while (p < end && !sdv_is_blank(*p) && *p != '#') p++;
+    // A comment may follow at once, but "-1.#IND" is one token, and not a number.
+    while (p < end && !sdv_is_blank(*p) && (*p != '#' || p[-1] == '.')) p++;
     token.end = *at = p;
     return token;
 }
@@ -2624,9 +3718,9 @@ static void sdv_read_more(sdv_obj *obj)
 {
     sdv_array *text = &obj->text;
     char *data = (char *)(text->block + 1);
-    memmove(data, data + obj->begin, text->count - obj->begin);
+    if (obj->begin) memmove(data, data + obj->begin, text->count - obj->begin);
     text->count -= obj->begin;
-    obj->begin = 0;
+    obj->newline = obj->begin = 0;
     if (text->count == text->capacity) {
         sdv_grow(obj->context, text, 2 * text->capacity, 1);
         if (obj->context->result) return;
@@ -2643,14 +3737,18 @@ static void sdv_read_more(sdv_obj *obj)
     }
 }
 
-// Where the line that goes on at p ends: at LF, CR LF or CR. NULL: not before end.
-static char *sdv_line_end(char *p, char *end, int ended)
+// Where the line that goes on at p ends: at LF, CR LF or CR. NULL: not in what was read.
+static char *sdv_line_end(sdv_obj *obj, char *p)
 {
-    char *newline = (char *)memchr(p, '\n', (size_t)(end - p));
-    char *limit = newline ? newline : end;
+    char *data = (char *)(obj->text.block + 1), *end = data + obj->text.count;
+    if (obj->newline == 0 || data + obj->newline < p) {
+        char *newline = (char *)memchr(p, '\n', (size_t)(end - p));
+        obj->newline = (size_t)((newline ? newline : end) - data);
+    }
+    char *limit = data + obj->newline;
     char *cr = (char *)memchr(p, '\r', (size_t)(limit - p));
     if (cr && cr + 1 < limit) return cr;
-    return newline ? newline : ended ? end : NULL;
+    return limit < end || obj->ended ? limit : NULL;
 }
 
 // The next statement: a line, joined with the next while it ends in a backslash that is not part
@@ -2663,7 +3761,7 @@ static int sdv_next_statement(sdv_obj *obj, const char **begin, const char **end
         char *data = (char *)(obj->text.block + 1) + obj->begin;
         char *last = data + (obj->text.count - obj->begin);
         if (data == last && obj->ended) return 0;
-        char *stop = sdv_line_end(data + scanned, last, obj->ended);
+        char *stop = sdv_line_end(obj, data + scanned);
         if (!stop) {
             scanned = last > data ? (size_t)(last - data) - 1 : 0;  // a CR may be the last byte
             sdv_read_more(obj);
@@ -2706,7 +3804,7 @@ static void sdv_read_vertex(sdv_obj *obj, const char *at, const char *end)
                           "\"%t\" is too large for a float", token.begin, sdv_length(token));
         sdv_push_float(obj->context, &obj->positions, number);
     }
-    obj->mesh.vertex_count++;
+    if (!obj->context->result) obj->mesh.vertex_count++;
 }
 
 // [+-]digits, saturating far outside of every range. Returns where it ends, NULL without digits.
@@ -2877,7 +3975,8 @@ static int sdv_read_tag(sdv_obj *obj, const char *at, const char *end)
         sdv_token token = sdv_next_token(&at, end);
         if (token.begin == token.end) return 0;
         if (sdv_read_index(token.begin, token.end, &value) != token.end) return 0;
-        if (value < 0 || value > INT_MAX) value = INT_MAX;     // found to be missing at the end
+        if (value < 0) return 0;
+        if (value > INT_MAX) value = INT_MAX;       // found to be missing at the end
         sdv_push_int(obj->context, &obj->ints, (int)value);
     }
     for (int64_t i = 0; i < counts[1] && !obj->context->result; i++) {
@@ -2932,12 +4031,14 @@ static void sdv_check_obj(sdv_obj *obj)
 static int sdv_mesh_face(const sdv_obj *obj, int face)
 {
     const int *skipped = (const int *)sdv_items(&obj->skipped);
-    int before = 0;
-    for (size_t i = 0; i < obj->skipped.count && skipped[i] <= face; i++) {
-        if (skipped[i] == face) return -1;
-        before++;
+    size_t low = 0, high = obj->skipped.count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (skipped[middle] == face) return -1;
+        if (skipped[middle] < face) low = middle + 1;
+        else high = middle;
     }
-    return face - before < obj->mesh.face_count ? face - before : -1;
+    return face - (int)low < obj->mesh.face_count ? face - (int)low : -1;
 }
 
 // Drops the tags whose vertices or faces do not exist and counts the rest.
@@ -3008,7 +4109,8 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     sdv_fill_tags(obj, out);
 }
 
-static subdiv_result sdv_load(sdv_context *context, subdiv_mesh *mesh, subdiv_read read, void *user)
+static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subdiv_read read,
+                                   void *user)
 {
     if (mesh) memset(mesh, 0, sizeof *mesh);
     if (!mesh || !read) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
@@ -3036,7 +4138,7 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
                                                   const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    return sdv_load(&context, mesh, read, user);
+    return sdv_load_text(&context, mesh, read, user);
 }
 
 typedef struct sdv_memory {
@@ -3059,7 +4161,7 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *t
 {
     sdv_context context = sdv_begin(opt);
     sdv_memory memory = { (const char *)text, size };
-    return sdv_load(&context, mesh, text || size == 0 ? sdv_read_memory : NULL, &memory);
+    return sdv_load_text(&context, mesh, text || size == 0 ? sdv_read_memory : NULL, &memory);
 }
 
 // ----------------------------------------------------------------------------- >>obj-write
@@ -3197,14 +4299,14 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
     return sdv_save(&context, mesh, write, user, opt);
 }
 
-typedef struct sdv_store {
+typedef struct sdv_kept {
     char *text;
     size_t size, capacity;
-} sdv_store;
+} sdv_kept;
 
 static size_t sdv_write_memory(void *user, const void *bytes, size_t size)
 {
-    sdv_store *store = (sdv_store *)user;
+    sdv_kept *store = (sdv_kept *)user;
     if (store->size < store->capacity) {
         size_t room = store->capacity - store->size;
         sdv_copy(store->text + store->size, bytes, size < room ? size : room, 1);
@@ -3218,7 +4320,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
                                                 const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_store store = { (char *)text, 0, capacity };
+    sdv_kept store = { (char *)text, 0, capacity };
     if (size) *size = 0;
     if (!size || (capacity && !text))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
@@ -3248,8 +4350,8 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
 {
     sdv_context context = sdv_begin(opt);
     if (mesh) memset(mesh, 0, sizeof *mesh);
-    if (!path) {
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "path is NULL");
+    if (!path || !mesh) {
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
         return context.result;
     }
     context.name = path;
@@ -3259,7 +4361,7 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
         sdv_fail(&context, SUBDIV_ERROR_IO, "%s", strerror(errno));
         return context.result;
     }
-    sdv_load(&context, mesh, sdv_read_file, file);
+    sdv_load_text(&context, mesh, sdv_read_file, file);
     fclose(file);
     return context.result;
 }
