@@ -48,8 +48,8 @@
    CONTENTS                     search for the tag, for instance >>masks
    --------
    Public:   >>config    macros you may define        >>types    mesh, options, errors
-             >>refine    the one call, in two steps   >>obj      reading and writing OBJ
-             >>inspect   what a cage is made of
+             >>refine    the one call, in two steps   >>animation  new values, same topology
+             >>inspect   what a cage is made of       >>obj      reading and writing OBJ
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
@@ -253,6 +253,10 @@ typedef struct subdiv_error {
     char warning[256];
 } subdiv_error;
 
+// Lends threads: calls job(context, 0), ..., job(context, count - 1), each once, in any order and
+// on any threads, and returns when all have. The results do not depend on who does what.
+typedef void (*subdiv_run)(void *user, void (*job)(void *context, int i), void *context, int count);
+
 // How to compute. NULL and {0} are right for most people.
 typedef struct subdiv_options {
     int           triangulate;        // Loop: cut larger faces into fans instead of refusing them
@@ -260,7 +264,8 @@ typedef struct subdiv_options {
     int           linear;             // split only: points stay on the cage's faces and edges
     int           no_tags;            // OBJ: write no crease, corner, hole and rule tags
     subdiv_error *error;
-    void         *user;               // handed to SUBDIV_MALLOC and SUBDIV_FREE
+    void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
+    subdiv_run    run;                // your threads; NULL: the caller's alone
 } subdiv_options;
 
 // The text of a result, such as "index out of range". Never NULL.
@@ -293,6 +298,55 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
                                              const float *positions, const subdiv_options *opt);
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
+
+// ----------------------------------------------------------------------------- >>animation
+// Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
+// it for positions every frame, and for whatever else the cage's vertices carry. A surface that
+// was prepared with opt->linear has the same order of points but interpolates straight, as for data
+// that must not overshoot.
+
+// What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
+SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
+SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface);
+SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
+
+// The faces of the result, once: face_vertices [face_size * face_count] and, unless NULL,
+// cage_faces [face_count]. Error ARGUMENT on level 0 if the faces are of several sizes.
+SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
+                                              int *cage_faces, const subdiv_options *opt);
+
+// Bytes of scratch memory that an evaluation of so many channels needs.
+SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
+
+// Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
+// strides in floats, 0 for as many as there are channels. scratch: subdiv_scratch_size bytes,
+// aligned as float; then nothing is allocated. NULL: allocated for the call. Values should be
+// finite, and below FLT_MAX / 2. Floats of out behind the channels are left alone.
+SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
+                                         const float *in, int in_stride,
+                                         float *out, int out_stride,
+                                         void *scratch, const subdiv_options *opt);
+
+// The same in pieces: begin fills the scratch memory, then each call of evaluate_faces makes the
+// points that belong to the cage faces first_face to first_face + face_count - 1 of the ones
+// prepared (under opt->triangulate: of the triangles), in any order and on any threads. All
+// faces together make every point once, with the same bits as subdiv_evaluate.
+//
+// first_point, point_count: only these points of the result are written, out[0] being the first
+// value of first_point: so that a part of the result needs memory for that part alone. The points
+// inside cage face f are those from first_inside(f) to first_inside(f + 1) - 1; the points of
+// vertices and edges are those before first_inside(0).
+SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
+                                               const float *in, int in_stride,
+                                               void *scratch, const subdiv_options *opt);
+SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, int channels,
+                                               const void *scratch,
+                                               int first_face, int face_count,
+                                               int first_point, int point_count,
+                                               float *out, int out_stride,
+                                               const subdiv_options *opt);
+SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface);
+SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face);
 
 // ------------------------------------------------------------------------------- >>inspect
 
@@ -355,11 +409,19 @@ typedef size_t (*subdiv_write)(void *user, const void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
                                                   void *user, const subdiv_options *opt);
 
+// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj, in
+// memory that does not grow with the result (it does with the cage and its levels' rough parts).
+SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
+                                                    const float *positions, subdiv_write write,
+                                                    void *user, const subdiv_options *opt);
+
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);
 SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);
+SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
+                                           const char *path, const subdiv_options *opt);
 #endif
 
 // ------------------------------------------ End of the public API. You can stop reading here.
@@ -1625,6 +1687,12 @@ static int *sdv_triangle_row(const sdv_grid *grid, int row, int *out)
     return out;
 }
 
+// The fine faces in a row of a grid: at most 2 size, of 3 or 4 vertices.
+static int *sdv_grid_row(const sdv_grid *grid, int row, int *out)
+{
+    return grid->triangle ? sdv_triangle_row(grid, row, out) : sdv_quad_row(grid, row, out);
+}
+
 // The fine faces of cage face f.
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
@@ -1632,9 +1700,7 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid = sdv_grid_at(order, h);
-        for (int row = 0; row < grid.size; row++)
-            out = grid.triangle ? sdv_triangle_row(&grid, row, out)
-                                : sdv_quad_row(&grid, row, out);
+        for (int row = 0; row < grid.size; row++) out = sdv_grid_row(&grid, row, out);
     }
     return out;
 }
@@ -2298,7 +2364,7 @@ typedef struct sdv_step {
 struct subdiv_surface {
     sdv_arena arena;
     int       levels;
-    int       cage_vertex_count;
+    int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone
     sdv_patches *patches;               // [levels]
@@ -2307,6 +2373,7 @@ struct subdiv_surface {
     int       work_count;               // work points
     sdv_order order;
     unsigned char *hole;                // [cage face_count]
+    int      *first_face;               // [cage face_count + 1] of each one's fine faces
     int      *cage_face;                // [cage face_count] the user's face; NULL: the same
     subdiv_mesh fine;                   // the result without positions; without faces if levels > 0
 };
@@ -2752,9 +2819,11 @@ static void sdv_prepare_result(subdiv_surface *surface, const subdiv_mesh *work,
     for (int f = 0; f < order->cage.face_count; f++) {
         int size = sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f);
         int parts = order->loop ? n * n : size * (order->m * order->m);
+        surface->first_face[f] = fine->face_count;
         if (!surface->hole[f] || keep_holes) fine->face_count += parts;
         if (surface->hole[f] && keep_holes) fine->hole_count += parts;
     }
+    surface->first_face[order->cage.face_count] = fine->face_count;
 }
 
 // Level 0: everything as it is.
@@ -2763,6 +2832,7 @@ static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, cons
     subdiv_mesh *fine = &surface->fine;
     size_t creases = (size_t)work->crease_count, corners = (size_t)work->corner_count;
     *fine = *work;
+    surface->work_count = work->vertex_count;
     fine->positions = NULL;
     fine->memory = NULL;
     fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * creases);
@@ -2788,6 +2858,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     sdv_cut_holes(context, surface, &work, cage);
     sdv_check_size(context, &work, surface->levels, -1);
     if (context->result) return;
+    surface->cage_face_count = work.face_count;
     if (surface->levels == 0) {
         sdv_prepare_copy(context, surface, &work);
         return;
@@ -2799,6 +2870,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     size_t levels = (size_t)surface->levels;
     surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
     surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
+    surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
     if (work.scheme == SUBDIV_LOOP)
         surface->triangle_basis = SDV_NEW(context, &surface->arena, float, 180 * levels);
     if (context->result) return;
@@ -2861,11 +2933,12 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 // work points; then patches and the last rows make the points of the result, cage face by cage face
 // and in any order, since each point is made once and from work points alone.
 
-typedef struct sdv_output_points {      // four channels of the result, or fewer
-    float *values;                      // of point 0
+typedef struct sdv_window {             // a part of the result, four channels of it or fewer
+    float *values;                      // of point first
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-} sdv_output_points;
+    int    first, end;                  // points first to end - 1 are written
+} sdv_window;
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
 {
@@ -2874,9 +2947,10 @@ static void sdv_store_some(float *p, sdv_four a, int lanes)
     for (int i = 0; i < lanes; i++) p[i] = x[i];
 }
 
-static void sdv_put_point(const sdv_output_points *out, int index, sdv_four a)
+static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
-    float *p = out->values + out->stride * (size_t)index;
+    if (index < out->first || index >= out->end) return;
+    float *p = out->values + out->stride * (size_t)(index - out->first);
     if (out->lanes == 4) sdv_store(p, a);
     else sdv_store_some(p, a, out->lanes);
 }
@@ -2895,10 +2969,10 @@ static sdv_four sdv_row_sum(const sdv_rows *rows, int row, const float *work)
     return sdv_plus(p0, sum);
 }
 
-static void sdv_apply(const sdv_rows *rows, float *work)
+static void sdv_apply(const sdv_rows *rows, int row, int end, float *work)
 {
-    for (int i = 0; i < rows->count; i++)
-        sdv_store(work + 4 * (size_t)(rows->first + i), sdv_row_sum(rows, i, work));
+    for (; row < end; row++)
+        sdv_store(work + 4 * (size_t)(rows->first + row), sdv_row_sum(rows, row, work));
 }
 
 // The first patch of a cage face or one behind it.
@@ -2926,7 +3000,7 @@ static int sdv_first_row(const sdv_rows *rows, int face)
 }
 
 static void sdv_apply_result(const sdv_rows *rows, const float *work, int face, int end,
-                             const sdv_output_points *out)
+                             const sdv_window *out)
 {
     int last = sdv_first_row(rows, end);
     for (int i = sdv_first_row(rows, face); i < last; i++)
@@ -2986,22 +3060,30 @@ static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four t)
     return sdv_plus(curve->origin, p);
 }
 
-// Count points from t on in steps of h, to places index, index + step, ... of the result.
-static void sdv_put_points(const sdv_output_points *out, int index, int step, int count,
-                           const sdv_curve *curve, float t, float h)
+// Count points, those at from h, (from + 1) h, ..., to places index, index + step, ...
+static void sdv_put_points(const sdv_window *out, int index, int step, int count,
+                           const sdv_curve *curve, int from, float h)
 {
-    float *p = out->values + out->stride * (size_t)index;
+    int last = index + step * (count - 1), low = step < 0 ? last : index, high = index + last - low;
+    if (high < out->first || low >= out->end) return;
+    if (low < out->first || high >= out->end) {
+        for (int i = 0; i < count; i++, index += step, from++)
+            sdv_put_point(out, index, sdv_curve_point(curve, sdv_all((float)from * h)));
+        return;
+    }
+    float *p = out->values + out->stride * (size_t)(index - out->first);
     ptrdiff_t next = (ptrdiff_t)out->stride * step;
     // Three lanes side by side are stored as four: the next point overwrites the fourth.
     int whole = out->lanes == 4 ? count : out->lanes == 3 && next == 3 ? count - 1 : 0, i = 0;
-    for (; i < whole; i++, p += next, t += h) sdv_store(p, sdv_curve_point(curve, sdv_all(t)));
-    for (; i < count; i++, p += next, t += h)
-        sdv_store_some(p, sdv_curve_point(curve, sdv_all(t)), out->lanes);
+    for (; i < whole; i++, p += next)
+        sdv_store(p, sdv_curve_point(curve, sdv_all((float)(from + i) * h)));
+    for (; i < count; i++, p += next)
+        sdv_store_some(p, sdv_curve_point(curve, sdv_all((float)(from + i) * h)), out->lanes);
 }
 
 // The row of a patch that starts at a place of the grid, n segments: what lies between its ends if
 // inside is set, and the ends if left and right are. Between the ends the places are evenly spaced.
-static void sdv_put_row(const sdv_output_points *out, const sdv_grid *grid, int row, int column,
+static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, int row, int column,
                         int step, int n, int left, int inside, int right, float h,
                         const sdv_curve *curve)
 {
@@ -3009,11 +3091,10 @@ static void sdv_put_row(const sdv_output_points *out, const sdv_grid *grid, int 
     if (inside && n > 1) {
         int first = sdv_grid_index(grid, row, column + step);
         int second = n > 2 ? sdv_grid_index(grid, row, column + 2 * step) : first;
-        sdv_put_points(out, first, second - first, n - 1, curve, h, h);
+        sdv_put_points(out, first, second - first, n - 1, curve, 1, h);
     }
     if (right)
-        sdv_put_points(out, sdv_grid_index(grid, row, column + n * step), 1, 1, curve,
-                       (float)n * h, h);
+        sdv_put_points(out, sdv_grid_index(grid, row, column + n * step), 1, 1, curve, n, h);
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -3047,7 +3128,7 @@ static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four 
 // All owned points of a quad's patch: the cubics along its four columns, then, row by row, the
 // cubic along the row.
 static void sdv_quad_patch(const sdv_patch *patch, const sdv_grid *grid, int linear,
-                           const float *work, const sdv_output_points *out)
+                           const float *work, const sdv_window *out)
 {
     int n = 1 << patch->depth, owned = patch->owned;
     float h = 1.0f / (float)n;
@@ -3111,7 +3192,7 @@ static void sdv_triangle_points(const sdv_patch *patch, const float *work, sdv_f
 // All owned points of a triangle's patch: its 15 coefficients, then, row by row, those of the row.
 // owned: bits 0 1 2 the sides row 0, slanted, column 0; bits 4 5 6 the vertices.
 static void sdv_triangle_patch(const sdv_patch *patch, const sdv_grid *grid, const float *basis,
-                               const float *work, const sdv_output_points *out)
+                               const float *work, const sdv_window *out)
 {
     int n = 1 << patch->depth, owned = patch->owned, step = patch->step;
     float h = 1.0f / (float)n;
@@ -3142,7 +3223,7 @@ static void sdv_triangle_patch(const sdv_patch *patch, const sdv_grid *grid, con
 
 // Cage faces face to end - 1: the points of the result that belong to them.
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
-                           const sdv_output_points *out)
+                           const sdv_window *out)
 {
     const sdv_order *order = &surface->order;
     sdv_apply_result(&surface->copies, work, face, end, out);
@@ -3161,31 +3242,237 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_apply_result(&surface->last, work, face, end, out);
 }
 
-// The work points: those of level 0 from the input, the others step by step.
-static void sdv_make_work(const subdiv_surface *surface, const float *in, size_t stride, int lanes,
-                          float *work)
+// Jobs of an evaluation: each makes a share of its points.
+typedef struct sdv_evaluation {
+    const subdiv_surface *surface;
+    int          channels;
+    const float *in;                    // channels a vertex
+    size_t       in_stride;
+    float       *work;                  // [4 * work_count] for every four channels
+    float       *out;
+    size_t       out_stride;
+    int          first_point, end_point;
+    int          first_face, end_face;
+    int          step;
+    int          jobs;
+} sdv_evaluation;
+
+static void sdv_run(const subdiv_options *opt, void (*job)(void *, int), void *context, int jobs)
 {
-    for (int v = 0; v < surface->cage_vertex_count; v++)
-        for (int i = 0; i < 4; i++)
-            work[4 * (size_t)v + (size_t)i] = i < lanes ? in[stride * (size_t)v + (size_t)i] : 0;
-    for (int i = 0; i < surface->levels; i++) {
-        sdv_apply(&surface->steps[i].faces, work);
-        sdv_apply(&surface->steps[i].vertices, work);
-        sdv_apply(&surface->steps[i].edges, work);
+    if (opt && opt->run && jobs > 1) opt->run(opt->user, job, context, jobs);
+    else for (int i = 0; i < jobs; i++) job(context, i);
+}
+
+// Job i's share of count things starts here.
+static int sdv_share(int count, int i, int jobs)
+{
+    return (int)((int64_t)count * i / jobs);
+}
+
+static int sdv_jobs(int64_t work, int64_t least)
+{
+    int64_t jobs = work / least;
+    return jobs > 256 ? 256 : jobs < 1 ? 1 : (int)jobs;
+}
+
+static void sdv_input_job(void *context, int job)
+{
+    const sdv_evaluation *e = (const sdv_evaluation *)context;
+    int v = sdv_share(e->surface->cage_vertex_count, job, e->jobs);
+    int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
+    for (; v < end; v++) {
+        const float *in = e->in + e->in_stride * (size_t)v;
+        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++) {
+            float *group = e->work + (size_t)(c / 4) * 4 * (size_t)e->surface->work_count;
+            group[4 * (size_t)v + (size_t)(c & 3)] = c < e->channels ? in[c] : 0;
+        }
     }
 }
 
-static void sdv_evaluate(sdv_context *context, const subdiv_surface *surface,
-                         const float *positions, float *out)
+static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int job)
 {
-    sdv_arena arena = { NULL };
-    float *work = SDV_NEW(context, &arena, float, 4 * (size_t)surface->work_count);
-    sdv_output_points points = { out, 3, 3 };
-    if (!context->result) {
-        sdv_make_work(surface, positions, 3, 3, work);
-        sdv_make_faces(surface, work, 0, surface->order.cage.face_count + 1, &points);
+    int row = sdv_share(rows->count, job, e->jobs), end = sdv_share(rows->count, job + 1, e->jobs);
+    for (int c = 0; c < e->channels; c += 4)
+        sdv_apply(rows, row, end, e->work + (size_t)c * (size_t)e->surface->work_count);
+}
+
+static void sdv_face_point_job(void *context, int job)
+{
+    const sdv_evaluation *e = (const sdv_evaluation *)context;
+    sdv_apply_share(e, &e->surface->steps[e->step].faces, job);
+}
+
+static void sdv_point_job(void *context, int job)
+{
+    const sdv_evaluation *e = (const sdv_evaluation *)context;
+    sdv_apply_share(e, &e->surface->steps[e->step].vertices, job);
+    sdv_apply_share(e, &e->surface->steps[e->step].edges, job);
+}
+
+// The work points: those of level 0 from the input, the others step by step.
+static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
+{
+    const subdiv_surface *surface = e->surface;
+    e->jobs = sdv_jobs(surface->cage_vertex_count, 4096);
+    sdv_run(opt, sdv_input_job, e, e->jobs);
+    for (e->step = 0; e->step < surface->levels; e->step++) {
+        const sdv_step *step = &surface->steps[e->step];
+        e->jobs = sdv_jobs(step->faces.count, 4096);
+        sdv_run(opt, sdv_face_point_job, e, e->jobs);
+        e->jobs = sdv_jobs(step->vertices.count + step->edges.count, 4096);
+        sdv_run(opt, sdv_point_job, e, e->jobs);
     }
+}
+
+static void sdv_face_job(void *context, int job)
+{
+    const sdv_evaluation *e = (const sdv_evaluation *)context;
+    const subdiv_surface *surface = e->surface;
+    int faces = e->end_face - e->first_face;
+    int face = e->first_face + sdv_share(faces, job, e->jobs);
+    int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = e->channels - c < 4 ? e->channels - c : 4;
+        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point };
+        sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
+    }
+}
+
+// Level 0 has no patches and rows: its work points are the result.
+static void sdv_copy_work(const sdv_evaluation *e)
+{
+    for (int v = e->first_point; v < e->end_point; v++)
+        for (int c = 0; c < e->channels; c++)
+            e->out[e->out_stride * (size_t)(v - e->first_point) + (size_t)c] =
+                e->work[(size_t)(c / 4) * 4 * (size_t)e->surface->work_count +
+                        4 * (size_t)v + (size_t)(c & 3)];
+}
+
+static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
+{
+    const subdiv_surface *surface = e->surface;
+    if (surface->levels == 0) {
+        if (e->first_face == 0) sdv_copy_work(e);
+        return;
+    }
+    if (surface->cage_face_count == 0) e->end_face = 1;    // vertices without faces go with face 0
+    e->jobs = sdv_jobs(e->end_face - e->first_face, 1);
+    sdv_run(opt, sdv_face_job, e, e->jobs);
+}
+
+SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface)
+{
+    return surface->fine.vertex_count;
+}
+
+SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface)
+{
+    return surface->fine.face_count;
+}
+
+SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface)
+{
+    return surface->fine.face_size;
+}
+
+SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
+{
+    return surface->cage_face_count;
+}
+
+SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
+{
+    if (surface->levels == 0 || surface->cage_face_count == 0) return surface->fine.vertex_count;
+    return sdv_first_inside(&surface->order, cage_face);
+}
+
+SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
+{
+    return (size_t)(channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
+}
+
+static void sdv_check_values(sdv_context *context, const subdiv_surface *surface, int channels,
+                             const void *values, int *stride)
+{
+    if (!surface || !values) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (channels < 1) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "channels is %d", channels);
+    if (*stride == 0) *stride = channels;
+    if (*stride < channels)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d channels",
+                 *stride, channels);
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
+                                               const float *in, int in_stride,
+                                               void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_values(&context, surface, channels, in, &in_stride);
+    sdv_check_values(&context, surface, channels, scratch, &in_stride);
+    if (context.result) return context.result;
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.surface = surface;
+    evaluation.channels = channels;
+    evaluation.in = in;
+    evaluation.in_stride = (size_t)in_stride;
+    evaluation.work = (float *)scratch;
+    sdv_make_work(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, int channels,
+                                               const void *scratch,
+                                               int first_face, int face_count,
+                                               int first_point, int point_count,
+                                               float *out, int out_stride,
+                                               const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_values(&context, surface, channels, out, &out_stride);
+    sdv_check_values(&context, surface, channels, scratch, &out_stride);
+    if (context.result) return context.result;
+    if (first_face < 0 || face_count < 0 || first_face > surface->cage_face_count - face_count)
+        sdv_fail(&context, SUBDIV_ERROR_INDEX, "the cage has %d faces", surface->cage_face_count);
+    if (first_point < 0 || point_count < 0 ||
+        first_point > surface->fine.vertex_count - point_count)
+        sdv_fail(&context, SUBDIV_ERROR_INDEX, "the result has %d points",
+                 surface->fine.vertex_count);
+    if (context.result) return context.result;
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.surface = surface;
+    evaluation.channels = channels;
+    evaluation.work = (float *)(size_t)scratch;     // only read
+    evaluation.out = out;
+    evaluation.out_stride = (size_t)out_stride;
+    evaluation.first_point = first_point;
+    evaluation.end_point = first_point + point_count;
+    evaluation.first_face = first_face;
+    evaluation.end_face = first_face + face_count;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
+                                         const float *in, int in_stride,
+                                         float *out, int out_stride,
+                                         void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = { NULL };
+    sdv_check_values(&context, surface, channels, in, &in_stride);
+    sdv_check_values(&context, surface, channels, out, &out_stride);
+    if (context.result) return context.result;
+    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context.result)
+        context.result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
+    if (!context.result)
+        context.result = subdiv_evaluate_faces(surface, channels, scratch,
+                                               0, surface->cage_face_count,
+                                               0, surface->fine.vertex_count, out, out_stride, opt);
     sdv_arena_free(&arena);
+    return context.result;
 }
 
 // Lays arrays out in one block: first called with base NULL to add up the size.
@@ -3241,28 +3528,71 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
         sdv_copy(mesh->face_sizes, model->face_sizes, (size_t)model->face_count, sizeof(int));
 }
 
-// All fine faces in order, the faces of the cage they belong to, and which are holes.
-static void sdv_fill_faces(const subdiv_surface *surface, subdiv_mesh *fine)
+// Jobs that write faces: the vertices of each and, unless NULL, the cage face it belongs to.
+typedef struct sdv_faces_out {
+    const subdiv_surface *surface;
+    int *face_vertices, *cage_faces;
+    int  jobs;
+} sdv_faces_out;
+
+static void sdv_fine_faces_job(void *context, int job)
 {
-    int *out = fine->face_vertices, face = 0, holes = 0;
-    for (int f = 0; f < surface->order.cage.face_count; f++) {
-        if (surface->hole[f] && !fine->hole_count) continue;
-        int *end = sdv_fine_faces(&surface->order, f, out);
-        for (; out < end; out += fine->face_size, face++) {
-            fine->cage_faces[face] = surface->cage_face ? surface->cage_face[f] : f;
-            if (surface->hole[f]) fine->holes[holes++] = face;
-        }
+    const sdv_faces_out *out = (const sdv_faces_out *)context;
+    const subdiv_surface *surface = out->surface;
+    int end = sdv_share(surface->cage_face_count, job + 1, out->jobs);
+    for (int f = sdv_share(surface->cage_face_count, job, out->jobs); f < end; f++) {
+        int first = surface->first_face[f], last = surface->first_face[f + 1];
+        if (first == last) continue;
+        sdv_fine_faces(&surface->order, f,
+                       out->face_vertices + (size_t)first * (size_t)surface->fine.face_size);
+        int cage_face = surface->cage_face ? surface->cage_face[f] : f;
+        for (int i = first; i < last && out->cage_faces; i++) out->cage_faces[i] = cage_face;
     }
 }
 
-static void sdv_fill_copy(const subdiv_surface *surface, subdiv_mesh *fine, const float *positions)
+static void sdv_copy_faces_out(const subdiv_surface *surface, int *face_vertices, int *cage_faces)
 {
-    const subdiv_mesh *model = &surface->fine;
-    sdv_copy(fine->positions, positions, (size_t)fine->vertex_count, 3 * sizeof(float));
-    sdv_copy(fine->face_vertices, model->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
-    sdv_copy(fine->holes, model->holes, (size_t)fine->hole_count, sizeof(int));
-    for (int f = 0; f < fine->face_count; f++)
-        fine->cage_faces[f] = surface->cage_face ? surface->cage_face[f] : f;
+    const subdiv_mesh *fine = &surface->fine;
+    sdv_copy(face_vertices, fine->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
+    for (int f = 0; f < fine->face_count && cage_faces; f++)
+        cage_faces[f] = surface->cage_face ? surface->cage_face[f] : f;
+}
+
+static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertices, int *cage_faces,
+                                const subdiv_options *opt)
+{
+    sdv_faces_out out = { surface, face_vertices, cage_faces, 1 };
+    if (surface->levels == 0) {
+        sdv_copy_faces_out(surface, face_vertices, cage_faces);
+        return;
+    }
+    out.jobs = sdv_jobs(surface->cage_face_count, 1);
+    sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
+                                              int *cage_faces, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (!surface || !face_vertices)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (!surface->fine.face_size && surface->fine.face_count)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
+    if (!context.result) sdv_make_fine_faces(surface, face_vertices, cage_faces, opt);
+    return context.result;
+}
+
+// The fine faces that are holes, in order.
+static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
+{
+    if (surface->levels == 0) {
+        sdv_copy(holes, surface->fine.holes, (size_t)surface->fine.hole_count, sizeof(int));
+        return;
+    }
+    for (int f = 0; f < surface->cage_face_count && surface->fine.hole_count; f++) {
+        int end = surface->hole[f] ? surface->first_face[f + 1] : 0;
+        for (int i = surface->first_face[f]; i < end; i++) *holes++ = i;
+    }
 }
 
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
@@ -3276,11 +3606,10 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
 
     subdiv_mesh made;
     sdv_new_mesh(&context, &made, &surface->fine, 1);
-    if (!context.result && surface->levels == 0) {
-        sdv_fill_copy(surface, &made, positions);
-    } else if (!context.result) {
-        sdv_fill_faces(surface, &made);
-        sdv_evaluate(&context, surface, positions, made.positions);
+    if (!context.result) {
+        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
+        sdv_fill_holes(surface, made.holes);
+        context.result = subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
@@ -4257,21 +4586,29 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
     }
 }
 
+static void sdv_write_vertices(sdv_output *out, const float *positions, int count)
+{
+    for (int v = 0; v < count && !out->context->result; v++, positions += 3) {
+        sdv_write_text(out, "v");
+        for (int i = 0; i < 3; i++) sdv_write_float(out, positions[i]);
+        sdv_write_text(out, "\n");
+    }
+}
+
+static const int *sdv_write_face(sdv_output *out, const int *vertices, int size)
+{
+    sdv_write_text(out, "f");
+    for (int i = 0; i < size; i++) sdv_write_int(out, (int64_t)vertices[i] + 1);
+    sdv_write_text(out, "\n");
+    return vertices + size;
+}
+
 static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
 {
-    for (int v = 0; v < mesh->vertex_count && !out->context->result; v++) {
-        sdv_write_text(out, "v");
-        const float *p = mesh->positions + 3 * (size_t)v;
-        for (int i = 0; i < 3; i++) sdv_write_float(out, p[i]);
-        sdv_write_text(out, "\n");
-    }
     const int *vertices = mesh->face_vertices;
-    for (int f = 0; f < mesh->face_count && !out->context->result; f++) {
-        sdv_write_text(out, "f");
-        for (int i = sdv_face_size(mesh, f); i > 0; i--)
-            sdv_write_int(out, (int64_t)*vertices++ + 1);
-        sdv_write_text(out, "\n");
-    }
+    sdv_write_vertices(out, mesh->positions, mesh->vertex_count);
+    for (int f = 0; f < mesh->face_count && !out->context->result; f++)
+        vertices = sdv_write_face(out, vertices, sdv_face_size(mesh, f));
 }
 
 static subdiv_result sdv_save(sdv_context *context, const subdiv_mesh *mesh, subdiv_write write,
@@ -4297,6 +4634,106 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
 {
     sdv_context context = sdv_begin(opt);
     return sdv_save(&context, mesh, write, user, opt);
+}
+
+// The last cage face whose inside begins at or before a point of the result.
+static int sdv_face_inside(const subdiv_surface *surface, int point)
+{
+    int low = 0, high = surface->cage_face_count;
+    while (low + 1 < high) {
+        int middle = low + (high - low) / 2;
+        if (sdv_first_inside(&surface->order, middle) <= point) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+#define SDV_STREAM_POINTS (1 << 20)
+
+// The vertices of the result, a window at a time. The first windows hold the points of vertices
+// and edges, which any face may make; the others those inside a few faces, or a part of one.
+static void sdv_stream_vertices(sdv_output *out, const subdiv_surface *surface,
+                                const float *positions, float *window, void *scratch,
+                                const subdiv_options *opt)
+{
+    int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
+    subdiv_result result = subdiv_evaluate_begin(surface, 3, positions, 3, scratch, opt);
+    for (int first = 0; first < total && !result && !out->context->result; first = end) {
+        int limit = first < inside ? inside : total, face = 0, faces = surface->cage_face_count;
+        end = limit - first > SDV_STREAM_POINTS ? first + SDV_STREAM_POINTS : limit;
+        if (first >= inside) {
+            face = sdv_face_inside(surface, first);
+            faces = sdv_face_inside(surface, end - 1) + 1 - face;
+        }
+        result = subdiv_evaluate_faces(surface, 3, scratch, face, faces, first, end - first,
+                                       window, 3, opt);
+        sdv_write_vertices(out, window, end - first);
+    }
+}
+
+// The faces, a row of a grid at a time.
+static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row)
+{
+    const sdv_order *order = &surface->order;
+    for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
+        if (surface->first_face[f] == surface->first_face[f + 1]) continue;
+        int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
+        for (int h = start; h < (sdv_is_ngon(order, f) ? end : start + 1); h++) {
+            sdv_grid grid = sdv_grid_at(order, h);
+            for (int i = 0; i < grid.size && !out->context->result; i++) {
+                const int *last = sdv_grid_row(&grid, i, row);
+                for (const int *v = row; v < last;)
+                    v = sdv_write_face(out, v, surface->fine.face_size);
+            }
+        }
+    }
+}
+
+static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surface,
+                                const float *positions, subdiv_write write, void *user,
+                                const subdiv_options *opt)
+{
+    sdv_arena arena = { NULL };
+    sdv_output out = { context, write, user, NULL, 0 };
+    subdiv_mesh fine = surface->fine;
+    int points = fine.vertex_count < SDV_STREAM_POINTS ? fine.vertex_count : SDV_STREAM_POINTS;
+    out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
+    float *window = SDV_NEW(context, &arena, float, 3 * (size_t)points);
+    char *scratch = SDV_NEW(context, &arena, char, subdiv_scratch_size(surface, 3));
+    int *row = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
+    fine.holes = SDV_NEW(context, &arena, int, fine.hole_count);
+    if (!context->result) {
+        sdv_fill_holes(surface, fine.holes);
+        sdv_stream_vertices(&out, surface, positions, window, scratch, opt);
+        sdv_stream_faces(&out, surface, row);
+        if (!opt || !opt->no_tags) sdv_write_tags(&out, &fine);
+        sdv_flush(&out);
+    }
+    sdv_arena_free(&arena);
+    return context->result;
+}
+
+// Level 0 is a copy, no larger than the cage.
+static subdiv_result sdv_stream_copy(const subdiv_surface *surface, const float *positions,
+                                     subdiv_write write, void *user, const subdiv_options *opt)
+{
+    subdiv_mesh copy;
+    subdiv_result result = subdiv_surface_mesh(&copy, surface, positions, opt);
+    if (!result) result = subdiv_save_obj_callback(&copy, write, user, opt);
+    subdiv_mesh_free(&copy);
+    return result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
+                                                    const float *positions, subdiv_write write,
+                                                    void *user, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (!surface || !write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_positions(&context, positions, surface->cage_vertex_count, FLT_MAX / 2);
+    if (context.result) return context.result;
+    if (surface->levels == 0) return sdv_stream_copy(surface, positions, write, user, opt);
+    return sdv_stream(&context, surface, positions, write, user, opt);
 }
 
 typedef struct sdv_kept {
@@ -4333,6 +4770,14 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
 
 #ifndef SUBDIV_NO_STDIO
 
+static FILE *sdv_open(sdv_context *context, const char *path, const char *mode)
+{
+    errno = 0;
+    FILE *file = fopen(path, mode);
+    if (!file) sdv_fail(context, SUBDIV_ERROR_IO, "%s", strerror(errno));
+    return file;
+}
+
 static size_t sdv_read_file(void *user, void *bytes, size_t size)
 {
     FILE *file = (FILE *)user;
@@ -4355,12 +4800,8 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
         return context.result;
     }
     context.name = path;
-    errno = 0;
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        sdv_fail(&context, SUBDIV_ERROR_IO, "%s", strerror(errno));
-        return context.result;
-    }
+    FILE *file = sdv_open(&context, path, "rb");
+    if (!file) return context.result;
     sdv_load_text(&context, mesh, sdv_read_file, file);
     fclose(file);
     return context.result;
@@ -4374,14 +4815,28 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
     else sdv_check_all(&context, mesh);            // before the file is overwritten
     if (context.result) return context.result;
     context.name = path;
-    errno = 0;
-    FILE *file = fopen(path, "wb");
-    if (!file) {
-        sdv_fail(&context, SUBDIV_ERROR_IO, "%s", strerror(errno));
-        return context.result;
-    }
+    FILE *file = sdv_open(&context, path, "wb");
+    if (!file) return context.result;
     sdv_save(&context, mesh, sdv_write_file, file, opt);
     if (fclose(file) && !context.result) sdv_fail(&context, SUBDIV_ERROR_IO, "writing failed");
+    return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
+                                           const char *path, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (!surface || !path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_positions(&context, positions, surface->cage_vertex_count, FLT_MAX / 2);
+    if (context.result) return context.result;
+    context.name = path;
+    FILE *file = sdv_open(&context, path, "wb");
+    if (!file) return context.result;
+    if (surface->levels == 0)
+        context.result = sdv_stream_copy(surface, positions, sdv_write_file, file, opt);
+    else
+        sdv_stream(&context, surface, positions, sdv_write_file, file, opt);
+    if (fclose(file)) sdv_fail(&context, SUBDIV_ERROR_IO, "writing failed");
     return context.result;
 }
 
@@ -4391,6 +4846,10 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
 #undef SDV_NEW
 #undef SDV_IMPLIED
 #undef SDV_OUTPUT_SIZE
+#undef SDV_STREAM_POINTS
+#undef SDV_QUAD_PATCH_DEPTH
+#undef SDV_LOOP_PATCH_DEPTH
+#undef SDV_SIMD
 #endif // SUBDIV_IMPLEMENTATION
 
 /* Either of these two licences, as you like.
