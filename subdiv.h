@@ -469,6 +469,11 @@ static sdv_four sdv_all(float x)                       { return _mm_set1_ps(x); 
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
+static void     sdv_store_three(float *p, sdv_four a)
+{
+    _mm_storel_pi((__m64 *)p, a);
+    _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
+}
 #elif defined(__ARM_NEON) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
@@ -479,6 +484,11 @@ static sdv_four sdv_all(float x)                       { return vdupq_n_f32(x); 
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
+static void     sdv_store_three(float *p, sdv_four a)
+{
+    vst1_f32(p, vget_low_f32(a));
+    vst1q_lane_f32(p + 2, a, 2);
+}
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #define SDV_SIMD
@@ -489,6 +499,11 @@ static sdv_four sdv_all(float x)                       { return wasm_f32x4_splat
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
+static void     sdv_store_three(float *p, sdv_four a)
+{
+    wasm_v128_store64_lane(p, a, 0);
+    wasm_v128_store32_lane(p + 2, a, 2);
+}
 #endif
 
 #ifndef SDV_SIMD
@@ -503,6 +518,11 @@ static sdv_four sdv_load(const float *p)
 static void sdv_store(float *p, sdv_four a)
 {
     for (int i = 0; i < 4; i++) p[i] = a.x[i];
+}
+
+static void sdv_store_three(float *p, sdv_four a)
+{
+    for (int i = 0; i < 3; i++) p[i] = a.x[i];
 }
 
 static sdv_four sdv_all(float x)
@@ -961,12 +981,19 @@ static int sdv_face_of(const sdv_level *level, int h)
     return level->face_of[h];
 }
 
-// The face-vertex so many places after h in its face.
-static int sdv_around(const sdv_level *level, int h, int steps)
+// The face-vertices before and after h in its face.
+static int sdv_previous(const sdv_level *level, int h)
 {
-    int face = sdv_face_of(level, h), start = sdv_face_start(level, face);
-    int size = sdv_face_end(level, face) - start;
-    return start + (h - start + steps) % size;
+    if (level->face_size == 4) return (h & 3) ? h - 1 : h + 3;
+    int face = sdv_face_of(level, h);
+    return h > sdv_face_start(level, face) ? h - 1 : sdv_face_end(level, face) - 1;
+}
+
+static int sdv_next(const sdv_level *level, int h)
+{
+    if (level->face_size == 4) return (h & 3) < 3 ? h + 1 : h - 3;
+    int face = sdv_face_of(level, h);
+    return h + 1 < sdv_face_end(level, face) ? h + 1 : sdv_face_start(level, face);
 }
 
 // The number of vertices of the face of h.
@@ -974,12 +1001,6 @@ static int sdv_size_of(const sdv_level *level, int h)
 {
     int face = sdv_face_of(level, h);
     return sdv_face_end(level, face) - sdv_face_start(level, face);
-}
-
-static int sdv_previous(const sdv_level *level, int h)
-{
-    int face = sdv_face_of(level, h);
-    return h > sdv_face_start(level, face) ? h - 1 : sdv_face_end(level, face) - 1;
 }
 
 static sdv_place sdv_first_place(int h)
@@ -1132,7 +1153,7 @@ static int sdv_is_fan(const sdv_level *level, int v)
             first = e;
             h = level->edge_faces.items[level->edge_faces.starts[e]];
             if (level->face_vertices[h] == v) break;
-            h = sdv_around(level, h, 1);
+            h = sdv_next(level, h);
         }
         if (first < 0) return 0;
     }
@@ -1556,7 +1577,7 @@ typedef struct sdv_order {
 static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 {
     const sdv_level *cage = &order->cage;
-    int a = cage->face_vertices[h], b = cage->face_vertices[sdv_around(cage, h, 1)];
+    int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
     int first = order->first_edge_point + cage->face_edges[h] * (order->n - 1) - 1;
     sdv_side forward = { first, 1 }, reverse = { first + order->n, -1 };
     return (a > b) != backwards ? reverse : forward;
@@ -1647,6 +1668,17 @@ static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
     if (column == 0) return sdv_side_index(grid, 3, row);
     if (row + column == n) return sdv_side_index(grid, 1, row);
     return grid->inside + (row - 1) * (n - 1) - row * (row - 1) / 2 + column - 1;
+}
+
+// Where the points of a row stand, but those of other sides: first + step * column.
+static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
+{
+    int n = grid->size;
+    sdv_side line = { grid->inside + (row - 1) * (n - 1) - 1, 1 };
+    if (row == 0) return grid->side[0];
+    if (grid->triangle) line.first -= row * (row - 1) / 2;
+    else if (row == n) return grid->side[2];
+    return line;
 }
 
 static int sdv_grid_index(const sdv_grid *grid, int row, int column)
@@ -2031,7 +2063,7 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
 // This gives the B-spline curve along the edge, on every level: the masks of a crease.
 
 typedef struct sdv_patch {
-    int points[16];                     // work points; what is mirrored is not set
+    int points[16];                     // work points; for those that are mirrored, any
     int h;                              // the cage face-vertex of its grid (see >>order)
     int row, column;                    // of vertex 0 on that grid, in segments of the last level
     signed char step;                   // -1 for a triangle that is turned by half
@@ -2049,75 +2081,6 @@ typedef struct sdv_patches {
     sdv_patch *items;                   // [count] in the order of cage faces
     int count;
 } sdv_patches;
-
-// The same for triangles: the control points of level k lie on a polynomial of degree 4. With p the
-// polynomial of the limit, a quartic box spline [Stam98], that is
-//
-//     p  -  h^2 / 12 S p  +  11 h^4 / 2880 S S p        S = 2 (Dx Dx - Dx Dy + Dy Dy), h = 2^-k
-//
-// the inverse of summing box splines of width h: the product of (sinh(hD/2) / (hD/2))^-2 over the
-// three directions D of the grid. S sums the second derivatives in these directions.
-
-static const int sdv_power[15][2] = {   // exponents of x (column) and y (row)
-    {0,0}, {1,0}, {2,0}, {3,0}, {4,0}, {0,1}, {1,1}, {2,1}, {3,1}, {0,2}, {1,2}, {2,2}, {0,3},
-    {1,3}, {0,4} };
-
-// 24 times the coefficients of p in the 12 control points, numbered as in sdv_gather_triangle.
-static const signed char sdv_box_spline[15][12] = {
-    {  2,  2, 0,  2, 12,  2,  2,  0,  2,  0, 0,  0 },
-    { -4,  4, 0, -8,  0,  8, -4,  0,  4,  0, 0,  0 },
-    {  0,  0, 0, 12,-24, 12,  0,  0,  0,  0, 0,  0 },
-    {  4, -8, 4, -8, 16, -8,  4,  0, -8,  0, 0,  4 },
-    { -2,  4,-2,  2, -2, -2, -2,  2,  4,  0, 0, -2 },
-    { -8, -4, 0, -4,  0,  4,  4,  0,  8,  0, 0,  0 },
-    { 12,-12, 0, 12,-24, 12,-12,  0, 12,  0, 0,  0 },
-    {  0,  0, 0,-12, 24,-12, 12,  0,-24,  0, 0, 12 },
-    { -4,  8,-4,  4, -4, -4, -4,  4,  8,  0, 0, -4 },
-    { 12,  0, 0,  0,-24,  0,  0,  0, 12,  0, 0,  0 },
-    {-12, 12, 0,  0, 24,-24,  0,  0,-12,  0, 0, 12 },
-    {  0,  0, 0,  0,  0,  0,  0,  0,  0,  0, 0,  0 },
-    { -8,  4, 0,  4, 16, -8, -8,  0, -8,  4, 0,  4 },
-    {  4, -4, 0, -4, -4,  8,  8,  0, -4, -4, 4, -4 },
-    {  2, -2, 0, -2, -2,  4,  4,  0, -2, -2, 2, -2 } };
-
-static int sdv_power_index(int x, int y)
-{
-    return y * 5 - y * (y - 1) / 2 + x;
-}
-
-// out = S in, both by their coefficients.
-static void sdv_second_derivatives(const double *in, double *out)
-{
-    for (int i = 0; i < 15; i++) out[i] = 0;
-    for (int i = 0; i < 15; i++) {
-        int x = sdv_power[i][0], y = sdv_power[i][1];
-        if (x >= 2) out[sdv_power_index(x - 2, y)] += 2 * x * (x - 1) * in[i];
-        if (y >= 2) out[sdv_power_index(x, y - 2)] += 2 * y * (y - 1) * in[i];
-        if (x >= 1 && y >= 1) out[sdv_power_index(x - 1, y - 1)] -= 2 * x * y * in[i];
-    }
-}
-
-// basis[15 * j + i]: the coefficient of power i for a control point j that is 1, the others 0.
-static void sdv_triangle_basis(double h, float *basis)
-{
-    double hh = h * h;
-    for (int j = 0; j < 12; j++) {
-        double p[15], s[15], ss[15];
-        for (int i = 0; i < 15; i++) p[i] = sdv_box_spline[i][j] / 24.0;
-        sdv_second_derivatives(p, s);
-        sdv_second_derivatives(s, ss);
-        for (int i = 0; i < 15; i++)
-            basis[15 * j + i] = (float)(p[i] - hh / 12 * s[i] + 11 * hh * hh / 2880 * ss[i]);
-    }
-}
-
-static void sdv_linear_triangle_basis(float *basis)
-{
-    memset(basis, 0, 180 * sizeof(float));
-    basis[15 * 4] = 1;                  // p4 + (p5 - p4) x + (p8 - p4) y
-    basis[15 * 4 + 1] = basis[15 * 4 + 5] = -1;
-    basis[15 * 5 + 1] = basis[15 * 8 + 5] = 1;
-}
 
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
@@ -2142,6 +2105,7 @@ typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_EDGED, SDV_PINNED } sdv_kind;
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
     int sharp = 0, stay = 0, last = 0, faces = sdv_list_size(&level->vertex_faces, v);
+    if (rules->linear) return SDV_FREE;
     for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
         float s = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
         sharp += s > 0;
@@ -2166,9 +2130,9 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
 // back. -1 across a sharp edge.
 static int sdv_across(const sdv_level *level, int h)
 {
-    int e = level->face_edges[h];
-    const int *two = level->edge_faces.items + level->edge_faces.starts[e];
-    if (level->edge_sharpness[e] > 0 || sdv_list_size(&level->edge_faces, e) != 2) return -1;
+    int e = level->face_edges[h], first = level->edge_faces.starts[e];
+    const int *two = level->edge_faces.items + first;
+    if (level->edge_sharpness[e] > 0 || level->edge_faces.starts[e + 1] - first != 2) return -1;
     return two[0] == h ? two[1] : two[0];
 }
 
@@ -2176,7 +2140,7 @@ static int sdv_across(const sdv_level *level, int h)
 static int sdv_clockwise(const sdv_level *level, int h)
 {
     int across = sdv_across(level, h);
-    return across < 0 ? -1 : sdv_around(level, across, 1);
+    return across < 0 ? -1 : sdv_next(level, across);
 }
 
 static int sdv_counter_clockwise(const sdv_level *level, int h)
@@ -2226,13 +2190,14 @@ static void sdv_gather_quad(const sdv_level *level, int h, const sdv_fan *fan, i
 {
     static const int own[4] = { 5, 6, 10, 9 }, diagonal[4] = { 0, 3, 15, 12 };
     static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
+    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, h);
     for (int i = 0; i < 4; i++) {
         points[own[i]] = sdv_point_at(level, h + i);
         int across = sdv_across(level, h + i);
         if (across < 0) continue;
-        int at = sdv_around(level, across, 1);      // the face-vertex at vertex i
-        points[beside[i]] = sdv_point_at(level, sdv_around(level, at, 1));
-        points[next[i]] = sdv_point_at(level, sdv_around(level, at, 2));
+        int at = sdv_next(level, across);      // the face-vertex at vertex i
+        points[beside[i]] = sdv_point_at(level, sdv_next(level, at));
+        points[next[i]] = sdv_point_at(level, sdv_next(level, sdv_next(level, at)));
         if (fan[i] != SDV_FAN_RING) continue;
         int opposite = sdv_across(level, at);
         points[diagonal[i]] = sdv_point_at(level, sdv_previous(level, opposite));
@@ -2256,9 +2221,10 @@ static const int sdv_triangle_ring[3][6] = {
 static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fan, int *points)
 {
     static const int own[3] = { 4, 5, 8 };
+    for (int i = 0; i < 12; i++) points[i] = sdv_point_at(level, h);
+    for (int i = 0; i < 3; i++) points[own[i]] = sdv_point_at(level, h + i);
     for (int i = 0; i < 3; i++) {
         const int *ring = sdv_triangle_ring[i];
-        points[own[i]] = sdv_point_at(level, h + i);
         int left = h + i, right = h + i, lefts = 0, rights = 0;
         if (fan[i] == SDV_FAN_RING) lefts = 4;
         if (fan[i] == SDV_FAN_FIRST) lefts = 2;
@@ -2270,7 +2236,7 @@ static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fa
         }
         for (int j = 0; j < rights; j++) {
             right = sdv_clockwise(level, right);
-            points[ring[5 - j]] = sdv_point_at(level, sdv_around(level, right, 1));
+            points[ring[5 - j]] = sdv_point_at(level, sdv_next(level, right));
         }
     }
 }
@@ -2326,30 +2292,35 @@ static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
     }
 }
 
+// Is no vertex of the face rough? Then it may have a patch.
+static int sdv_may_be_patch(const sdv_level *level, const unsigned char *kinds, int f)
+{
+    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
+        if (kinds[level->face_vertices[h]] == SDV_ROUGH) return 0;
+    return 1;
+}
+
 // Finds the patches of a level and marks the faces of the core that have none as rough.
 static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, int levels, sdv_patches *patches)
 {
     sdv_arena scratch = { NULL };
-    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    int use = levels >= (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH), count = 0;
-    if (context->result) return;
-    patches->count = 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
-    for (int v = 0; v < level->vertex_count && use; v++)
+    if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
+    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
+    int count = 0;
+    for (int v = 0; v < level->vertex_count && !context->result; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
-    sdv_patch patch;
-    for (int f = 0; f < level->face_count && use; f++) {
-        if (!level->core[f] || !sdv_make_patch(level, rules, kinds, f, levels, &patch)) continue;
-        level->rough[f] = 0;
-        count++;
-    }
+    for (int f = 0; f < level->face_count && !context->result; f++)
+        count += level->core[f] && sdv_may_be_patch(level, kinds, f);
     patches->items = SDV_NEW(context, arena, sdv_patch, count);
-    for (int f = 0; f < level->face_count && use && !context->result; f++) {
-        if (!level->core[f] || level->rough[f]) continue;
-        sdv_patch *item = &patches->items[patches->count++];
-        sdv_make_patch(level, rules, kinds, f, levels, item);
-        sdv_claim(level, f, item);
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        sdv_patch *patch = &patches->items[patches->count];
+        if (!level->core[f] || !sdv_may_be_patch(level, kinds, f) ||
+            !sdv_make_patch(level, rules, kinds, f, levels, patch)) continue;
+        sdv_claim(level, f, patch);
+        level->rough[f] = 0;
+        patches->count++;
     }
     sdv_arena_free(&scratch);
 }
@@ -2368,7 +2339,6 @@ struct subdiv_surface {
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone
     sdv_patches *patches;               // [levels]
-    float    *triangle_basis;           // [180 * levels] Loop: for the patches of each level
     sdv_rows  copies, last;             // rows that make points of the result
     int       work_count;               // work points
     sdv_order order;
@@ -2871,8 +2841,6 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
     surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
     surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
-    if (work.scheme == SUBDIV_LOOP)
-        surface->triangle_basis = SDV_NEW(context, &surface->arena, float, 180 * levels);
     if (context->result) return;
     memset(surface->steps, 0, levels * sizeof *surface->steps);
     memset(surface->patches, 0, levels * sizeof *surface->patches);
@@ -2887,10 +2855,6 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     surface->rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     surface->rules.creasing = cage->creasing;
     surface->rules.triangles = cage->triangles;
-    int n = 1 << surface->levels;
-    for (size_t i = 0; i < levels && surface->rules.loop; i++)
-        if (surface->rules.linear) sdv_linear_triangle_basis(surface->triangle_basis + 180 * i);
-        else sdv_triangle_basis(1.0 / (n >> i), surface->triangle_basis + 180 * i);
     sdv_prepare_result(surface, &work, opt && opt->keep_holes);
     sdv_surviving_sharpness(context, surface, &built.level);
     sdv_prepare_levels(context, surface, &built.level);
@@ -2938,21 +2902,27 @@ typedef struct sdv_window {             // a part of the result, four channels o
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
     int    first, end;                  // points first to end - 1 are written
+    int    whole;                       // which are all
 } sdv_window;
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
 {
-    float x[4];
-    sdv_store(x, a);
-    for (int i = 0; i < lanes; i++) p[i] = x[i];
+    if (lanes == 4) {
+        sdv_store(p, a);
+    } else if (lanes == 3) {
+        sdv_store_three(p, a);
+    } else {
+        float x[4];
+        sdv_store(x, a);
+        p[0] = x[0];
+        if (lanes == 2) p[1] = x[1];
+    }
 }
 
 static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
     if (index < out->first || index >= out->end) return;
-    float *p = out->values + out->stride * (size_t)(index - out->first);
-    if (out->lanes == 4) sdv_store(p, a);
-    else sdv_store_some(p, a, out->lanes);
+    sdv_store_some(out->values + out->stride * (size_t)(index - out->first), a, out->lanes);
 }
 
 // The weighted sum of a row, in one order of additions, so that its bits are always the same.
@@ -3043,58 +3013,166 @@ static sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
     return sdv_plus(a[0], sdv_times(p, t));
 }
 
-// A row of a patch: the polynomial origin + a0 + a1 t + ... of degree 3 or 4.
+static sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
+{
+    sdv_four p = sdv_plus(a[3], sdv_times(a[4], t));
+    p = sdv_plus(a[2], sdv_times(p, t));
+    p = sdv_plus(a[1], sdv_times(p, t));
+    return sdv_plus(a[0], sdv_times(p, t));
+}
+
+// The control points of a patch on the last level: origin + the sum of c[i][j] x^i y^j, where x
+// runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
+// i + j <= 4, a triangle.
+typedef struct sdv_polynomial {
+    sdv_four origin, c[5][5];
+    int degree;
+} sdv_polynomial;
+
+// A row of it, a polynomial in x alone.
 typedef struct sdv_curve {
     sdv_four origin, a[5];
     int degree;
 } sdv_curve;
 
-static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four t)
+static void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
 {
-    const sdv_four *a = curve->a;
-    sdv_four p = a[3];
-    if (curve->degree == 4) p = sdv_plus(p, sdv_times(a[4], t));
-    p = sdv_plus(a[2], sdv_times(p, t));
-    p = sdv_plus(a[1], sdv_times(p, t));
-    p = sdv_plus(a[0], sdv_times(p, t));
+    sdv_four t = sdv_all(y);
+    curve->a[1] = sdv_horner3(q->c[1], t);
+    if (q->degree == 3) {
+        curve->a[0] = sdv_horner3(q->c[0], t);
+        curve->a[2] = sdv_horner3(q->c[2], t);
+        curve->a[3] = sdv_horner3(q->c[3], t);
+    } else {
+        curve->a[0] = sdv_horner4(q->c[0], t);
+        curve->a[2] = sdv_plus(q->c[2][0], sdv_times(q->c[2][1], t));
+        curve->a[3] = sdv_plus(q->c[3][0], sdv_times(q->c[3][1], t));
+        curve->a[4] = q->c[4][0];
+    }
+}
+
+static sdv_four sdv_curve_point(const sdv_curve *curve, float x)
+{
+    sdv_four p = curve->degree == 4 ? sdv_horner4(curve->a, sdv_all(x))
+                                    : sdv_horner3(curve->a, sdv_all(x));
     return sdv_plus(curve->origin, p);
 }
 
-// Count points, those at from h, (from + 1) h, ..., to places index, index + step, ...
-static void sdv_put_points(const sdv_window *out, int index, int step, int count,
-                           const sdv_curve *curve, int from, float h)
+// The inner loop of everything: count points, those at from h, (from + 1) h, ..., one behind the
+// other in memory, four lanes stored of each but the last. The parameters are multiples of a
+// power of two, so adding them up is exact.
+static void sdv_put_run(float *p, int lanes, int count, const sdv_curve *curve, int from, float h)
 {
-    int last = index + step * (count - 1), low = step < 0 ? last : index, high = index + last - low;
-    if (high < out->first || low >= out->end) return;
-    if (low < out->first || high >= out->end) {
-        for (int i = 0; i < count; i++, index += step, from++)
-            sdv_put_point(out, index, sdv_curve_point(curve, sdv_all((float)from * h)));
-        return;
+    sdv_four x = sdv_all((float)from * h), y = sdv_all((float)(from + 1) * h), two = sdv_all(2 * h);
+    const sdv_curve c = *curve;
+    int i = 1;
+    if (c.degree == 4) {
+        for (; i + 1 < count; i += 2, p += 2 * lanes) {
+            sdv_store(p, sdv_plus(c.origin, sdv_horner4(c.a, x)));
+            sdv_store(p + lanes, sdv_plus(c.origin, sdv_horner4(c.a, y)));
+            x = sdv_plus(x, two);
+            y = sdv_plus(y, two);
+        }
+    } else {
+        for (; i + 1 < count; i += 2, p += 2 * lanes) {
+            sdv_store(p, sdv_plus(c.origin, sdv_horner3(c.a, x)));
+            sdv_store(p + lanes, sdv_plus(c.origin, sdv_horner3(c.a, y)));
+            x = sdv_plus(x, two);
+            y = sdv_plus(y, two);
+        }
     }
-    float *p = out->values + out->stride * (size_t)(index - out->first);
-    ptrdiff_t next = (ptrdiff_t)out->stride * step;
-    // Three lanes side by side are stored as four: the next point overwrites the fourth.
-    int whole = out->lanes == 4 ? count : out->lanes == 3 && next == 3 ? count - 1 : 0, i = 0;
-    for (; i < whole; i++, p += next)
-        sdv_store(p, sdv_curve_point(curve, sdv_all((float)(from + i) * h)));
-    for (; i < count; i++, p += next)
-        sdv_store_some(p, sdv_curve_point(curve, sdv_all((float)(from + i) * h)), out->lanes);
+    for (i--; i < count; i++, p += lanes)
+        sdv_store_some(p, sdv_curve_point(curve, (float)(from + i) * h), lanes);
 }
 
-// The row of a patch that starts at a place of the grid, n segments: what lies between its ends if
-// inside is set, and the ends if left and right are. Between the ends the places are evenly spaced.
-static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, int row, int column,
-                        int step, int n, int left, int inside, int right, float h,
-                        const sdv_curve *curve)
+// A row of a patch on its grid: n + 1 points from (row, column) on, to the left if step is -1. The
+// points between its ends if inside is set, and the ends if left and right are.
+static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, int row, int column, int step,
+                        int n, int left, int inside, int right, float h, const sdv_curve *curve)
 {
-    if (left) sdv_put_points(out, sdv_grid_index(grid, row, column), 1, 1, curve, 0, h);
-    if (inside && n > 1) {
-        int first = sdv_grid_index(grid, row, column + step);
-        int second = n > 2 ? sdv_grid_index(grid, row, column + 2 * step) : first;
-        sdv_put_points(out, first, second - first, n - 1, curve, 1, h);
-    }
+    sdv_side line = sdv_grid_line(grid, row);
+    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), sdv_curve_point(curve, 0));
+    for (int i = 1; i < n && inside; i++)
+        sdv_put_point(out, line.first + line.step * (column + step * i),
+                      sdv_curve_point(curve, (float)i * h));
     if (right)
-        sdv_put_points(out, sdv_grid_index(grid, row, column + n * step), 1, 1, curve, n, h);
+        sdv_put_point(out, sdv_grid_index(grid, row, column + step * n),
+                      sdv_curve_point(curve, (float)n * h));
+}
+
+// Sides 1 and 3 of a patch between its first and last row: points stand inside the grid, beside
+// those of the row, or on a side of the grid.
+static sdv_side sdv_patch_side(const sdv_grid *grid, int border, int row, int step, int side)
+{
+    sdv_side inside = { -1, 0 };
+    sdv_side on = { grid->side[side].first + grid->side[side].step * row,
+                    grid->side[side].step * step };
+    return border ? on : inside;
+}
+
+// The rows between the first and the last, where the whole result is written and its points have
+// no space between them.
+static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                               int n, int row, int end, const sdv_polynomial *q)
+{
+    int step = patch->step, triangle = grid->triangle, lanes = out->lanes;
+    int reach = patch->column + n + (triangle ? patch->row : 0);
+    sdv_side left = sdv_patch_side(grid, patch->column == 0, patch->row, step, 3);
+    sdv_side right = sdv_patch_side(grid, step > 0 && reach == grid->size, patch->row, step, 1);
+    float h = 1.0f / (float)n;
+    sdv_curve curve;
+    curve.origin = q->origin;
+    curve.degree = q->degree;
+    for (; row < end; row++) {
+        int last = triangle ? n - row : n, from = 1, count = last - 1;
+        int at = sdv_grid_line(grid, patch->row + step * row).first + patch->column;
+        sdv_row_curve(q, (float)row * h, &curve);
+        if (patch->owned & (triangle ? 4 : 8)) {
+            if (left.first < 0) from = 0, count++;
+            else sdv_put_point(out, left.first + left.step * row, sdv_curve_point(&curve, 0));
+        }
+        if (patch->owned & 2) {
+            if (right.first < 0) count++;
+            else sdv_put_point(out, right.first + right.step * row,
+                               sdv_curve_point(&curve, (float)last * h));
+        }
+        if (step > 0) {
+            sdv_put_run(out->values + (size_t)lanes * (size_t)(at + from), lanes, count, &curve,
+                        from, h);
+        } else {
+            for (int i = from; i < from + count; i++)
+                sdv_put_point(out, at - i, sdv_curve_point(&curve, (float)i * h));
+        }
+    }
+}
+
+// All points of a patch that it owns. owned: bits 0 to 3 are the sides row 0, last column or
+// slanted side, last row, column 0; bits 4 to 7 the vertices.
+static void sdv_put_patch(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                          const sdv_polynomial *q)
+{
+    int n = 1 << patch->depth, owned = patch->owned, step = patch->step, triangle = grid->triangle;
+    int fast = out->whole && (size_t)out->lanes == out->stride && out->lanes >= 3;
+    int column_0 = triangle ? 4 : 8, last_vertex = triangle ? 64 : 128;
+    float h = 1.0f / (float)n;
+    sdv_curve curve;
+    curve.origin = q->origin;
+    curve.degree = q->degree;
+    for (int row = 0; row <= n; row++) {
+        int last = triangle ? n - row : n, top = row == n;
+        if (row == 1 && fast) {
+            sdv_put_inner_rows(out, grid, patch, n, 1, n, q);
+            row = n;
+            last = triangle ? 0 : n;
+            top = 1;
+        }
+        sdv_row_curve(q, (float)row * h, &curve);
+        int left = owned & (row == 0 ? 16 : top ? last_vertex : column_0);
+        int inside = row == 0 ? owned & 1 : top ? owned & 4 : 1;
+        int right = last == 0 ? 0 : owned & (row == 0 ? 32 : top ? 64 : 2);
+        sdv_put_row(out, grid, patch->row + step * row, patch->column, step, last, left, inside,
+                    right, h, &curve);
+    }
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -3103,122 +3181,156 @@ static sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
     return sdv_minus(sdv_plus(edge, edge), inside);
 }
 
+static void sdv_load_points(const int *points, int count, const float *work, sdv_four origin,
+                            sdv_four *p)
+{
+    for (int i = 0; i < count; i++)
+        p[i] = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), origin);
+}
+
 // The 16 control points relative to vertex 0. What lies beyond sharp edges is mirrored: first to
-// the left and right in the two middle rows, then below and above.
+// the left and right in all rows that are known, then below and above.
 static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four origin, sdv_four *p)
 {
-    int known[16];
-    for (int i = 0; i < 16; i++) {
-        int row = i >> 2, column = i & 3;
-        known[i] = !((patch->sharp & 1 && row == 0) || (patch->sharp & 2 && column == 3) ||
-                     (patch->sharp & 4 && row == 3) || (patch->sharp & 8 && column == 0));
-        if (known[i])
-            p[i] = sdv_minus(sdv_load(work + 4 * (size_t)patch->points[i]), origin);
-    }
+    sdv_load_points(patch->points, 16, work, origin, p);
     for (int i = 0; i < 16; i += 4) {
-        if (patch->sharp & 8 && known[i + 1]) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
-        if (patch->sharp & 2 && known[i + 1]) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
+        if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
+        if (patch->sharp & 2) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
     }
-    for (int column = 0; column < 4; column++) {
-        if (patch->sharp & 1) p[column] = sdv_mirror(p[4 + column], p[8 + column]);
-        if (patch->sharp & 4) p[12 + column] = sdv_mirror(p[8 + column], p[4 + column]);
+    for (int i = 0; i < 4; i++) {
+        if (patch->sharp & 1) p[i] = sdv_mirror(p[4 + i], p[8 + i]);
+        if (patch->sharp & 4) p[12 + i] = sdv_mirror(p[8 + i], p[4 + i]);
     }
 }
 
-// All owned points of a quad's patch: the cubics along its four columns, then, row by row, the
-// cubic along the row.
-static void sdv_quad_patch(const sdv_patch *patch, const sdv_grid *grid, int linear,
-                           const float *work, const sdv_window *out)
+// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
+// along the rows.
+static void sdv_quad_polynomial(const sdv_patch *patch, int linear, const float *work,
+                                sdv_polynomial *q)
 {
-    int n = 1 << patch->depth, owned = patch->owned;
-    float h = 1.0f / (float)n;
-    sdv_four p[16], up[4][4], b[4];
-    sdv_curve curve;
-    curve.degree = 3;
-    curve.origin = sdv_load(work + 4 * (size_t)patch->points[5]);
-    sdv_quad_points(patch, work, curve.origin, p);
-    for (int i = 0; i < 4; i++)
+    float h = 1.0f / (float)(1 << patch->depth);
+    sdv_four p[16], up[4][4], x[4];
+    q->degree = 3;
+    q->origin = sdv_load(work + 4 * (size_t)patch->points[5]);
+    sdv_quad_points(patch, work, q->origin, p);
+    for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
         else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], h * h, up[i]);
-    for (int row = 0; row <= n; row++) {
-        sdv_four t = sdv_all((float)row * h);
-        for (int i = 0; i < 4; i++) b[i] = sdv_horner3(up[i], t);
-        if (linear) sdv_line(b[1], b[2], curve.a);
-        else sdv_cubic(b[0], b[1], b[2], b[3], h * h, curve.a);
-        int left = 8, inside = 1, right = 2;        // bits of owned: sides 3 and 1
-        if (row == 0) left = 16, inside = 1, right = 32;
-        else if (row == n) left = 128, inside = 4, right = 64;
-        else inside = owned;
-        sdv_put_row(out, grid, patch->row + row, patch->column, 1, n, owned & left,
-                    row > 0 && row < n ? 1 : owned & inside, owned & right, h, &curve);
+    }
+    for (int j = 0; j < 4; j++) {
+        if (linear) sdv_line(up[1][j], up[2][j], x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], h * h, x);
+        for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
     }
 }
 
-// The 12 control points relative to vertex 0. At each vertex the two points next to those across
-// its edges are known or follow from the others around it: r[0] and r[1] are the vertices of the
-// face, r[2] is across the edge before, r[5] across the edge after.
+// The 12 control points relative to vertex 0. Around vertex v, counter-clockwise, stand r[0] and
+// r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across the
+// edge after. What lies beyond sharp edges follows from a + b - inside.
 static void sdv_triangle_points(const sdv_patch *patch, const float *work, sdv_four origin,
                                 sdv_four *p)
 {
-    static const unsigned char known[6] = { 0x00, 0x3f, 0x0f, 0x27, 0x33, 0x03 };    // by fan
     static const int own[3] = { 4, 5, 8 };
+    sdv_load_points(patch->points, 12, work, origin, p);
     for (int i = 0; i < 3; i++) {
-        const int *ring = sdv_triangle_ring[i];
-        p[own[i]] = sdv_minus(sdv_load(work + 4 * (size_t)patch->points[own[i]]), origin);
-        for (int j = 2; j < 6; j++)
-            if (known[patch->fan[i]] >> j & 1)
-                p[ring[j]] = sdv_minus(sdv_load(work + 4 * (size_t)patch->points[ring[j]]), origin);
-    }
-    for (int i = 0; i < 3; i++) {
-        const int *ring = sdv_triangle_ring[i];
+        const int *r = sdv_triangle_ring[i];
         sdv_four v = p[own[i]];
-        sdv_fan fan = (sdv_fan)patch->fan[i];
-#define SDV_BEYOND(j, a, b, inside) \
-        p[ring[j]] = sdv_minus(sdv_plus(a, b), inside)
-        if (patch->sharp >> i & 1) SDV_BEYOND(5, v, p[ring[0]], p[ring[1]]);
-        if (patch->sharp >> (i + 2) % 3 & 1) SDV_BEYOND(2, v, p[ring[1]], p[ring[0]]);
-        if (fan == SDV_FAN_FIRST) SDV_BEYOND(4, v, p[ring[3]], p[ring[2]]);
-        if (fan == SDV_FAN_LAST) SDV_BEYOND(3, v, p[ring[4]], p[ring[5]]);
-        if (fan == SDV_FAN_MIDDLE || fan == SDV_FAN_CORNER) {
-            SDV_BEYOND(3, v, fan == SDV_FAN_CORNER ? v : p[ring[2]],
-                       fan == SDV_FAN_CORNER ? p[ring[0]] : p[ring[1]]);
-            SDV_BEYOND(4, v, fan == SDV_FAN_CORNER ? v : p[ring[5]],
-                       fan == SDV_FAN_CORNER ? p[ring[1]] : p[ring[0]]);
+        if (patch->fan[i] == SDV_FAN_RING) continue;
+        if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
+        if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
+        if (patch->fan[i] == SDV_FAN_FIRST) p[r[4]] = sdv_minus(sdv_plus(v, p[r[3]]), p[r[2]]);
+        if (patch->fan[i] == SDV_FAN_LAST) p[r[3]] = sdv_minus(sdv_plus(v, p[r[4]]), p[r[5]]);
+        if (patch->fan[i] == SDV_FAN_MIDDLE) {
+            p[r[3]] = sdv_minus(sdv_plus(v, p[r[2]]), p[r[1]]);
+            p[r[4]] = sdv_minus(sdv_plus(v, p[r[5]]), p[r[0]]);
         }
-#undef SDV_BEYOND
+        if (patch->fan[i] == SDV_FAN_CORNER) {
+            p[r[3]] = sdv_mirror(v, p[r[0]]);
+            p[r[4]] = sdv_mirror(v, p[r[1]]);
+        }
     }
 }
 
-// All owned points of a triangle's patch: its 15 coefficients, then, row by row, those of the row.
-// owned: bits 0 1 2 the sides row 0, slanted, column 0; bits 4 5 6 the vertices.
-static void sdv_triangle_patch(const sdv_patch *patch, const sdv_grid *grid, const float *basis,
-                               const float *work, const sdv_window *out)
+// Sums for the formulas below: 2a, a + b, ...
+static sdv_four sdv_twice(sdv_four a)
 {
-    int n = 1 << patch->depth, owned = patch->owned, step = patch->step;
-    float h = 1.0f / (float)n;
-    sdv_four p[12], c[15];
-    sdv_curve curve;
-    curve.degree = 4;
-    curve.origin = sdv_load(work + 4 * (size_t)patch->points[4]);
-    sdv_triangle_points(patch, work, curve.origin, p);
-    for (int i = 0; i < 15; i++) {
-        c[i] = sdv_times(sdv_all(basis[i]), p[0]);
-        for (int j = 1; j < 12; j++)
-            c[i] = sdv_plus(c[i], sdv_times(sdv_all(basis[15 * j + i]), p[j]));
-    }
-    for (int row = 0; row <= n; row++) {
-        sdv_four y = sdv_all((float)row * h);
-        for (int x = 0; x < 5; x++) {
-            sdv_four a = c[sdv_power_index(x, 4 - x)];
-            for (int i = 3 - x; i >= 0; i--)
-                a = sdv_plus(c[sdv_power_index(x, i)], sdv_times(a, y));
-            curve.a[x] = a;
-        }
-        int left = owned & (row == 0 ? 16 : row == n ? 64 : 4);
-        int right = row == n ? 0 : owned & (row == 0 ? 32 : 2);
-        sdv_put_row(out, grid, patch->row + step * row, patch->column, step, n - row, left,
-                    row > 0 || owned & 1, right, h, &curve);
-    }
+    return sdv_plus(a, a);
+}
+
+static sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
+{
+    return sdv_plus(sdv_plus(a, b), c);
+}
+
+static sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
+}
+
+// The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial q of its
+// 12 control points, numbered as in sdv_gather_triangle; here relative to point 4, which is 0. As
+// for the cubic above, the control points of level k lie on a polynomial, too:
+//
+//     q - h^2/12 S q      S = 2 (Dx Dx - Dx Dy + Dy Dy),  h = 2^-k
+//
+// Summing box splines of width h multiplies by (sinh(hD/2) / (hD/2))^2 = 1 + h^2 D^2 / 12 + ... for
+// each direction D of the grid; S is the sum of the three D^2, and S S q = 0.
+static void sdv_box_spline(const sdv_four *p, float hh, sdv_polynomial *q)
+{
+    sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
+    sdv_four (*c)[5] = q->c;
+    sdv_four p35 = sdv_plus(p[3], p[5]), p08 = sdv_plus(p[0], p[8]), p16 = sdv_plus(p[1], p[6]);
+    sdv_four d53 = sdv_minus(p[5], p[3]), d80 = sdv_minus(p[8], p[0]), d16 = sdv_minus(p[1], p[6]);
+    c[0][0] = sdv_times(twelfth, sdv_sum3(p35, p08, p16));
+    c[1][0] = sdv_times(sixth, sdv_sum3(sdv_twice(d53), d80, d16));
+    c[0][1] = sdv_times(sixth, sdv_minus(sdv_plus(sdv_twice(d80), d53), d16));
+    c[2][0] = sdv_times(half, p35);
+    c[0][2] = sdv_times(half, p08);
+    c[1][1] = sdv_times(half, sdv_minus(sdv_plus(p35, p08), p16));
+    c[3][0] = sdv_times(sixth, sdv_minus(sdv_sum4(p[0], p[2], p[6], p[11]),
+                                         sdv_twice(sdv_sum3(p[1], p35, p[8]))));
+    c[2][1] = sdv_times(half, sdv_minus(sdv_plus(p[6], p[11]), sdv_plus(p35, sdv_twice(p[8]))));
+    c[1][2] = sdv_times(half, sdv_minus(sdv_plus(p[1], p[11]), sdv_plus(p08, sdv_twice(p[5]))));
+    c[0][3] = sdv_times(sixth, sdv_minus(sdv_sum4(p[1], p[3], p[9], p[11]),
+                                         sdv_twice(sdv_sum3(p[6], p[5], p08))));
+    sdv_four minus = sdv_plus(sdv_sum3(p[0], p[2], p[5]), sdv_plus(p[6], p[11]));
+    sdv_four plus = sdv_sum3(sdv_twice(sdv_plus(p[1], p[8])), p[3], p[7]);
+    c[4][0] = sdv_times(twelfth, sdv_minus(plus, minus));
+    minus = sdv_plus(sdv_sum3(p[1], p[3], p[8]), sdv_plus(p[9], p[11]));
+    plus = sdv_sum3(sdv_twice(sdv_plus(p[5], p[6])), p[0], p[10]);
+    c[0][4] = sdv_times(twelfth, sdv_minus(plus, minus));
+
+    sdv_four h2 = sdv_all(hh), third = sdv_all(hh / 3), mixed = sdv_minus(c[1][2], c[2][1]);
+    c[0][0] = sdv_minus(c[0][0], sdv_times(third, sdv_minus(sdv_plus(c[2][0], c[0][2]),
+                                                            sdv_times(half, c[1][1]))));
+    c[1][0] = sdv_minus(c[1][0], sdv_plus(sdv_times(h2, c[3][0]), sdv_times(third, mixed)));
+    c[0][1] = sdv_minus(c[0][1], sdv_minus(sdv_times(h2, c[0][3]), sdv_times(third, mixed)));
+    c[2][0] = sdv_minus(c[2][0], sdv_times(h2, c[4][0]));
+    c[0][2] = sdv_minus(c[0][2], sdv_times(h2, c[0][4]));
+    c[1][1] = sdv_minus(c[1][1], sdv_times(h2, sdv_twice(sdv_plus(c[4][0], c[0][4]))));
+    c[3][1] = sdv_twice(c[4][0]);
+    c[1][3] = sdv_twice(c[0][4]);
+}
+
+// Linear: 0 at vertex 0.
+static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
+{
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
+    q->c[1][0] = p[5];
+    q->c[0][1] = p[8];
+}
+
+static void sdv_triangle_polynomial(const sdv_patch *patch, int linear, const float *work,
+                                    sdv_polynomial *q)
+{
+    float h = 1.0f / (float)(1 << patch->depth);
+    sdv_four p[12];
+    q->degree = 4;
+    q->origin = sdv_load(work + 4 * (size_t)patch->points[4]);
+    sdv_triangle_points(patch, work, q->origin, p);
+    if (linear) sdv_plane(p, q);
+    else sdv_box_spline(p, h * h, q);
 }
 
 // Cage faces face to end - 1: the points of the result that belong to them.
@@ -3226,17 +3338,19 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
                            const sdv_window *out)
 {
     const sdv_order *order = &surface->order;
+    int linear = surface->rules.linear;
+    sdv_polynomial q;
     sdv_apply_result(&surface->copies, work, face, end, out);
     for (int level = 0; level < surface->levels; level++) {
         const sdv_patches *patches = &surface->patches[level];
-        const float *basis = surface->triangle_basis + 180 * (size_t)level;
         int last = sdv_first_patch(order, patches, end), h = -1;
         sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
         for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
             const sdv_patch *patch = &patches->items[i];
             if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-            if (order->loop) sdv_triangle_patch(patch, &grid, basis, work, out);
-            else sdv_quad_patch(patch, &grid, surface->rules.linear, work, out);
+            if (order->loop) sdv_triangle_polynomial(patch, linear, work, &q);
+            else sdv_quad_polynomial(patch, linear, work, &q);
+            sdv_put_patch(out, &grid, patch, &q);
         }
     }
     sdv_apply_result(&surface->last, work, face, end, out);
@@ -3333,7 +3447,8 @@ static void sdv_face_job(void *context, int job)
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point };
+        int whole = e->first_point == 0 && e->end_point == surface->fine.vertex_count;
+        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point, whole };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
