@@ -1687,42 +1687,48 @@ static int sdv_grid_index(const sdv_grid *grid, int row, int column)
                           : sdv_quad_index(grid, row, column);
 }
 
-// The quads between two rows of a grid. Inside, all four indices grow by one from quad to quad.
-static int *sdv_quad_row(const sdv_grid *grid, int row, int *out)
+// A row of points: its two ends, and what lies between on its line.
+typedef struct sdv_row {
+    sdv_side line;
+    int size, left, right;              // columns 0 to size
+} sdv_row;
+
+static sdv_row sdv_grid_points(const sdv_grid *grid, int row)
 {
-    for (int column = 0; column < grid->size; column++, out += 4) {
-        int inside = row > 0 && row + 1 < grid->size && column > 1 && column + 1 < grid->size;
-        if (inside) {
-            for (int i = 0; i < 4; i++) out[i] = out[i - 4] + 1;
-        } else {
-            out[0] = sdv_quad_index(grid, row, column);
-            out[1] = sdv_quad_index(grid, row, column + 1);
-            out[2] = sdv_quad_index(grid, row + 1, column + 1);
-            out[3] = sdv_quad_index(grid, row + 1, column);
+    sdv_row points;
+    points.size = grid->triangle ? grid->size - row : grid->size;
+    points.line = sdv_grid_line(grid, row);
+    points.left = sdv_grid_index(grid, row, 0);
+    points.right = sdv_grid_index(grid, row, points.size);
+    return points;
+}
+
+static int sdv_row_index(const sdv_row *row, int column)
+{
+    if (column == 0) return row->left;
+    return column == row->size ? row->right : row->line.first + row->line.step * column;
+}
+
+// The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
+static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
+{
+    sdv_row low = sdv_grid_points(grid, row), high = sdv_grid_points(grid, row + 1);
+    int a = low.left, d = high.left;            //   d c     a quad a b c d; or a triangle a b d,
+    for (int i = 1; i <= low.size; i++) {       //   a b     and one turned by half, c d b
+        int b = sdv_row_index(&low, i), c = i <= high.size ? sdv_row_index(&high, i) : -1;
+        *out++ = a;
+        *out++ = b;
+        if (grid->triangle) {
+            *out++ = d;
+            if (c < 0) break;
         }
+        *out++ = c;
+        *out++ = d;
+        if (grid->triangle) *out++ = b;
+        a = b;
+        d = c;
     }
     return out;
-}
-
-static int *sdv_triangle_row(const sdv_grid *grid, int row, int *out)
-{
-    int count = grid->size - row;
-    for (int column = 0; column < count; column++) {
-        *out++ = sdv_triangle_index(grid, row, column);
-        *out++ = sdv_triangle_index(grid, row, column + 1);
-        *out++ = sdv_triangle_index(grid, row + 1, column);
-        if (column + 1 == count) break;
-        *out++ = sdv_triangle_index(grid, row + 1, column + 1);
-        *out++ = sdv_triangle_index(grid, row + 1, column);
-        *out++ = sdv_triangle_index(grid, row, column + 1);
-    }
-    return out;
-}
-
-// The fine faces in a row of a grid: at most 2 size, of 3 or 4 vertices.
-static int *sdv_grid_row(const sdv_grid *grid, int row, int *out)
-{
-    return grid->triangle ? sdv_triangle_row(grid, row, out) : sdv_quad_row(grid, row, out);
 }
 
 // The fine faces of cage face f.
@@ -1732,7 +1738,7 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid = sdv_grid_at(order, h);
-        for (int row = 0; row < grid.size; row++) out = sdv_grid_row(&grid, row, out);
+        for (int row = 0; row < grid.size; row++) out = sdv_grid_faces(&grid, row, out);
     }
     return out;
 }
@@ -4796,7 +4802,7 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
         for (int h = start; h < (sdv_is_ngon(order, f) ? end : start + 1); h++) {
             sdv_grid grid = sdv_grid_at(order, h);
             for (int i = 0; i < grid.size && !out->context->result; i++) {
-                const int *last = sdv_grid_row(&grid, i, row);
+                const int *last = sdv_grid_faces(&grid, i, row);
                 for (const int *v = row; v < last;)
                     v = sdv_write_face(out, v, surface->fine.face_size);
             }
