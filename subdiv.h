@@ -47,19 +47,22 @@
 
    CONTENTS                     search for the tag, for instance >>masks
    --------
-   Public:   >>config    macros you may define        >>types    mesh, options, errors
+   Public:   >>config    macros you may define        >>types      mesh, options, errors
              >>refine    the one call, in two steps   >>animation  new values, same topology
-             >>inspect   what a cage is made of       >>obj      reading and writing OBJ
+             >>inspect   what a cage is made of       >>obj        reading and writing OBJ
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
-             >>sharpness how creases and corners fade  (start here: rules, then masks)
-             >>masks     THE LECTURE: face, edge and vertex points of every scheme
-             >>rows      the masks of a whole level as rows of weights
-             >>split     the faces, edges and sharpness of the next level
+        *    >>sharpness how creases and corners fade
+        *    >>masks     THE LECTURE: face, edge and vertex points of every scheme
              >>order     where each point of the result stands
-             >>prepare   all levels of a cage          >>evaluate  values through the rows
-             >>numbers   text to float and back        >>obj-read  >>obj-write
+             >>rows      masks written out as rows of weights
+             >>split     the faces, edges and sharpness of the next level, where needed
+             >>patches   regular faces: their control points
+             >>prepare   all levels of a cage, as far as they are needed
+        *    >>evaluate  values through the rows; patches in closed form
+             >>inspection  >>numbers  >>obj-read  >>obj-write  >>cleanup
+   A student needs the three sections with a star and may skip the rest.
 
    WORDS
    -----
@@ -104,7 +107,7 @@
    WHAT IT DOES NOT DO (yet)
    -------------------------
    UVs and other face-varying data, limit positions and normals, evaluation at (u, v). Never: GPU
-   code, hierarchical edits, hidden threads, global state, printing, exit().
+   code, hierarchical edits, threads of its own, global state, printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    --------------------------------
@@ -116,8 +119,11 @@
    -----------------------
    A mesh made by the library is one block, freed by subdiv_mesh_free; arrays that you filled in
    are never written nor freed. The library keeps no state: different threads may work at
-   once. The same input gives the same bits. Up to 2^31-1 vertices and faces; what does not fit is
-   refused before anything is built. Errors leave the output zeroed.
+   once, and one call uses the threads that you lend it. The same input gives the same bits, on
+   any number of threads, with SIMD and without. (gcc fuses multiplications and additions where
+   the target has such instructions, in its default gnu modes: -ffp-contract=off.) Up to 2^31-1
+   vertices and faces in a result, 2^30 face-vertices in a cage; what does not fit is refused
+   before it is built. Errors leave the output zeroed.
 
    REFERENCES
    ----------
@@ -125,6 +131,7 @@
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
    [DKT98] DeRose, Kass, Truong: Subdivision surfaces in character animation
+   [Stam98] Stam: Evaluation of Loop subdivision surfaces
    [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent
 
    VERSION LOG
@@ -143,6 +150,7 @@
 //     SUBDIV_FREE(pointer, user)     as malloc's
 //     SUBDIV_ASSERT(condition)       checks of the library's own logic, assert by default
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
+//     SUBDIV_NO_SIMD                 plain C where SSE2, NEON or WebAssembly would be used
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
 
@@ -245,8 +253,8 @@ typedef struct subdiv_mesh {
 // What went wrong and where. Zero it once; every call given it writes code, place and message
 // anew, while warnings (something odd was skipped) add up, and the first one is kept.
 typedef struct subdiv_error {
-    subdiv_result code;
     int  line;                        // of the OBJ file, from 1; 0 = none
+    subdiv_result code;
     int  face, vertex;                // of the mesh, from 0; -1 = none
     char message[256];                // "cage.obj:44: vertex 912 does not exist (...)"
     int  warning_count;
@@ -278,13 +286,15 @@ SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 
 // Refines a cage: fine = the mesh after so many levels, 0 copies. In THE ORDER OF THE RESULT, with
 // cage_faces filled, positions in floats, and the sharpness that is left in the crease and corner
-// lists, so that fine is a cage again: refine by 2 is refine by 1 twice. (Three things a mesh
-// cannot tell the next call: holes, unless kept by the option; an edge along which the faces are
-// wound against each other; a vertex twice in a row in a face.)
+// lists, so that fine is a cage again: refine by 2 is refine by 1 twice. (What a mesh cannot tell
+// the next call: holes, unless kept by the option; an edge along which two faces are wound against
+// each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
+// the same three vertices.)
 //
-// A crease between vertices that share no edge is skipped with a warning. Levels multiply the
-// faces by 4 each. Errors: ARGUMENT, EMPTY, INDEX, FACE, NOT_TRIANGLE, NOT_FINITE, TOO_LARGE (more
-// than 2^31-1 vertices or faces), MEMORY.
+// fine must be another mesh; what it held is forgotten. A crease between vertices that share no
+// edge is skipped with a warning (level 0 keeps it). Levels multiply the faces by 4 each. Errors:
+// ARGUMENT, EMPTY, INDEX, FACE, NOT_TRIANGLE, NOT_FINITE (also coordinates beyond 3e35), TOO_LARGE
+// (more than 2^31-1 vertices or faces), MEMORY.
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt);
 
@@ -321,7 +331,7 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
 // Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
 // strides in floats, 0 for as many as there are channels. scratch: subdiv_scratch_size bytes,
 // aligned as float; then nothing is allocated. NULL: allocated for the call. Values should be
-// finite, and below FLT_MAX / 2. Floats of out behind the channels are left alone.
+// below 1e35 in size, or sums may overflow. Floats of out behind the channels are left alone.
 SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
                                          const float *in, int in_stride,
                                          float *out, int out_stride,
@@ -330,7 +340,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
 // The same in pieces: begin fills the scratch memory, then each call of evaluate_faces makes the
 // points that belong to the cage faces first_face to first_face + face_count - 1 of the ones
 // prepared (under opt->triangulate: of the triangles), in any order and on any threads. All
-// faces together make every point once, with the same bits as subdiv_evaluate.
+// faces together make every point once, with the same bits as subdiv_evaluate. Error INDEX for
+// faces or points that do not exist.
 //
 // first_point, point_count: only these points of the result are written, out[0] being the first
 // value of first_point: so that a part of the result needs memory for that part alone. The points
@@ -457,9 +468,9 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #endif
 
 // Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
-// bits are the same with and without.
+// bits are the same with and without, unless the compiler fuses multiplications and additions.
 #if defined(SUBDIV_NO_SIMD)
-#elif defined(__SSE2__) || defined(_M_X64) || (defined(_M_IX86_FP) && _M_IX86_FP >= 2)
+#elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
 #define SDV_SIMD
 typedef __m128 sdv_four;
@@ -777,6 +788,18 @@ static void sdv_warn(sdv_context *context, int line, const char *format, ...)
     va_end(args);
 }
 
+// Reading or writing failed; for files the system knows why.
+static void sdv_fail_io(sdv_context *context, const char *what)
+{
+#ifndef SUBDIV_NO_STDIO
+    if (context->name && errno) {
+        sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
+        return;
+    }
+#endif
+    sdv_fail(context, SUBDIV_ERROR_IO, what);
+}
+
 // ------------------------------------------------------------------------------ >>validate
 // Everything behind this section may trust the mesh: all arrays there, all indices in range.
 
@@ -863,8 +886,10 @@ static void sdv_check_positions(sdv_context *context, const float *positions, in
         const float *p = positions + 3 * (size_t)v;
         for (int i = 0; i < 3; i++)
             if (!(p[i] >= -limit && p[i] <= limit)) {
+                int finite = p[i] >= -FLT_MAX && p[i] <= FLT_MAX;
                 sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, v,
-                              "vertex %d: coordinate %d is not finite, or too large", v, i);
+                              "vertex %d: coordinate %d is %s", v, i,
+                              finite ? "too large" : "not finite");
                 return;
             }
     }
@@ -878,7 +903,8 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
         return;
     }
     if (mesh->vertex_count == 0) sdv_fail(context, SUBDIV_ERROR_EMPTY, "the mesh has no vertices");
-    sdv_check_array(context, "positions", mesh->vertex_count, mesh);
+    if (mesh->vertex_count < 0)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "vertex_count is %d", mesh->vertex_count);
     sdv_check_array(context, "face_vertices", mesh->face_count, mesh->face_vertices);
     if (mesh->face_size == 0)
         sdv_check_array(context, "face_sizes", mesh->face_count, mesh->face_sizes);
@@ -903,6 +929,12 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
             sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, mesh->holes[i], -1,
                           "hole %d: face %d does not exist (the mesh has %d)",
                           i, mesh->holes[i], mesh->face_count);
+}
+
+// Sums of differences of larger coordinates could overflow; a copy can have any.
+static float sdv_limit(int levels)
+{
+    return levels > 0 ? FLT_MAX / 1024 : FLT_MAX;
 }
 
 static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
@@ -956,6 +988,7 @@ typedef struct sdv_level {
     unsigned char *core;                // [face_count]         makes points of the result; the
                                         //                      others are there for their masks
     unsigned char *rough;               // [face_count]         in the core, and not a patch
+    unsigned char *creased;             // [vertex_count]       has a sharp edge
     unsigned char *edge_done;           // [edge_count]         points of the result that a patch
     unsigned char *vertex_done;         // [vertex_count]       or a copy makes
 
@@ -999,6 +1032,7 @@ static int sdv_next(const sdv_level *level, int h)
 // The number of vertices of the face of h.
 static int sdv_size_of(const sdv_level *level, int h)
 {
+    if (level->face_size) return level->face_size;
     int face = sdv_face_of(level, h);
     return sdv_face_end(level, face) - sdv_face_start(level, face);
 }
@@ -1021,6 +1055,7 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
     level->face_point = SDV_NEW(context, arena, int, faces);
     level->core = SDV_NEW(context, arena, unsigned char, faces);
     level->rough = SDV_NEW(context, arena, unsigned char, faces);
+    level->creased = SDV_NEW(context, arena, unsigned char, vertices);
     level->edge_done = SDV_NEW(context, arena, unsigned char, edges);
     level->vertex_done = SDV_NEW(context, arena, unsigned char, vertices);
 }
@@ -1069,8 +1104,8 @@ static void sdv_level_connect(sdv_context *context, sdv_arena *arena, sdv_level 
 
 typedef struct sdv_cage {
     sdv_level level;
-    unsigned char *edge_odd;            // [edge_count]    non-manifold edges
-    unsigned char *vertex_odd;          // [vertex_count]  non-manifold vertices
+    unsigned char *edge_nonmanifold;            // [edge_count]    non-manifold edges
+    unsigned char *vertex_nonmanifold;          // [vertex_count]  non-manifold vertices
     unsigned char *hole;                // [face_count]
     int *chain_first;                   // [vertex_count]  edges by their end of smaller valence:
     int *chain_next;                    // [edge_count]    -1 ends a chain
@@ -1104,11 +1139,11 @@ static int sdv_add_edge(sdv_cage *cage, int a, int b, int equal)
     *link = e;
     cage->level.edge_vertices[2 * e] = a;
     cage->level.edge_vertices[2 * e + 1] = b;
-    cage->edge_odd[e] = 0;
+    cage->edge_nonmanifold[e] = 0;
     return e;
 }
 
-// Numbers the edges in the order in which the faces meet them. An edge is odd (non-manifold) when
+// Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
 // ends are the same vertex, or when one face has it twice: then each time is an edge of its own.
 static void sdv_cage_edges(sdv_cage *cage, int *last_face, int *uses)
@@ -1123,10 +1158,10 @@ static void sdv_cage_edges(sdv_cage *cage, int *last_face, int *uses)
             if (found < 0 || a == b || last_face[found] == f) {
                 e = sdv_add_edge(cage, a, b, found);
                 uses[e] = 0;
-                if (a == b) cage->edge_odd[e] = 1;
-                else if (found >= 0) cage->edge_odd[found] = cage->edge_odd[e] = 1;
+                if (a == b) cage->edge_nonmanifold[e] = 1;
+                else if (found >= 0) cage->edge_nonmanifold[found] = cage->edge_nonmanifold[e] = 1;
             } else if (uses[e] > 1 || level->edge_vertices[2 * e] == a) {
-                cage->edge_odd[e] = 1;
+                cage->edge_nonmanifold[e] = 1;
             }
             level->face_edges[h] = e;
             last_face[e] = f;
@@ -1173,14 +1208,14 @@ static int sdv_is_fan(const sdv_level *level, int v)
     return 1;
 }
 
-static void sdv_find_odd_vertices(sdv_cage *cage)
+static void sdv_find_nonmanifold_vertices(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    memset(cage->vertex_odd, 0, (size_t)level->vertex_count);
+    memset(cage->vertex_nonmanifold, 0, (size_t)level->vertex_count);
     for (int k = 0; k < 2 * level->edge_count; k++)
-        if (cage->edge_odd[k >> 1]) cage->vertex_odd[level->edge_vertices[k]] = 1;
+        if (cage->edge_nonmanifold[k >> 1]) cage->vertex_nonmanifold[level->edge_vertices[k]] = 1;
     for (int v = 0; v < level->vertex_count; v++)
-        if (!cage->vertex_odd[v]) cage->vertex_odd[v] = (unsigned char)!sdv_is_fan(level, v);
+        if (!cage->vertex_nonmanifold[v] && !sdv_is_fan(level, v)) cage->vertex_nonmanifold[v] = 1;
 }
 
 // The user's creases and corners. A crease that is no edge is skipped.
@@ -1216,16 +1251,16 @@ static void sdv_open_boundary(sdv_cage *cage)
     }
 }
 
-static int sdv_is_odd_crease(const sdv_cage *cage, int v)
+static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 {
     const sdv_level *level = &cage->level;
-    int odd = 0, boundary = 0;
+    int nonmanifold = 0, boundary = 0;
     for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
         int e = level->vertex_edges.items[i] >> 1;
-        odd += cage->edge_odd[e];
+        nonmanifold += cage->edge_nonmanifold[e];
         boundary += sdv_list_size(&level->edge_faces, e) < 2;
     }
-    return odd == 2 && boundary == 0 &&
+    return nonmanifold == 2 && boundary == 0 &&
            sdv_list_size(&level->vertex_faces, v) > sdv_list_size(&level->vertex_edges, v);
 }
 
@@ -1236,14 +1271,14 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     sdv_level *level = &cage->level;
     for (int e = 0; e < level->edge_count; e++)
         if (level->edge_sharpness[e] < SUBDIV_INFINITE &&
-            (cage->edge_odd[e] || sdv_list_size(&level->edge_faces, e) < 2))
+            (cage->edge_nonmanifold[e] || sdv_list_size(&level->edge_faces, e) < 2))
             level->edge_sharpness[e] = SDV_IMPLIED;
     for (int v = 0; v < level->vertex_count; v++) {
         if (level->vertex_sharpness[v] >= SUBDIV_INFINITE) continue;
         int single = sdv_list_size(&level->vertex_faces, v) == 1 &&
                      sdv_list_size(&level->vertex_edges, v) == 2;
         if ((single && boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER) ||
-            (cage->vertex_odd[v] && !sdv_is_odd_crease(cage, v)))
+            (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
             level->vertex_sharpness[v] = SDV_IMPLIED;
     }
 }
@@ -1287,8 +1322,8 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *arena, sdv_cage *cag
     size_t most = (size_t)level->face_vertex_count, vertices = (size_t)level->vertex_count;
     level->face_edges = SDV_NEW(context, arena, int, most);
     level->edge_vertices = SDV_NEW(context, arena, int, 2 * most);
-    cage->edge_odd = SDV_NEW(context, arena, unsigned char, most);
-    cage->vertex_odd = SDV_NEW(context, arena, unsigned char, vertices);
+    cage->edge_nonmanifold = SDV_NEW(context, arena, unsigned char, most);
+    cage->vertex_nonmanifold = SDV_NEW(context, arena, unsigned char, vertices);
     cage->hole = SDV_NEW(context, arena, unsigned char, level->face_count);
     cage->chain_first = SDV_NEW(context, arena, int, vertices);
     cage->chain_next = SDV_NEW(context, arena, int, most);
@@ -1307,7 +1342,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *arena, sdv_cage *cag
     sdv_level_connect(context, arena, level);
     if (context->result) return;
 
-    sdv_find_odd_vertices(cage);
+    sdv_find_nonmanifold_vertices(cage);
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
     sdv_user_sharpness(context, cage, mesh);
@@ -1337,35 +1372,47 @@ static float sdv_fade_chaikin(float s, float sum, int count)
     return s > 1 ? s - 1 : 0;
 }
 
-static float sdv_fade_end(const sdv_level *level, int k, subdiv_creasing creasing)
+// The edges' halves at v inherit this.
+static void sdv_fade_ends(sdv_level *level, int v, subdiv_creasing creasing)
 {
-    float s = level->edge_sharpness[k >> 1], sum = 0;
-    int v = level->edge_vertices[k], count = 0;
-    if (s <= 0 || creasing == SUBDIV_CREASING_UNIFORM) return sdv_fade(s);
-    for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
-        float other = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
-        if (other <= 0 || other >= SUBDIV_INFINITE) continue;
-        sum += other;
+    int first = level->vertex_edges.starts[v], end = level->vertex_edges.starts[v + 1], count = 0;
+    float sum = 0;
+    for (int i = first; i < end; i++) {
+        float s = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
+        if (s <= 0 || s >= SUBDIV_INFINITE) continue;
+        sum += s;
         count++;
     }
-    return sdv_fade_chaikin(s, sum, count);
+    for (int i = first; i < end; i++) {
+        int k = level->vertex_edges.items[i];
+        float s = level->edge_sharpness[k >> 1];
+        level->end_sharpness[k] = creasing == SUBDIV_CREASING_CHAIKIN ?
+            sdv_fade_chaikin(s, sum, count) : sdv_fade(s);
+    }
 }
 
-// What the edges' halves and the vertices inherit. Sharp vertices fade uniformly in either case.
+// What edges' halves and vertices inherit. Sharp vertices fade uniformly in either case.
 static void sdv_level_fade(sdv_level *level, subdiv_creasing creasing)
 {
+    memset(level->creased, 0, (size_t)level->vertex_count);
+    memset(level->end_sharpness, 0, 2 * (size_t)level->edge_count * sizeof(float));
     for (int k = 0; k < 2 * level->edge_count; k++)
-        level->end_sharpness[k] = sdv_fade_end(level, k, creasing);
-    for (int v = 0; v < level->vertex_count; v++)
+        if (level->edge_sharpness[k >> 1] > 0) level->creased[level->edge_vertices[k]] = 1;
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (level->creased[v]) sdv_fade_ends(level, v, creasing);
         level->next_sharpness[v] = sdv_fade(level->vertex_sharpness[v]);
+    }
 }
 
-// The rule for a vertex is the number of its sharp edges.
+// The rule for a vertex is the number of its sharp edges: 0 smooth, 1 dart, 2 crease, 3 or more
+// corner. A sharp vertex is a corner, whatever its edges.
 typedef enum sdv_rule { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER } sdv_rule;
 
 static sdv_rule sdv_vertex_rule(float vertex_sharpness, int sharp_edges)
 {
-    return vertex_sharpness > 0 || sharp_edges > 2 ? SDV_CORNER : (sdv_rule)sharp_edges;
+    if (vertex_sharpness > 0 || sharp_edges >= 3) return SDV_CORNER;
+    if (sharp_edges == 2) return SDV_CREASE;
+    return sharp_edges == 1 ? SDV_DART : SDV_SMOOTH;
 }
 
 // A vertex between two levels: its rule now and on the next level. When they differ, the vertex
@@ -1375,7 +1422,7 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
-static sdv_fading sdv_vertex_fading(const sdv_level *level, int v, subdiv_creasing creasing)
+static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
     float sharpness = level->vertex_sharpness[v], sum = 0;
     int now = 0, next = 0, count = 0;
@@ -1383,12 +1430,13 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v, subdiv_creasi
         sum = sharpness;
         count = 1;
     }
-    for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
+    int first = level->vertex_edges.starts[v], end = level->vertex_edges.starts[v + 1];
+    for (int i = first; i < end && level->creased[v]; i++) {
         int k = level->vertex_edges.items[i];
         float s = level->edge_sharpness[k >> 1], half = level->end_sharpness[k];
         now += s > 0;
         next += half > 0;
-        if (s > 0 && (creasing == SUBDIV_CREASING_CHAIKIN ? half <= 0 : s <= 1)) {
+        if (s > 0 && half <= 0) {                   // fades away here
             sum += s;
             count++;
         }
@@ -1404,6 +1452,9 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v, subdiv_creasi
 // --------------------------------------------------------------------------------- >>masks
 // Every rule of refinement, once. A mask is a set of weights that sum to 1; refinement takes
 // the points around and adds them up with these weights, whatever the points are.
+//
+//     point = self v + edge (sum of neighbours) + face (sum of face points)
+//                    + crease (sum of the two neighbours along the crease)
 
 typedef struct sdv_mask {
     double self;                        // the vertex itself; for an edge point: each of its ends
@@ -1417,7 +1468,7 @@ typedef struct sdv_mask {
 //     1/n----1/n
 //      |  F  |               F = (v0 + v1 + ... ) / n
 //     1/n----1/n
-static double sdv_face_point(int n)
+static double sdv_face_weight(int n)
 {
     return 1.0 / n;
 }
@@ -1794,7 +1845,7 @@ static void sdv_end_result_row(sdv_rows *rows, int target, int face)
 static void sdv_face_row(const sdv_level *level, int f, sdv_rows *rows)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-    double weight = sdv_face_point(end - start);
+    double weight = sdv_face_weight(end - start);
     for (int h = start; h < end; h++)
         sdv_add(rows, level->first_point + level->face_vertices[h], weight);
 }
@@ -1803,7 +1854,7 @@ static void sdv_face_row(const sdv_level *level, int f, sdv_rows *rows)
 // the next level where a corner turns into a crease.
 static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v, sdv_rows *rows)
 {
-    sdv_fading fading = sdv_vertex_fading(level, v, rules->creasing);
+    sdv_fading fading = sdv_vertex_fading(level, v);
     sdv_mask mask = sdv_vertex_mask(rules, fading, sdv_list_size(&level->vertex_faces, v));
     if (mask.self != 0) sdv_add(rows, level->first_point + v, mask.self);
     for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
@@ -2080,7 +2131,7 @@ typedef struct sdv_patch {
 } sdv_patch;
 
 // Patches pay for so many levels at least.
-#define SDV_QUAD_PATCH_DEPTH 2
+#define SDV_QUAD_PATCH_DEPTH 1
 #define SDV_LOOP_PATCH_DEPTH 2
 
 typedef struct sdv_patches {
@@ -2111,8 +2162,9 @@ typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_EDGED, SDV_PINNED } sdv_kind;
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
     int sharp = 0, stay = 0, last = 0, faces = sdv_list_size(&level->vertex_faces, v);
+    int first = level->vertex_edges.starts[v], end = level->vertex_edges.starts[v + 1];
     if (rules->linear) return SDV_FREE;
-    for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
+    for (int i = first; i < end && level->creased[v]; i++) {
         float s = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
         sharp += s > 0;
         stay += sdv_stays(s, levels, rules->creasing);
@@ -2124,11 +2176,9 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
     if (s > 0 || sharp > 2) return SDV_PINNED;
     if (sharp) return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
     if (faces != (rules->loop ? 6 : 4)) return SDV_ROUGH;
-    for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++) {
-        int f = sdv_face_of(level, level->vertex_faces.items[i]);
-        if (sdv_face_end(level, f) - sdv_face_start(level, f) != (rules->loop ? 3 : 4))
+    for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++)
+        if (sdv_size_of(level, level->vertex_faces.items[i]) != (rules->loop ? 3 : 4))
             return SDV_ROUGH;
-    }
     return SDV_FREE;
 }
 
@@ -2317,13 +2367,14 @@ static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *
     int count = 0;
     for (int v = 0; v < level->vertex_count && !context->result; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
+    int *candidates = SDV_NEW(context, &scratch, int, level->face_count);
     for (int f = 0; f < level->face_count && !context->result; f++)
-        count += level->core[f] && sdv_may_be_patch(level, kinds, f);
+        if (level->core[f] && sdv_may_be_patch(level, kinds, f)) candidates[count++] = f;
     patches->items = SDV_NEW(context, arena, sdv_patch, count);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
+    for (int i = 0; i < count && !context->result; i++) {
         sdv_patch *patch = &patches->items[patches->count];
-        if (!level->core[f] || !sdv_may_be_patch(level, kinds, f) ||
-            !sdv_make_patch(level, rules, kinds, f, levels, patch)) continue;
+        int f = candidates[i];
+        if (!sdv_make_patch(level, rules, kinds, f, levels, patch)) continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
         patches->count++;
@@ -2430,17 +2481,20 @@ static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
 // Does a result of so many levels fit? Asked before anything is built; edges < 0: not known yet.
 static void sdv_check_size(sdv_context *context, const subdiv_mesh *work, int levels, int edges)
 {
-    uint64_t corners = sdv_face_vertex_count(work), faces = (uint64_t)work->face_count;
+    uint64_t face_vertices = sdv_face_vertex_count(work), faces = (uint64_t)work->face_count;
     uint64_t n = (uint64_t)1 << (levels < 30 ? levels : 30), m = n / 2;
     int loop = work->scheme == SUBDIV_LOOP;
-    uint64_t fine = levels == 0 || corners == 0 ? faces : loop ? faces * n * n : corners * m * m;
-    if (levels > 30 || fine > INT_MAX || (corners && n > 65536)) {
+    uint64_t fine = loop ? faces * n * n : face_vertices * m * m;
+    if (levels == 0) fine = faces;
+    if (levels > 30)
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "%d levels are too many, at most 30 fit", levels);
+    if (fine > INT_MAX || (face_vertices && n > 65536)) {     // or the products would wrap
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
                  "%d levels of this mesh make more than %d faces", levels, INT_MAX);
         return;
     }
     if (edges < 0 || levels == 0) return;
-    uint64_t inside = loop ? faces * ((n - 1) * (n - 2) / 2) : faces + corners * m * (m - 1);
+    uint64_t inside = loop ? faces * ((n - 1) * (n - 2) / 2) : faces + face_vertices * m * (m - 1);
     if ((uint64_t)work->vertex_count + (uint64_t)edges * (n - 1) + inside > INT_MAX)
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
                  "%d levels of this mesh make more than %d vertices", levels, INT_MAX);
@@ -2571,12 +2625,21 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
 }
 
 // Vertices that never move are copied: those without faces, corners that stay, all if linear.
+static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage, int v)
+{
+    if (surface->rules.linear || sdv_list_size(&cage->vertex_faces, v) == 0) return 1;
+    return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
+}
+
+// Each with the first cage face that has it; those without, with face 0.
 static void sdv_find_copies(sdv_context *context, subdiv_surface *surface, sdv_level *cage)
 {
-    const sdv_rules *rules = &surface->rules;
     sdv_rows *rows = &surface->copies;
-    sdv_rows_new(context, &surface->arena, rows, cage->vertex_count, (size_t)cage->vertex_count, 1);
-    if (context->result) return;
+    int count = 0;
+    for (int v = 0; v < cage->vertex_count; v++)
+        count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
+    sdv_rows_new(context, &surface->arena, rows, count, (size_t)count, 1);
+    if (context->result || count == 0) return;
     for (int v = 0; v < cage->vertex_count; v++) {
         if (sdv_list_size(&cage->vertex_faces, v)) continue;
         sdv_add(rows, v, 1);
@@ -2584,10 +2647,8 @@ static void sdv_find_copies(sdv_context *context, subdiv_surface *surface, sdv_l
     }
     for (int h = 0; h < cage->face_vertex_count; h++) {
         int v = cage->face_vertices[h];
-        if (cage->vertex_done[v]) continue;
-        if (!rules->linear &&
-            sdv_vertex_kind(cage, rules, v, surface->levels) != SDV_PINNED) continue;
-        cage->vertex_done[v] = 1;
+        if (!cage->vertex_done[v] || cage->vertex_faces.items[cage->vertex_faces.starts[v]] != h)
+            continue;
         sdv_add(rows, v, 1);
         sdv_end_result_row(rows, v, sdv_face_of(cage, h));
     }
@@ -2744,7 +2805,6 @@ static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int
     for (int h = 0; h < level->face_vertex_count; h++)
         split.active[level->face_vertices[h]] |= level->rough[sdv_face_of(level, h)];
     sdv_number_points(level, &split, rules->loop);
-    sdv_level_fade(level, rules->creasing);
     sdv_step_face_rows(context, &surface->arena, level, &split, last, step);
     surface->work_count = level->first_point + level->vertex_count + split.face_points;
     if (context->result) return;
@@ -2755,6 +2815,7 @@ static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int
     sdv_step_rows(context, &surface->arena, level, &split, rules, step);
     sdv_number_faces(level, &split, rules->loop);
     sdv_split_level(context, next_arena, level, &split, next, rules->loop);
+    if (!context->result) sdv_level_fade(next, rules->creasing);
     surface->work_count = next->first_point + next->vertex_count;
 }
 
@@ -2764,7 +2825,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     sdv_level level = *cage, next;
     memset(level.core, 1, (size_t)level.face_count);
     memset(level.edge_done, 0, (size_t)level.edge_count);
-    memset(level.vertex_done, 0, (size_t)level.vertex_count);
+    sdv_level_fade(&level, surface->rules.creasing);
     sdv_find_copies(context, surface, &level);
     for (int i = 0; i < surface->levels && !context->result; i++) {
         next = level;
@@ -3209,6 +3270,38 @@ static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four 
     }
 }
 
+// One level of the cubic B-spline: q are the points at 0, 1/2 and 1 between p1 and p2.
+static void sdv_halve(const sdv_four *p, int step, int linear, sdv_four *q)
+{
+    sdv_four p1 = p[step], p2 = p[2 * step], eighth = sdv_all(0.125f), d = sdv_minus(p2, p1);
+    q[0] = p1;
+    q[1] = sdv_plus(p1, sdv_times(sdv_all(0.5f), d));
+    q[2] = p2;
+    if (linear) return;
+    q[0] = sdv_plus(p1, sdv_times(eighth, sdv_minus(d, sdv_minus(p1, p[0]))));
+    q[2] = sdv_plus(p2, sdv_times(eighth, sdv_minus(sdv_minus(p[3 * step], p2), d)));
+}
+
+// A quad with one level to go: nine points, which its polynomial would be too much work for.
+static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                         int linear, const float *work)
+{
+    static const unsigned char bits[3][3] = { { 16, 1, 32 }, { 8, 0, 2 }, { 128, 4, 64 } };
+    sdv_four origin = sdv_load(work + 4 * (size_t)patch->points[5]), p[16], up[3][4], q[3];
+    sdv_quad_points(patch, work, origin, p);
+    for (int i = 0; i < 4; i++) {
+        sdv_halve(p + i, 4, linear, q);
+        for (int row = 0; row < 3; row++) up[row][i] = q[row];
+    }
+    for (int row = 0; row < 3; row++) {
+        sdv_halve(up[row], 1, linear, q);
+        for (int i = 0; i < 3; i++)
+            if (bits[row][i] == 0 || bits[row][i] & patch->owned)
+                sdv_put_point(out, sdv_grid_index(grid, patch->row + row, patch->column + i),
+                              sdv_plus(origin, q[i]));
+    }
+}
+
 // The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
 // along the rows.
 static void sdv_quad_polynomial(const sdv_patch *patch, int linear, const float *work,
@@ -3280,7 +3373,8 @@ static sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
 //     q - h^2/12 S q      S = 2 (Dx Dx - Dx Dy + Dy Dy),  h = 2^-k
 //
 // Summing box splines of width h multiplies by (sinh(hD/2) / (hD/2))^2 = 1 + h^2 D^2 / 12 + ... for
-// each direction D of the grid; S is the sum of the three D^2, and S S q = 0.
+// each direction D of the grid. S is the sum of the three D^2, and the term in h^4 is a multiple of
+// S S q = 0: S S / 4 is the sum of the products of two of the D^2, and each makes q vanish.
 static void sdv_box_spline(const sdv_four *p, float hh, sdv_polynomial *q)
 {
     sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
@@ -3354,6 +3448,10 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
         for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
             const sdv_patch *patch = &patches->items[i];
             if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+            if (!order->loop && patch->depth == 1) {
+                sdv_put_nine(out, &grid, patch, linear, work);
+                continue;
+            }
             if (order->loop) sdv_triangle_polynomial(patch, linear, work, &q);
             else sdv_quad_polynomial(patch, linear, work, &q);
             sdv_put_patch(out, &grid, patch, &q);
@@ -3473,7 +3571,8 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
     if (surface->levels == 0) {
-        if (e->first_face == 0) sdv_copy_work(e);
+        if (e->first_face == 0 && (e->end_face > 0 || surface->cage_face_count == 0))
+            sdv_copy_work(e);
         return;
     }
     if (surface->cage_face_count == 0) e->end_face = 1;    // vertices without faces go with face 0
@@ -3509,7 +3608,7 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
-    return (size_t)(channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
 
 static void sdv_check_values(sdv_context *context, const subdiv_surface *surface, int channels,
@@ -3716,13 +3815,19 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
     }
 }
 
+static void sdv_check_input(sdv_context *context, const subdiv_surface *surface,
+                            const float *positions)
+{
+    sdv_check_positions(context, positions, surface->cage_vertex_count, sdv_limit(surface->levels));
+}
+
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
                                              const float *positions, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_positions(&context, positions, surface->cage_vertex_count, FLT_MAX / 2);
+    else sdv_check_input(&context, surface, positions);
     if (context.result) return context.result;
 
     subdiv_mesh made;
@@ -3743,9 +3848,13 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     subdiv_mesh out;
     subdiv_surface *surface = NULL;
     memset(&out, 0, sizeof out);
-    if (!fine) {
-        sdv_context context = sdv_begin(opt);
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "fine is NULL");
+    sdv_context context = sdv_begin(opt);
+    if (!fine || fine == cage)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    else if (cage && cage->positions && cage->vertex_count > 0)    // before all the work
+        sdv_check_positions(&context, cage->positions, cage->vertex_count, sdv_limit(levels));
+    if (context.result) {
+        if (fine && fine != cage) *fine = out;
         return context.result;
     }
     subdiv_result result = subdiv_prepare(&surface, cage, levels, opt);
@@ -3755,7 +3864,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     return result;
 }
 
-// ------------------------------------------------------------------------------- >>inspect
+// ---------------------------------------------------------------------------- >>inspection
 
 static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
 {
@@ -3786,14 +3895,14 @@ static void sdv_count_topology(subdiv_info *info, const sdv_cage *cage, subdiv_s
     int regular = scheme == SUBDIV_LOOP ? 6 : 4;
     for (int e = 0; e < level->edge_count; e++) {
         info->boundary_edge_count += sdv_list_size(&level->edge_faces, e) == 1;
-        info->nonmanifold_edge_count += cage->edge_odd[e];
+        info->nonmanifold_edge_count += cage->edge_nonmanifold[e];
     }
     for (int v = 0; v < level->vertex_count; v++) {
         int faces = sdv_list_size(&level->vertex_faces, v);
         int valence = sdv_list_size(&level->vertex_edges, v);
         if (valence > info->max_valence) info->max_valence = valence;
         if (faces == 0) info->isolated_vertex_count++;
-        else if (cage->vertex_odd[v]) info->nonmanifold_vertex_count++;
+        else if (cage->vertex_nonmanifold[v]) info->nonmanifold_vertex_count++;
         else if (valence == faces && valence != regular) info->extraordinary_vertex_count++;
     }
     for (int f = 0; f < level->face_count; f++) info->hole_count += cage->hole[f];
@@ -4181,7 +4290,7 @@ static void sdv_read_more(sdv_obj *obj)
     if (size == 0) {
         obj->ended = 1;
     } else if (size > room) {
-        sdv_fail(obj->context, SUBDIV_ERROR_IO, "reading failed");
+        sdv_fail_io(obj->context, "reading failed");
     } else {
         text->count += size;
     }
@@ -4431,8 +4540,9 @@ static int sdv_read_tag(sdv_obj *obj, const char *at, const char *end)
     }
     for (int64_t i = 0; i < counts[1] && !obj->context->result; i++) {
         sdv_token token = sdv_next_token(&at, end);
-        float number;
-        if (!sdv_read_number(token.begin, token.end, &number)) return 0;
+        float number = SUBDIV_INFINITE;
+        if (!sdv_token_is(token, "inf") && !sdv_read_number(token.begin, token.end, &number))
+            return 0;
         sdv_push_float(obj->context, &obj->floats, number);
     }
     if (counts[2] > 0) word = sdv_next_token(&at, end);
@@ -4443,6 +4553,10 @@ static void sdv_read_statement(sdv_obj *obj, const char *at, const char *end)
 {
     const char *start = at;
     sdv_token keyword = sdv_next_token(&at, end);
+    if (obj->line == 1 && sdv_token_is(keyword, "version") && end - at > 20 &&
+        memcmp(at, " https://git-lfs", 16) == 0)
+        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, 1,
+                      "a Git LFS pointer, not the file itself");
     if (sdv_token_is(keyword, "v")) {
         sdv_read_vertex(obj, at, end);
     } else if (sdv_token_is(keyword, "f") || sdv_token_is(keyword, "fo")) {
@@ -4630,7 +4744,7 @@ static void sdv_flush(sdv_output *out)
 {
     if (!out->context->result && out->used &&
         out->write(out->user, out->buffer, out->used) != out->used)
-        sdv_fail(out->context, SUBDIV_ERROR_IO, "writing failed");
+        sdv_fail_io(out->context, "writing failed");
     out->used = 0;
 }
 
@@ -4790,6 +4904,7 @@ static void sdv_stream_vertices(sdv_output *out, const subdiv_surface *surface,
                                        window, 3, opt);
         sdv_write_vertices(out, window, end - first);
     }
+    if (!out->context->result) out->context->result = result;
 }
 
 // The faces, a row of a grid at a time.
@@ -4835,14 +4950,15 @@ static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surf
 }
 
 // Level 0 is a copy, no larger than the cage.
-static subdiv_result sdv_stream_copy(const subdiv_surface *surface, const float *positions,
-                                     subdiv_write write, void *user, const subdiv_options *opt)
+static subdiv_result sdv_stream_copy(sdv_context *context, const subdiv_surface *surface,
+                                     const float *positions, subdiv_write write, void *user,
+                                     const subdiv_options *opt)
 {
     subdiv_mesh copy;
-    subdiv_result result = subdiv_surface_mesh(&copy, surface, positions, opt);
-    if (!result) result = subdiv_save_obj_callback(&copy, write, user, opt);
+    context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
+    if (!context->result) sdv_save(context, &copy, write, user, opt);
     subdiv_mesh_free(&copy);
-    return result;
+    return context->result;
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
@@ -4851,9 +4967,10 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
 {
     sdv_context context = sdv_begin(opt);
     if (!surface || !write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_positions(&context, positions, surface->cage_vertex_count, FLT_MAX / 2);
+    else sdv_check_input(&context, surface, positions);
     if (context.result) return context.result;
-    if (surface->levels == 0) return sdv_stream_copy(surface, positions, write, user, opt);
+    if (surface->levels == 0)
+        return sdv_stream_copy(&context, surface, positions, write, user, opt);
     return sdv_stream(&context, surface, positions, write, user, opt);
 }
 
@@ -4939,7 +5056,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
     FILE *file = sdv_open(&context, path, "wb");
     if (!file) return context.result;
     sdv_save(&context, mesh, sdv_write_file, file, opt);
-    if (fclose(file) && !context.result) sdv_fail(&context, SUBDIV_ERROR_IO, "writing failed");
+    if (fclose(file)) sdv_fail_io(&context, "writing failed");
     return context.result;
 }
 
@@ -4948,16 +5065,16 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 {
     sdv_context context = sdv_begin(opt);
     if (!surface || !path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_positions(&context, positions, surface->cage_vertex_count, FLT_MAX / 2);
+    else sdv_check_input(&context, surface, positions);
     if (context.result) return context.result;
     context.name = path;
     FILE *file = sdv_open(&context, path, "wb");
     if (!file) return context.result;
     if (surface->levels == 0)
-        context.result = sdv_stream_copy(surface, positions, sdv_write_file, file, opt);
+        sdv_stream_copy(&context, surface, positions, sdv_write_file, file, opt);
     else
         sdv_stream(&context, surface, positions, sdv_write_file, file, opt);
-    if (fclose(file)) sdv_fail(&context, SUBDIV_ERROR_IO, "writing failed");
+    if (fclose(file)) sdv_fail_io(&context, "writing failed");
     return context.result;
 }
 

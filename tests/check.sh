@@ -35,10 +35,12 @@ for compiler in gcc clang; do
         done
     done
     sanitize="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
-    for test in masks order invariants recorded obj errors memory; do
-        step build_and_run $compiler -std=c99 $sanitize -I. tests/test_$test.c
+    for test in masks order invariants patches evaluate recorded obj errors memory; do
+        step build_and_run $compiler -std=c99 $sanitize -pthread -I. tests/test_$test.c
     done
 done
+
+step sh tests/simd.sh
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

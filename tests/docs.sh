@@ -81,6 +81,18 @@ mv $out/cage.kept $out/cage.obj
 refines by_hand
 step "by_hand has one crease left" test "$(grep -c '^t crease ' $out/fine.obj)" = 4
 
+# The programs are C++ as well.
+if command -v "${CXX:-c++}" > /dev/null; then
+    step "quick_start is C++" "${CXX:-c++}" -x c++ -std=c++11 -I. -fsyntax-only $out/quick_start.c
+    step "by_hand is C++" "${CXX:-c++}" -x c++ -std=c++11 -I. -fsyntax-only $out/by_hand.c
+fi
+
+# CONTENTS names every section of subdiv.h and no other.
+grep -o '^// -.*>>[a-z-]*' subdiv.h | sed 's/.*>>//' | sort -u > $out/sections
+sed -n '/CONTENTS/,/WORDS/p' subdiv.h | sed 's/.*>>masks$//' | grep -o '>>[a-z-]*' | sed 's/>>//' |
+    sort -u > $out/contents
+step "CONTENTS is complete" diff $out/sections $out/contents
+
 # The first fenced block of README.md that holds a main.
 if [ -f README.md ]; then
     awk '/^```/ { if (inside && main) { printf "%s", text; exit }

@@ -638,9 +638,9 @@ static int usage(void)
 
 static int report(void)
 {
-    printf("%lld vertices, %lld faces, %lld creases, %lld corners compared, %lld faces hidden, "
-           "largest error %.3g of the extent\n", totals.vertices, totals.faces, totals.creases,
-           totals.corners, totals.hidden, totals.largest_error);
+    printf("%d cages compared: %lld vertices, %lld faces, %lld creases, %lld corners, %lld faces hidden, "
+           "largest error %.3g of the extent\n", test_passed + test_failed, totals.vertices,
+           totals.faces, totals.creases, totals.corners, totals.hidden, totals.largest_error);
     printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1\n",
            totals.put_right);
     for (const auto &skip : totals.skips)

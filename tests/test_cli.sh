@@ -130,7 +130,7 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
-              --triangulate --info --time --help --version; do
+              --stream --triangulate --info --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
 fine "--help is not an error" test ! -s err
@@ -239,16 +239,70 @@ ends 2 --triangles round tetrahedron.obj
 
 # ------------------------------------------------------------------------------------ not yet there
 
-for option in '--uv all' '-u none' '-ucorners-plus1' '--limit' '-L' '--threads 4' '-j2'; do
+for option in '--uv all' '-u none' '-ucorners-plus1' '--limit' '-L'; do
     ends 2 $option box.obj form.obj
     says "not in this release"
 done
 ends 2 --uv blue box.obj
 says "corners-only"
+
+# --------------------------------------------------------------------------------------- threads
+
+# The same bytes for any number of threads, also for more than there are jobs or cores.
+cages=$(ls ../../examples/cages/*.obj)
+for cage in zoo.obj box_chaikin.obj $cages; do
+    ends 0 -l 3 $cage serial.obj
+    for n in 1 2 3 7 100000; do
+        ends 0 -l 3 -j $n $cage form.obj
+        same form.obj serial.obj
+    done
+done
+ends 0 -l 3 -s loop --triangulate zoo.obj serial.obj
+ends 0 -l 3 -s loop --triangulate --threads=4 zoo.obj form.obj
+same form.obj serial.obj
 ends 2 -j 0 box.obj
 says "whole number"
 ends 2 -j many box.obj
 says "whole number"
+ends 2 box.obj -j
+says "needs a value"
+
+# While it waits for its input, the threads are there.
+# has_threads PROCESS COUNT: comes to have so many within five seconds.
+has_threads() {
+    for try in 1 2 3 4 5 6 7 8 9 10; do
+        if [ "$(ls /proc/$1/task 2> /dev/null | wc -l)" = "$2" ]; then return 0; fi
+        sleep 0.5
+    done
+    return 1
+}
+
+if [ -d /proc/self/task ] && mkfifo pipe; then
+    for n in 1 2 5; do
+        "$program" -j $n pipe form.obj &
+        fine "-j $n makes $n threads" has_threads $! $n
+        kill $!
+        wait $! 2> /dev/null
+    done
+fi
+
+# While it waits for its output to be read, they have worked.
+# busy PROCESS: another thread than the first comes to have run for 1 ms within two seconds.
+busy() {
+    for try in 1 2 3 4 5 6 7 8 9 10; do
+        sleep 0.2
+        if cat /proc/$1/task/*/schedstat 2> /dev/null |
+            awk 'NR > 1 && $1 > 1e6 { busy = 1 } END { exit !busy }'; then return 0; fi
+    done
+    return 1
+}
+
+if [ -p pipe ] && [ -f /proc/self/schedstat ]; then
+    "$program" -j 2 -l 5 ../../examples/cages/octopus.obj pipe &
+    fine "-j 2: both threads refine" busy $!
+    kill $!
+    wait $! 2> /dev/null
+fi
 
 # ------------------------------------------------------------------------------------- bad usage
 
@@ -347,6 +401,75 @@ fine "full disk: exit 1" test $? = 1
 says "half.obj"
 fine "full disk: nothing left in OUTPUT" test ! -s half.obj
 
+# --------------------------------------------------------------------------------------- stream
+
+# The same bytes as in one piece, tags and all.
+for cage in box.obj box_chaikin.obj zoo.obj quad.obj quad_corner.obj warnings.obj $cages; do
+    for form in '-l 0' '-l 1' '-l 3' '-l 2 -s bilinear' '-l 2 -s loop --triangulate' \
+                '-l 2 -b none' '-l 3 -t smooth -c chaikin -b edge-and-corner'; do
+        ends 0 $form $cage whole.obj
+        ends 0 $form --stream $cage form.obj
+        same form.obj whole.obj
+        subdiv $form --stream -j 3 $cage > out 2> err
+        same out whole.obj
+    done
+done
+ends 0 --stream -l 2 - form.obj < box.obj
+same form.obj two.obj
+cp box.obj itself.obj
+ends 0 --stream -l 2 itself.obj itself.obj
+same itself.obj two.obj
+
+for arguments in 'bad_index.obj' '-s loop box.obj' '-l 30 box.obj'; do
+    ends 1 --stream $arguments kept.obj
+    same kept.obj kept_copy.obj
+done
+ends 1 --stream box.obj nowhere/form.obj
+says "nowhere/form.obj"
+if [ -w /dev/full ]; then
+    for level in 0 1 6; do
+        ends 1 --stream -l $level box.obj /dev/full
+        says "/dev/full"
+        subdiv --stream -l $level box.obj > /dev/full 2> err
+        fine "--stream -l $level > /dev/full: exit 1" test $? = 1
+        says "standard output"
+    done
+    ends 1 --stream -l 0 ../../examples/cages/octopus.obj /dev/full
+    says "/dev/full"
+fi
+(ulimit -f 8 2> err && trap '' XFSZ 2> err && exec "$program" --stream -l 6 box.obj half.obj 2> err)
+fine "full disk under --stream: exit 1" test $? = 1
+says "half.obj"
+fine "full disk under --stream: nothing left in OUTPUT" test ! -s half.obj
+
+# limited ARGUMENTS: in 64 MB of memory.
+limited() {
+    (ulimit -v 65536 && exec "$program" "$@")
+}
+
+# lines LEVEL: of the box. Its 8 vertices, 12 edges and 5 faces become points; then the faces, the
+# boundary rule and the one crease that is left.
+lines() {
+    n=$((1 << $1))
+    echo $((8 + 12 * (n - 1) + 5 * (n - 1) * (n - 1) + 5 * n * n + 1 + n))
+}
+
+# Level 10 has five million faces, in 250 MB of text; the mesh would take 168 MB. Level 11 has more
+# than 2^24 vertices and is streamed without being asked.
+if limited --version > /dev/null 2>&1; then
+    fine "lines 5" test "$(subdiv -l 5 box.obj | wc -l)" -eq "$(lines 5)"
+    fine "--stream in 64 MB" test "$(limited -l 10 --stream box.obj | wc -l)" -eq "$(lines 10)"
+    fine "fewer threads than asked for, for want of memory" limited -l 2 -j 256 box.obj form.obj
+    same form.obj two.obj
+    limited -l 10 box.obj > /dev/null 2> err
+    fine "in one piece 64 MB are not enough" test $? = 1
+    says "out of memory"
+    { limited -l 11 box.obj 2> err; echo $? > status; } | head -n 8 > out
+    fine "a large result, not read to its end: exit 1" test "$(cat status)" = 1
+    says "standard output"
+    counts out 8 0
+fi
+
 # ------------------------------------------------------------------------------------- warnings
 
 ends 0 warnings.obj form.obj
@@ -407,8 +530,16 @@ for step in load prepare refine save; do
     fine "--time: $step" grep -qxE "$step [0-9]+\.[0-9]{3} ms [0-9]+\.[0-9]{2} ns/vertex" err
 done
 fine "--time: nothing on standard output" test ! -s out
-fine "--time: ns/vertex are ms by vertices" awk -v n="$(grep -c '^v ' timed.obj)" '
-    { error = $4 * n / 1e6 - $2; if (error * error > (0.001 + 1e-8 * n) ^ 2) exit 1 }' err
+per_vertex='{ error = $4 * n / 1e6 - $2; if (error * error > (0.001 + 1e-8 * n) ^ 2) exit 1 }'
+n=$(grep -c '^v ' timed.obj)
+fine "--time: ns/vertex are ms by vertices" awk -v n="$n" "$per_vertex" err
+ends 0 --time --stream -l 5 box.obj streamed.obj
+same streamed.obj timed.obj
+fine "--time --stream prints three lines" test "$(wc -l < err)" -eq 3
+for step in load prepare refine+save; do
+    fine "--time --stream: $step" grep -q "^$step [0-9.]* ms [0-9.]* ns/vertex\$" err
+done
+fine "--time --stream: ns/vertex are ms by vertices" awk -v n="$n" "$per_vertex" err
 ends 0 --time --info box.obj
 fine "--time --info: one line" test "$(wc -l < err)" -eq 1
 fine "--time --info: load" grep -q '^load ' err

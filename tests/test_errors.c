@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include <float.h>
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "test.h"
@@ -484,6 +486,58 @@ static void test_crease_without_an_edge_is_a_warning(void)
     subdiv_mesh_free(&plain);
 }
 
+// A result is another mesh than its cage: refused, and the cage is left alone.
+static void test_fine_is_the_cage(void)
+{
+    subdiv_mesh cage = good_mesh(), copy = cage;
+    CHECK_EQUAL(subdiv_refine(&cage, &cage, 1, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK(memcmp(&cage, &copy, sizeof cage) == 0);
+}
+
+// Huge coordinates are refused or give finite results, also where neighbours have both signs: a
+// sheet of n x n quads (Loop: triangles) like a chessboard.
+static void check_huge(subdiv_scheme scheme, float size)
+{
+    enum { n = 6 };
+    float points[3 * (n + 1) * (n + 1)];
+    int faces[6 * n * n], *f = faces;
+    for (int i = 0; i < 3 * (n + 1) * (n + 1); i++) {
+        int place = i / 3, sign = (place / (n + 1) + place % (n + 1)) & 1;
+        points[i] = sign ? size : -size;
+    }
+    for (int i = 0; i < n * n; i++) {
+        int v[4] = { i / n * (n + 1) + i % n, 0, 0, 0 };
+        v[1] = v[0] + 1;
+        v[2] = v[1] + n + 1;
+        v[3] = v[0] + n + 1;
+        for (int j = 0; j < (scheme == SUBDIV_LOOP ? 3 : 4); j++) *f++ = v[j];
+        for (int j = 2; j < 5 && scheme == SUBDIV_LOOP; j++) *f++ = v[j & 3];
+    }
+    subdiv_mesh cage = {0}, fine;
+    cage.vertex_count = (n + 1) * (n + 1);
+    cage.positions = points;
+    cage.face_size = scheme == SUBDIV_LOOP ? 3 : 4;
+    cage.face_count = (int)(f - faces) / cage.face_size;
+    cage.face_vertices = faces;
+    cage.scheme = scheme;
+    for (int levels = 0; levels <= 5; levels++) {
+        subdiv_result result = subdiv_refine(&fine, &cage, levels, NULL);
+        CHECK(result == SUBDIV_OK || (result == SUBDIV_ERROR_NOT_FINITE && levels > 0));
+        for (int i = 0; i < 3 * fine.vertex_count; i++)
+            CHECK(fabs((double)fine.positions[i]) <= (double)FLT_MAX);
+        subdiv_mesh_free(&fine);
+    }
+}
+
+static void test_huge_coordinates(void)
+{
+    for (float size = FLT_MAX; size > 1e34f; size /= 2) {
+        check_huge(SUBDIV_CATMULL_CLARK, size);
+        check_huge(SUBDIV_LOOP, size);
+        check_huge(SUBDIV_BILINEAR, size);
+    }
+}
+
 int main(void)
 {
     RUN(test_broken_meshes);
@@ -498,5 +552,7 @@ int main(void)
     RUN(test_result_strings);
     RUN(test_crease_without_an_edge_is_a_warning);
     RUN(test_sizes_that_overflow);
+    RUN(test_fine_is_the_cage);
+    RUN(test_huge_coordinates);
     return test_end("test_errors");
 }

@@ -521,9 +521,8 @@ static const refusal refusals[] = {
     {"\xef\xbb\xbf", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
     {"<!DOCTYPE html>\n<html><body>404</body></html>\n", SUBDIV_ERROR_EMPTY, 0,
      {"no vertices", ""}},
-    {"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n", SUBDIV_ERROR_EMPTY, 0,
-     {"no vertices", ""}},
-    {"V 0 0 0\nV 1 0 0\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
+    {"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n", SUBDIV_ERROR_SYNTAX, 1,
+     {"Git LFS", ""}},    {"V 0 0 0\nV 1 0 0\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
 };
 
 static const char *scratch = "build/test_obj.scratch.obj";
