@@ -3260,6 +3260,7 @@ static void sdv_load_points(const int *points, int count, const float *work, sdv
 static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four origin, sdv_four *p)
 {
     sdv_load_points(patch->points, 16, work, origin, p);
+    if (!patch->sharp) return;
     for (int i = 0; i < 16; i += 4) {
         if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
         if (patch->sharp & 2) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
@@ -3270,16 +3271,16 @@ static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four 
     }
 }
 
-// One level of the cubic B-spline: q are the points at 0, 1/2 and 1 between p1 and p2.
-static void sdv_halve(const sdv_four *p, int step, int linear, sdv_four *q)
+// One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2.
+static inline sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2)
 {
-    sdv_four p1 = p[step], p2 = p[2 * step], eighth = sdv_all(0.125f), d = sdv_minus(p2, p1);
-    q[0] = p1;
-    q[1] = sdv_plus(p1, sdv_times(sdv_all(0.5f), d));
-    q[2] = p2;
-    if (linear) return;
-    q[0] = sdv_plus(p1, sdv_times(eighth, sdv_minus(d, sdv_minus(p1, p[0]))));
-    q[2] = sdv_plus(p2, sdv_times(eighth, sdv_minus(sdv_minus(p[3 * step], p2), d)));
+    sdv_four bend = sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1));
+    return sdv_plus(p1, sdv_times(sdv_all(0.125f), bend));
+}
+
+static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
+{
+    return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
 // A quad with one level to go: nine points, which its polynomial would be too much work for.
@@ -3287,18 +3288,25 @@ static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_
                          int linear, const float *work)
 {
     static const unsigned char bits[3][3] = { { 16, 1, 32 }, { 8, 0, 2 }, { 128, 4, 64 } };
-    sdv_four origin = sdv_load(work + 4 * (size_t)patch->points[5]), p[16], up[3][4], q[3];
-    sdv_quad_points(patch, work, origin, p);
+    sdv_four p[16], up[3][4];
+    sdv_quad_points(patch, work, sdv_all(0), p);
     for (int i = 0; i < 4; i++) {
-        sdv_halve(p + i, 4, linear, q);
-        for (int row = 0; row < 3; row++) up[row][i] = q[row];
+        up[0][i] = linear ? p[4 + i] : sdv_spline_vertex(p[i], p[4 + i], p[8 + i]);
+        up[1][i] = sdv_middle(p[4 + i], p[8 + i]);
+        up[2][i] = linear ? p[8 + i] : sdv_spline_vertex(p[4 + i], p[8 + i], p[12 + i]);
     }
     for (int row = 0; row < 3; row++) {
-        sdv_halve(up[row], 1, linear, q);
-        for (int i = 0; i < 3; i++)
-            if (bits[row][i] == 0 || bits[row][i] & patch->owned)
-                sdv_put_point(out, sdv_grid_index(grid, patch->row + row, patch->column + i),
-                              sdv_plus(origin, q[i]));
+        const sdv_four *u = up[row];
+        const unsigned char *bit = bits[row];
+        int y = patch->row + row, x = patch->column;
+        if (bit[0] & patch->owned)
+            sdv_put_point(out, sdv_quad_index(grid, y, x),
+                          linear ? u[1] : sdv_spline_vertex(u[0], u[1], u[2]));
+        if (row == 1 || bit[1] & patch->owned)
+            sdv_put_point(out, sdv_quad_index(grid, y, x + 1), sdv_middle(u[1], u[2]));
+        if (bit[2] & patch->owned)
+            sdv_put_point(out, sdv_quad_index(grid, y, x + 2),
+                          linear ? u[2] : sdv_spline_vertex(u[1], u[2], u[3]));
     }
 }
 
