@@ -2121,14 +2121,22 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
 
 typedef struct sdv_patch {
     int points[16];                     // work points; for those that are mirrored, any
+    int cage_face;
     int h;                              // the cage face-vertex of its grid (see >>order)
     int row, column;                    // of vertex 0 on that grid, in segments of the last level
     signed char step;                   // -1 for a triangle that is turned by half
     unsigned char depth;                // levels to go
     unsigned char sharp;                // bit i: edge i is sharp
-    unsigned char owned;                // bit i: writes side i; bit 4 + i: writes vertex i
+    unsigned char owned;                // which of its sides and vertices it writes, see below
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
 } sdv_patch;
+
+// Bits of owned. A triangle's slanted side is its right one, its last vertex top left.
+enum { SDV_BOTTOM = 1, SDV_RIGHT = 2, SDV_TOP = 4, SDV_LEFT = 8, SDV_BOTTOM_LEFT = 16,
+       SDV_BOTTOM_RIGHT = 32, SDV_TOP_RIGHT = 64, SDV_TOP_LEFT = 128 };
+
+// Which control points the vertices of a face are (see the gathering functions).
+static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
 
 // Patches pay for so many levels at least.
 #define SDV_QUAD_PATCH_DEPTH 1
@@ -2244,11 +2252,11 @@ static int sdv_point_at(const sdv_level *level, int h)
 //      0  1  2  3
 static void sdv_gather_quad(const sdv_level *level, int h, const sdv_fan *fan, int *points)
 {
-    static const int own[4] = { 5, 6, 10, 9 }, diagonal[4] = { 0, 3, 15, 12 };
+    static const int diagonal[4] = { 0, 3, 15, 12 };
     static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
     for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, h);
     for (int i = 0; i < 4; i++) {
-        points[own[i]] = sdv_point_at(level, h + i);
+        points[sdv_quad_own[i]] = sdv_point_at(level, h + i);
         int across = sdv_across(level, h + i);
         if (across < 0) continue;
         int at = sdv_next(level, across);      // the face-vertex at vertex i
@@ -2260,25 +2268,24 @@ static void sdv_gather_quad(const sdv_level *level, int h, const sdv_fan *fan, i
     }
 }
 
-// The 12 control points. Those around vertex i, counter-clockwise: its two neighbours in the face,
-// the one across edge i-1, two more, the one across edge i.
+// The 12 control points. The neighbours of a point are to its right and left, above and below,
+// above left and below right.
 //
-//      9 10             vertices 0 1 2 are points 4 5 8
-//      6  8 11          (drawn on the grid: rows go up, columns to the right, and the
-//      3  4  5  7        neighbours of a point are right, left, above, below, above left
-//         0  1  2        and below right)
+//     row  2     9 10                vertices 0 1 2 are points 4 5 8
+//     row  1     6  8 11
+//     row  0     3  4  5  7
+//     row -1        0  1  2
+//       column  -1  0  1  2
 //
-//     in columns:       9 (-1,2)  10 (0,2)   6 (-1,1)  8 (0,1)  11 (1,1)
-//                       3 (-1,0)   4 (0,0)   5 (1,0)   7 (2,0)
-//                       0 (0,-1)   1 (1,-1)  2 (2,-1)
+// Those around vertex i, counter-clockwise: its two neighbours in the face, the one across edge
+// i-1, two more, the one across edge i.
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
 static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fan, int *points)
 {
-    static const int own[3] = { 4, 5, 8 };
     for (int i = 0; i < 12; i++) points[i] = sdv_point_at(level, h);
-    for (int i = 0; i < 3; i++) points[own[i]] = sdv_point_at(level, h + i);
+    for (int i = 0; i < 3; i++) points[sdv_triangle_own[i]] = sdv_point_at(level, h + i);
     for (int i = 0; i < 3; i++) {
         const int *ring = sdv_triangle_ring[i];
         int left = h + i, right = h + i, lefts = 0, rights = 0;
@@ -2300,14 +2307,13 @@ static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fa
 // Bilinear: the four vertices; the others have no weight.
 static void sdv_gather_linear(const sdv_level *level, int h, int size, int *points)
 {
-    static const int quad[4] = { 5, 6, 10, 9 }, triangle[3] = { 4, 5, 8 };
+    const int *own = size == 4 ? sdv_quad_own : sdv_triangle_own;
     for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, h);
-    for (int i = 0; i < size; i++)
-        points[size == 4 ? quad[i] : triangle[i]] = sdv_point_at(level, h + i);
+    for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
 // Makes the patch of face f, if it has one.
-static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
+static int sdv_make_patch(const sdv_level *level, const sdv_level *cage, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int levels, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
@@ -2328,6 +2334,7 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
     else sdv_gather_quad(level, h, fan, patch->points);
     sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
     patch->h = place.h;
+    patch->cage_face = sdv_face_of(cage, place.h);
     patch->row = (int)((unsigned)place.row << levels);
     patch->column = (int)((unsigned)place.column << levels);
     patch->step = (signed char)place.step;
@@ -2343,7 +2350,8 @@ static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
     for (int i = 0; i < size; i++) {
         unsigned char *edge = &level->edge_done[level->face_edges[h + i]];
         unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
-        patch->owned |= (unsigned char)(!*edge << i | !*vertex << (4 + i));
+        int bit = size == 3 && i == 2 ? 3 : i;
+        patch->owned |= (unsigned char)(!*edge << bit | !*vertex << (4 + bit));
         *edge = *vertex = 1;
     }
 }
@@ -2358,7 +2366,8 @@ static int sdv_may_be_patch(const sdv_level *level, const unsigned char *kinds, 
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
 static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
-                             const sdv_rules *rules, int levels, sdv_patches *patches)
+                             const sdv_level *cage, const sdv_rules *rules, int levels,
+                             sdv_patches *patches)
 {
     sdv_arena scratch = { NULL };
     memcpy(level->rough, level->core, (size_t)level->face_count);
@@ -2374,7 +2383,7 @@ static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *
     for (int i = 0; i < count && !context->result; i++) {
         sdv_patch *patch = &patches->items[patches->count];
         int f = candidates[i];
-        if (!sdv_make_patch(level, rules, kinds, f, levels, patch)) continue;
+        if (!sdv_make_patch(level, cage, rules, kinds, f, levels, patch)) continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
         patches->count++;
@@ -2796,8 +2805,8 @@ static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int
     sdv_step *step = &surface->steps[depth];
     int last = depth + 1 == surface->levels;
     sdv_split split;
-    sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
-                     &surface->patches[depth]);
+    sdv_find_patches(context, &surface->arena, level, &surface->order.cage, rules,
+                     surface->levels - depth, &surface->patches[depth]);
     sdv_split_new(context, arena, level, &split);
     if (context->result) return;
 
@@ -3012,35 +3021,30 @@ static void sdv_apply(const sdv_rows *rows, int row, int end, float *work)
         sdv_store(work + 4 * (size_t)(rows->first + row), sdv_row_sum(rows, row, work));
 }
 
-// The first patch of a cage face or one behind it.
-static int sdv_first_patch(const sdv_order *order, const sdv_patches *patches, int face)
+// The first of so many items that belongs to a cage face or one behind it; each item's cage face is
+// so many ints behind that of the one before.
+static int sdv_first_at(const int *faces, size_t stride, int count, int face)
 {
-    int low = 0, high = patches->count;
+    int low = 0, high = count;
     while (low < high) {
         int middle = low + (high - low) / 2;
-        if (sdv_face_of(&order->cage, patches->items[middle].h) < face) low = middle + 1;
+        if (faces[stride * (size_t)middle] < face) low = middle + 1;
         else high = middle;
     }
     return low;
 }
 
-// The first row of a cage face or one behind it.
-static int sdv_first_row(const sdv_rows *rows, int face)
+static int sdv_first_patch(const sdv_patches *patches, int face)
 {
-    int low = 0, high = rows->count;
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (rows->faces[middle] < face) low = middle + 1;
-        else high = middle;
-    }
-    return low;
+    const int *faces = patches->count ? &patches->items->cage_face : NULL;
+    return sdv_first_at(faces, sizeof(sdv_patch) / sizeof(int), patches->count, face);
 }
 
 static void sdv_apply_result(const sdv_rows *rows, const float *work, int face, int end,
                              const sdv_window *out)
 {
-    int last = sdv_first_row(rows, end);
-    for (int i = sdv_first_row(rows, face); i < last; i++)
+    int last = sdv_first_at(rows->faces, 1, rows->count, end);
+    for (int i = sdv_first_at(rows->faces, 1, rows->count, face); i < last; i++)
         sdv_put_point(out, rows->targets[i], sdv_row_sum(rows, i, work));
 }
 
@@ -3105,6 +3109,8 @@ typedef struct sdv_curve {
 static void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
 {
     sdv_four t = sdv_all(y);
+    curve->origin = q->origin;
+    curve->degree = q->degree;
     curve->a[1] = sdv_horner3(q->c[1], t);
     if (q->degree == 3) {
         curve->a[0] = sdv_horner3(q->c[0], t);
@@ -3152,19 +3158,26 @@ static void sdv_put_run(float *p, int lanes, int count, const sdv_curve *curve, 
         sdv_store_some(p, sdv_curve_point(curve, (float)(from + i) * h), lanes);
 }
 
-// A row of a patch on its grid: n + 1 points from (row, column) on, to the left if step is -1. The
-// points between its ends if inside is set, and the ends if left and right are.
-static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, int row, int column, int step,
-                        int n, int left, int inside, int right, float h, const sdv_curve *curve)
+// Row r of a patch of n segments, point by point: anywhere, of any width, in any window.
+static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                        const sdv_polynomial *q, int n, int r)
 {
+    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
+    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
+    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
+    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
+    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
+    float h = 1.0f / (float)n;
     sdv_side line = sdv_grid_line(grid, row);
-    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), sdv_curve_point(curve, 0));
-    for (int i = 1; i < n && inside; i++)
+    sdv_curve curve;
+    sdv_row_curve(q, (float)r * h, &curve);
+    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), sdv_curve_point(&curve, 0));
+    for (int i = 1; i < last && inside; i++)
         sdv_put_point(out, line.first + line.step * (column + step * i),
-                      sdv_curve_point(curve, (float)i * h));
+                      sdv_curve_point(&curve, (float)i * h));
     if (right)
-        sdv_put_point(out, sdv_grid_index(grid, row, column + step * n),
-                      sdv_curve_point(curve, (float)n * h));
+        sdv_put_point(out, sdv_grid_index(grid, row, column + step * last),
+                      sdv_curve_point(&curve, (float)last * h));
 }
 
 // Sides 1 and 3 of a patch between its first and last row: points stand inside the grid, beside
@@ -3180,7 +3193,7 @@ static sdv_side sdv_patch_side(const sdv_grid *grid, int border, int row, int st
 // The rows between the first and the last, where the whole result is written and its points have
 // no space between them.
 static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                               int n, int row, int end, const sdv_polynomial *q)
+                               const sdv_polynomial *q, int n)
 {
     int step = patch->step, triangle = grid->triangle, lanes = out->lanes;
     int reach = patch->column + n + (triangle ? patch->row : 0);
@@ -3188,17 +3201,15 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     sdv_side right = sdv_patch_side(grid, step > 0 && reach == grid->size, patch->row, step, 1);
     float h = 1.0f / (float)n;
     sdv_curve curve;
-    curve.origin = q->origin;
-    curve.degree = q->degree;
-    for (; row < end; row++) {
+    for (int row = 1; row < n; row++) {
         int last = triangle ? n - row : n, from = 1, count = last - 1;
         int at = sdv_grid_line(grid, patch->row + step * row).first + patch->column;
         sdv_row_curve(q, (float)row * h, &curve);
-        if (patch->owned & (triangle ? 4 : 8)) {
+        if (patch->owned & SDV_LEFT) {
             if (left.first < 0) from = 0, count++;
             else sdv_put_point(out, left.first + left.step * row, sdv_curve_point(&curve, 0));
         }
-        if (patch->owned & 2) {
+        if (patch->owned & SDV_RIGHT) {
             if (right.first < 0) count++;
             else sdv_put_point(out, right.first + right.step * row,
                                sdv_curve_point(&curve, (float)last * h));
@@ -3213,33 +3224,17 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     }
 }
 
-// All points of a patch that it owns. owned: bits 0 to 3 are the sides row 0, last column or
-// slanted side, last row, column 0; bits 4 to 7 the vertices.
+// All points of a patch that it owns.
 static void sdv_put_patch(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                           const sdv_polynomial *q)
 {
-    int n = 1 << patch->depth, owned = patch->owned, step = patch->step, triangle = grid->triangle;
-    int fast = out->whole && (size_t)out->lanes == out->stride && out->lanes >= 3;
-    int column_0 = triangle ? 4 : 8, last_vertex = triangle ? 64 : 128;
-    float h = 1.0f / (float)n;
-    sdv_curve curve;
-    curve.origin = q->origin;
-    curve.degree = q->degree;
-    for (int row = 0; row <= n; row++) {
-        int last = triangle ? n - row : n, top = row == n;
-        if (row == 1 && fast) {
-            sdv_put_inner_rows(out, grid, patch, n, 1, n, q);
-            row = n;
-            last = triangle ? 0 : n;
-            top = 1;
-        }
-        sdv_row_curve(q, (float)row * h, &curve);
-        int left = owned & (row == 0 ? 16 : top ? last_vertex : column_0);
-        int inside = row == 0 ? owned & 1 : top ? owned & 4 : 1;
-        int right = last == 0 ? 0 : owned & (row == 0 ? 32 : top ? 64 : 2);
-        sdv_put_row(out, grid, patch->row + step * row, patch->column, step, last, left, inside,
-                    right, h, &curve);
-    }
+    int n = 1 << patch->depth;
+    sdv_put_row(out, grid, patch, q, n, 0);
+    if (out->whole && out->lanes >= 3 && (size_t)out->lanes == out->stride)
+        sdv_put_inner_rows(out, grid, patch, q, n);
+    else
+        for (int r = 1; r < n; r++) sdv_put_row(out, grid, patch, q, n, r);
+    sdv_put_row(out, grid, patch, q, n, n);
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -3287,7 +3282,9 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
 static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                          int linear, const float *work)
 {
-    static const unsigned char bits[3][3] = { { 16, 1, 32 }, { 8, 0, 2 }, { 128, 4, 64 } };
+    static const unsigned char bits[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
+                                              { SDV_LEFT, 0, SDV_RIGHT },
+                                              { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
     sdv_four p[16], up[3][4];
     sdv_quad_points(patch, work, sdv_all(0), p);
     for (int i = 0; i < 4; i++) {
@@ -3337,11 +3334,10 @@ static void sdv_quad_polynomial(const sdv_patch *patch, int linear, const float 
 static void sdv_triangle_points(const sdv_patch *patch, const float *work, sdv_four origin,
                                 sdv_four *p)
 {
-    static const int own[3] = { 4, 5, 8 };
     sdv_load_points(patch->points, 12, work, origin, p);
     for (int i = 0; i < 3; i++) {
         const int *r = sdv_triangle_ring[i];
-        sdv_four v = p[own[i]];
+        sdv_four v = p[sdv_triangle_own[i]];
         if (patch->fan[i] == SDV_FAN_RING) continue;
         if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
         if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
@@ -3451,9 +3447,9 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_apply_result(&surface->copies, work, face, end, out);
     for (int level = 0; level < surface->levels; level++) {
         const sdv_patches *patches = &surface->patches[level];
-        int last = sdv_first_patch(order, patches, end), h = -1;
+        int last = sdv_first_patch(patches, end), h = -1;
         sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-        for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
+        for (int i = sdv_first_patch(patches, face); i < last; i++) {
             const sdv_patch *patch = &patches->items[i];
             if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
             if (!order->loop && patch->depth == 1) {

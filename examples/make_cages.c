@@ -644,7 +644,11 @@ static void whale(cage *c)
 int main(int argc, char **argv)
 {
     static cage cages[4];
-    const char *directory = argc > 1 ? argv[1] : ".";
+    if (argc != 2) {
+        fprintf(stderr, "usage: make_cages DIRECTORY\n");
+        return 2;
+    }
+    const char *directory = argv[1];
     octopus(cages);
     camera(cages + 1);
     lotus(cages + 2);
