@@ -150,6 +150,7 @@
 //     SUBDIV_FREE(pointer, user)     as malloc's
 //     SUBDIV_ASSERT(condition)       checks of the library's own logic, assert by default
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
+//     SUBDIV_NO_HUGE_PAGES           Linux: large blocks in pages of the usual size
 //     SUBDIV_NO_SIMD                 plain C where SSE2, NEON or WebAssembly would be used
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
@@ -586,11 +587,30 @@ typedef struct sdv_context {            // one call of the library
 
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...);
 
+// Linux: asks for huge pages, as touching a large block page by page costs more than filling it.
+#if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
+extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
+
+static void sdv_huge_pages(void *memory, size_t size)
+{
+    uintptr_t page = (uintptr_t)1 << 21, first = ((uintptr_t)memory + page - 1) & ~(page - 1);
+    uintptr_t end = ((uintptr_t)memory + size) & ~(page - 1);
+    if (end > first + page) sdv_madvise((void *)first, end - first, 14);   // MADV_HUGEPAGE
+}
+#else
+static void sdv_huge_pages(void *memory, size_t size)
+{
+    (void)memory;
+    (void)size;
+}
+#endif
+
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
     if (size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
         block = (sdv_block *)SUBDIV_MALLOC(size + sizeof(sdv_block), context->user);
+    if (block) sdv_huge_pages(block, size);
     if (!block) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
         return NULL;
