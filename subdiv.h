@@ -2816,7 +2816,8 @@ static void sdv_last_rows(sdv_context *context, subdiv_surface *surface, sdv_lev
     sdv_arena_free(&scratch);
 }
 
-// A level: its patches; then, of what is rough, the rows to the next level and the next level.
+// A level: its patches; then, of what is rough, the rows to the next level and the next level,
+// which has no faces if nothing is.
 static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int depth,
                               sdv_level *level, sdv_arena *arena, sdv_level *next,
                               sdv_arena *next_arena)
@@ -2827,6 +2828,9 @@ static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int
     sdv_split split;
     sdv_find_patches(context, &surface->arena, level, &surface->order.cage, rules,
                      surface->levels - depth, &surface->patches[depth]);
+    surface->work_count = level->first_point + level->vertex_count;
+    next->face_count = 0;
+    if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     sdv_split_new(context, arena, level, &split);
     if (context->result) return;
 
@@ -2856,7 +2860,8 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     memset(level.edge_done, 0, (size_t)level.edge_count);
     sdv_level_fade(&level, surface->rules.creasing);
     sdv_find_copies(context, surface, &level);
-    for (int i = 0; i < surface->levels && !context->result; i++) {
+    surface->work_count = level.vertex_count;
+    for (int i = 0; i < surface->levels && level.face_count && !context->result; i++) {
         next = level;
         sdv_prepare_level(context, surface, i, &level, &arena, &next, &next_arena);
         sdv_arena_free(&arena);
