@@ -90,7 +90,7 @@
 
        a quad                3 . . . 2       a triangle under Loop      2
        row by row from       . 7 8 9 .       row by row from            . .
-       edge 0-1 to 2-3,      . 4 5 6 .       edge 0-1 to corner 2       . 3 .
+       edge 0-1 to 2-3,      . 4 5 6 .       edge 0-1 to vertex 2       . 3 .
        each from edge 3-0    . 1 2 3 .                                  . 1 2 .
        to 1-2                0 . . . 1                                  0 . . . 1
 
