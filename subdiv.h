@@ -294,7 +294,7 @@ SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 //
 // fine must be another mesh; what it held is forgotten. A crease between vertices that share no
 // edge is skipped with a warning (level 0 keeps it). Levels multiply the faces by 4 each. Errors:
-// ARGUMENT, EMPTY, INDEX, FACE, NOT_TRIANGLE, NOT_FINITE (also coordinates beyond 3e35), TOO_LARGE
+// ARGUMENT, EMPTY, INDEX, FACE, NOT_TRIANGLE, NOT_FINITE, TOO_LARGE
 // (more than 2^31-1 vertices or faces), MEMORY.
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt);
@@ -895,8 +895,7 @@ static void sdv_check_sharp(sdv_context *context, const subdiv_mesh *mesh, const
     }
 }
 
-static void sdv_check_positions(sdv_context *context, const float *positions, int count,
-                                float limit)
+static void sdv_check_positions(sdv_context *context, const float *positions, int count)
 {
     if (count > 0 && !positions) {
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "positions is NULL");
@@ -905,11 +904,9 @@ static void sdv_check_positions(sdv_context *context, const float *positions, in
     for (int v = 0; v < count; v++) {
         const float *p = positions + 3 * (size_t)v;
         for (int i = 0; i < 3; i++)
-            if (!(p[i] >= -limit && p[i] <= limit)) {
-                int finite = p[i] >= -FLT_MAX && p[i] <= FLT_MAX;
+            if (!(p[i] >= -FLT_MAX && p[i] <= FLT_MAX)) {
                 sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, v,
-                              "vertex %d: coordinate %d is %s", v, i,
-                              finite ? "too large" : "not finite");
+                              "vertex %d: coordinate %d is not finite", v, i);
                 return;
             }
     }
@@ -951,17 +948,11 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
                           i, mesh->holes[i], mesh->face_count);
 }
 
-// Sums of differences of larger coordinates could overflow; a copy can have any.
-static float sdv_limit(int levels)
-{
-    return levels > 0 ? FLT_MAX / 1024 : FLT_MAX;
-}
-
 static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 {
     sdv_check_mesh(context, mesh);
     if (!context->result)
-        sdv_check_positions(context, mesh->positions, mesh->vertex_count, FLT_MAX);
+        sdv_check_positions(context, mesh->positions, mesh->vertex_count);
 }
 
 // --------------------------------------------------------------------------------- >>level
@@ -3844,10 +3835,32 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
     }
 }
 
-static void sdv_check_input(sdv_context *context, const subdiv_surface *surface,
-                            const float *positions)
+// Sums of differences of huge coordinates could overflow. So those are made smaller by a power of
+// two, which loses nothing, and the result larger again; it is never larger than the cage.
+static void sdv_multiply(float *values, size_t count, float factor)
 {
-    sdv_check_positions(context, positions, surface->cage_vertex_count, sdv_limit(surface->levels));
+    for (size_t i = 0; i < count && factor != 1; i++) {
+        double value = (double)values[i] * factor;      // rounding may have made it too large
+        values[i] = (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
+    }
+}
+
+// Checks the positions of a cage. Of huge ones makes a smaller copy; returns the factor back.
+static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                      const float **positions)
+{
+    size_t count = 3 * (size_t)surface->cage_vertex_count;
+    int huge = 0;
+    sdv_check_positions(context, *positions, surface->cage_vertex_count);
+    for (size_t i = 0; i < count && !context->result && surface->levels > 0; i++)
+        huge |= fabs((double)(*positions)[i]) > FLT_MAX / 4096;
+    if (!huge) return 1;
+    float *copy = SDV_NEW(context, arena, float, count);
+    if (context->result) return 1;
+    memcpy(copy, *positions, count * sizeof(float));
+    sdv_multiply(copy, count, 1.0f / 4096);
+    *positions = copy;
+    return 4096;
 }
 
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
@@ -3856,16 +3869,20 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_input(&context, surface, positions);
     if (context.result) return context.result;
 
     subdiv_mesh made;
-    sdv_new_mesh(&context, &made, &surface->fine, 1);
+    memset(&made, 0, sizeof made);
+    sdv_arena arena = { NULL };
+    float factor = sdv_tame(&context, &arena, surface, &positions);
+    if (!context.result) sdv_new_mesh(&context, &made, &surface->fine, 1);
     if (!context.result) {
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
         sdv_fill_holes(surface, made.holes);
         context.result = subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
+    if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
+    sdv_arena_free(&arena);
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
     return context.result;
@@ -3881,7 +3898,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     if (!fine || fine == cage)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
     else if (cage && cage->positions && cage->vertex_count > 0)    // before all the work
-        sdv_check_positions(&context, cage->positions, cage->vertex_count, sdv_limit(levels));
+        sdv_check_positions(&context, cage->positions, cage->vertex_count);
     if (context.result) {
         if (fine && fine != cage) *fine = out;
         return context.result;
@@ -4917,8 +4934,8 @@ static int sdv_face_inside(const subdiv_surface *surface, int point)
 // The vertices of the result, a window at a time. The first windows hold the points of vertices
 // and edges, which any face may make; the others those inside a few faces, or a part of one.
 static void sdv_stream_vertices(sdv_output *out, const subdiv_surface *surface,
-                                const float *positions, float *window, void *scratch,
-                                const subdiv_options *opt)
+                                const float *positions, float factor, float *window,
+                                void *scratch, const subdiv_options *opt)
 {
     int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
     subdiv_result result = subdiv_evaluate_begin(surface, 3, positions, 3, scratch, opt);
@@ -4931,6 +4948,7 @@ static void sdv_stream_vertices(sdv_output *out, const subdiv_surface *surface,
         }
         result = subdiv_evaluate_faces(surface, 3, scratch, face, faces, first, end - first,
                                        window, 3, opt);
+        sdv_multiply(window, 3 * (size_t)(end - first), factor);
         sdv_write_vertices(out, window, end - first);
     }
     if (!out->context->result) out->context->result = result;
@@ -4961,6 +4979,7 @@ static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surf
     sdv_arena arena = { NULL };
     sdv_output out = { context, write, user, NULL, 0 };
     subdiv_mesh fine = surface->fine;
+    float factor = sdv_tame(context, &arena, surface, &positions);
     int points = fine.vertex_count < SDV_STREAM_POINTS ? fine.vertex_count : SDV_STREAM_POINTS;
     out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
     float *window = SDV_NEW(context, &arena, float, 3 * (size_t)points);
@@ -4969,7 +4988,7 @@ static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surf
     fine.holes = SDV_NEW(context, &arena, int, fine.hole_count);
     if (!context->result) {
         sdv_fill_holes(surface, fine.holes);
-        sdv_stream_vertices(&out, surface, positions, window, scratch, opt);
+        sdv_stream_vertices(&out, surface, positions, factor, window, scratch, opt);
         sdv_stream_faces(&out, surface, row);
         if (!opt || !opt->no_tags) sdv_write_tags(&out, &fine);
         sdv_flush(&out);
@@ -4996,7 +5015,6 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
 {
     sdv_context context = sdv_begin(opt);
     if (!surface || !write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_input(&context, surface, positions);
     if (context.result) return context.result;
     if (surface->levels == 0)
         return sdv_stream_copy(&context, surface, positions, write, user, opt);
@@ -5094,7 +5112,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 {
     sdv_context context = sdv_begin(opt);
     if (!surface || !path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_input(&context, surface, positions);
+    else sdv_check_positions(&context, positions, surface->cage_vertex_count);
     if (context.result) return context.result;
     context.name = path;
     FILE *file = sdv_open(&context, path, "wb");
