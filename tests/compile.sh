@@ -6,22 +6,9 @@ CXX=${CXX:-c++}
 warn="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 out=build/compile
 from=tests/compile
-passed=0
-failed=0
 mkdir -p $out
 
-# step NAME COMMAND: runs the command and counts it.
-step() {
-    name=$1
-    shift
-    if "$@" > $out/log 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED  $name: $*"
-        head -n 10 $out/log
-    fi
-}
+. tests/step.sh
 
 # c NAME FILES...: a C program of so many files, compiled, linked and run.
 c() {

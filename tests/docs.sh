@@ -4,22 +4,10 @@
 CC=${CC:-cc}
 flags="-std=c99 -Wall -Wextra -Wpedantic -Werror -I."
 out=build/docs
-passed=0
-failed=0
 rm -rf $out
 mkdir -p $out
 
-step() {
-    name=$1
-    shift
-    if "$@" > $out/log 2>&1; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED  $name"
-        head -n 10 $out/log
-    fi
-}
+. tests/step.sh
 
 # section TITLE: the indented lines of a section of the opening comment, up to the next title.
 section() {
