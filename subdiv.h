@@ -566,8 +566,8 @@ static sdv_four sdv_times(sdv_four a, sdv_four b)
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
 
 // -------------------------------------------------------------------------------- >>memory
-// Scratch memory is an arena, a chain of blocks freed together. A failed allocation is remembered
-// in the context, so a function may ask for several arrays and look at context->result once.
+// Memory comes from arenas, chains of blocks freed together. A failed allocation is remembered in
+// the context, so a function may ask for several arrays and look at context->result once.
 
 typedef struct sdv_block {
     struct sdv_block *next;
@@ -576,7 +576,23 @@ typedef struct sdv_block {
 
 typedef struct sdv_arena {
     sdv_block *blocks;
+    char      *free;                    // the rest of the first block
+    size_t     left;                    // its size
+    size_t     chunk;                   // blocks are at least that large, and double in size
 } sdv_arena;
+
+static sdv_arena sdv_new_arena(size_t chunk)
+{
+    sdv_arena arena = { NULL, NULL, 0, 0 };
+    arena.chunk = chunk;
+    return arena;
+}
+
+// For what lives shortly: few and large blocks, which huge pages suit.
+static sdv_arena sdv_scratch(void)
+{
+    return sdv_new_arena((size_t)1 << 16);
+}
 
 typedef struct sdv_context {            // one call of the library
     subdiv_result result;               // the first error; nothing is done after it
@@ -620,19 +636,35 @@ static sdv_block *sdv_allocate(sdv_context *context, size_t size)
     return block;
 }
 
+// Sees to it that the next arrays, so many bytes in all, come from one block.
+static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
+{
+    if (context->result || size <= arena->left) return;
+    if (size < arena->chunk) size = arena->chunk;
+    if (arena->chunk) arena->chunk *= 2;
+    sdv_block *block = sdv_allocate(context, size);
+    if (!block) return;
+    block->next = arena->blocks;
+    arena->blocks = block;
+    arena->free = (char *)(block + 1);
+    arena->left = size;
+}
+
 // Room for count items, not cleared. Never NULL while context->result is SUBDIV_OK.
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
     if (context->result) return NULL;
-    if (count > (size_t)PTRDIFF_MAX / item) {
+    if (count > (size_t)PTRDIFF_MAX / item - 15) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
         return NULL;
     }
-    sdv_block *block = sdv_allocate(context, count * item);
-    if (!block) return NULL;
-    block->next = arena->blocks;
-    arena->blocks = block;
-    return block + 1;
+    size_t size = (count * item + 15) / 16 * 16;
+    sdv_reserve(context, arena, size);
+    if (context->result) return NULL;
+    char *array = arena->free;
+    arena->free += size;
+    arena->left -= size;
+    return array;
 }
 
 static void sdv_arena_free(sdv_arena *arena)
@@ -642,6 +674,50 @@ static void sdv_arena_free(sdv_arena *arena)
         arena->blocks = block->next;
         SUBDIV_FREE(block, block->user);
     }
+    arena->free = NULL;
+    arena->left = 0;
+}
+
+typedef struct sdv_array {              // grows
+    sdv_block *block;
+    size_t count, capacity;             // in items
+} sdv_array;
+
+// Room for so many items in all; those that are there are kept.
+static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
+{
+    if (context->result) return;
+    if (capacity > (size_t)PTRDIFF_MAX / item) {
+        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
+        return;
+    }
+    sdv_block *block = sdv_allocate(context, capacity * item);
+    if (!block) return;
+    if (array->block) {
+        memcpy(block + 1, array->block + 1, array->count * item);
+        SUBDIV_FREE(array->block, array->block->user);
+    }
+    array->block = block;
+    array->capacity = capacity;
+}
+
+// A place behind the items, with room for so many more. NULL when out of memory.
+static void *sdv_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
+{
+    if (array->capacity - array->count < more)
+        sdv_grow(context, array, 2 * (array->count + more), item);
+    return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
+}
+
+static const void *sdv_items(const sdv_array *array)
+{
+    return array->block ? array->block + 1 : NULL;
+}
+
+static void sdv_array_free(sdv_array *array)
+{
+    if (array->block) SUBDIV_FREE(array->block, array->block->user);
+    array->block = NULL;
 }
 
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
@@ -956,12 +1032,18 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 }
 
 // --------------------------------------------------------------------------------- >>level
-// A level is a mesh with its edges and how sharp everything is: all that refinement needs to know,
-// and all that the next level inherits.
+// A level is a mesh and how sharp everything is: all that refinement needs to know, and all that
+// the next level inherits.
 //
-// A face-vertex h is a place in face_vertices. Edge face_edges[h] leads from there to the next
-// vertex of the face. An edge-end k = 2 * edge + 0 or 1 is a place in edge_vertices; k ^ 1 is the
-// edge's other end. Any number of faces may share an edge, and any number of fans a vertex.
+// A face-vertex h is a place in face_vertices, and stands for three things: a face, one of its
+// vertices, and the edge that leads on from there to the next vertex. So an edge is a ring of
+// face-vertices, one for each face that has it, in rising order:
+//
+//     +---<---+
+//     |   q   |       across[h] = q, across[q] = h; alone on a boundary: across[h] = h;
+//     +--->---+       a ring of three or more where the mesh is non-manifold
+//     |   h   |
+//     +---<---+
 
 typedef struct sdv_rules {
     int loop;                           // faces split into 4 triangles, else into quads
@@ -970,28 +1052,30 @@ typedef struct sdv_rules {
     subdiv_triangles triangles;
 } sdv_rules;
 
-typedef struct sdv_lists {              // one list per vertex or edge, one after the other
-    int *starts;                        // [lists + 1]  list i is items[starts[i] .. starts[i+1]-1]
-    int *items;
-} sdv_lists;
-
 typedef struct sdv_place {              // of a face on its cage face's grid (see >>order)
     int h;                              // the cage face-vertex of the grid
     int row, column, step;              // of vertex 0; step -1: a triangle turned by half
 } sdv_place;
 
 typedef struct sdv_level {
-    int vertex_count, edge_count, face_count, face_vertex_count;
+    int vertex_count, face_count, face_vertex_count;
     int face_size;                      // of all faces; 0: see face_starts
-    int   *face_starts;                 // [face_count + 1]     the first face-vertex of each face
-    int   *face_of;                     // [face_vertex_count]  (both for face_size 0 alone)
-    int   *face_vertices;               // [face_vertex_count]
-    int   *face_edges;                  // [face_vertex_count]
-    int   *edge_vertices;               // [2 * edge_count]
-    float *edge_sharpness;              // [edge_count]
+    int *face_starts;                   // [face_count + 1]     the first face-vertex of each face
+    int *face_of;                       // [face_vertex_count]  (both for face_size 0 alone)
+    int *face_vertices;                 // [face_vertex_count]
+    int *across;                        // [face_vertex_count]  the next in the ring of an edge
+    int *vertex_first;                  // [vertex_count]       the first face-vertex there, or -1
+    int *vertex_next;                   // [face_vertex_count]  the next one at its vertex, or -1
+    int *vertex_faces;                  // [vertex_count]       how many there are
+    int *face_edges;                    // [face_vertex_count]  numbers of edges: level 0 alone
+    int *edge_first;                    // [edge_count]         their first face-vertices
+    int  edge_count;
+
+    float *sharpness;                   // [face_vertex_count]  of the edge that leads on
+    float *half_sharpness;              // [face_vertex_count]  one level down, of the half of that
+                                        //                      edge here; NULL: sdv_fade
     float *vertex_sharpness;            // [vertex_count]
-    float *end_sharpness;               // [2 * edge_count]     one level down: the halves of edges
-    float *next_sharpness;              // [vertex_count]       one level down: the vertices
+    unsigned char *creased;             // [vertex_count]       has a sharp edge
 
     int    first_point;                 // vertex v is work point first_point + v
     int   *face_point;                  // [face_count]         work points of the face points
@@ -999,13 +1083,8 @@ typedef struct sdv_level {
     unsigned char *core;                // [face_count]         makes points of the result; the
                                         //                      others are there for their masks
     unsigned char *rough;               // [face_count]         in the core, and not a patch
-    unsigned char *creased;             // [vertex_count]       has a sharp edge
-    unsigned char *edge_done;           // [edge_count]         points of the result that a patch
+    unsigned char *edge_done;           // [face_vertex_count]  points of the result that a patch
     unsigned char *vertex_done;         // [vertex_count]       or a copy makes
-
-    sdv_lists vertex_faces;             // at each vertex: its face-vertices
-    sdv_lists vertex_edges;             // at each vertex: its edge-ends
-    sdv_lists edge_faces;               // at each edge: the face-vertices that it leads on from
 } sdv_level;
 
 static int sdv_face_start(const sdv_level *level, int face)
@@ -1021,23 +1100,31 @@ static int sdv_face_end(const sdv_level *level, int face)
 static int sdv_face_of(const sdv_level *level, int h)
 {
     if (level->face_size == 4) return h >> 2;
-    if (level->face_size == 3) return h / 3;
+    if (level->face_size == 3) return (int)((unsigned)h / 3);
     return level->face_of[h];
 }
 
-// The face-vertices before and after h in its face.
-static int sdv_previous(const sdv_level *level, int h)
+// The face-vertices before and after h in its face. Quads are most of what there is.
+static int sdv_previous_any(const sdv_level *level, int h)
 {
-    if (level->face_size == 4) return (h & 3) ? h - 1 : h + 3;
     int face = sdv_face_of(level, h);
     return h > sdv_face_start(level, face) ? h - 1 : sdv_face_end(level, face) - 1;
 }
 
-static int sdv_next(const sdv_level *level, int h)
+static inline int sdv_previous(const sdv_level *level, int h)
 {
-    if (level->face_size == 4) return (h & 3) < 3 ? h + 1 : h - 3;
+    return level->face_size == 4 ? (h & ~3) | ((h + 3) & 3) : sdv_previous_any(level, h);
+}
+
+static int sdv_next_any(const sdv_level *level, int h)
+{
     int face = sdv_face_of(level, h);
     return h + 1 < sdv_face_end(level, face) ? h + 1 : sdv_face_start(level, face);
+}
+
+static inline int sdv_next(const sdv_level *level, int h)
+{
+    return level->face_size == 4 ? (h & ~3) | ((h + 1) & 3) : sdv_next_any(level, h);
 }
 
 // The number of vertices of the face of h.
@@ -1048,61 +1135,67 @@ static int sdv_size_of(const sdv_level *level, int h)
     return sdv_face_end(level, face) - sdv_face_start(level, face);
 }
 
+// Is h the face-vertex that stands for its edge where each edge is meant once? The last of its
+// ring does.
+static int sdv_is_edge(const sdv_level *level, int h)
+{
+    return level->across[h] <= h;
+}
+
+static int sdv_edge_faces(const sdv_level *level, int h)
+{
+    int count = 1;
+    for (int k = level->across[h]; k != h; k = level->across[k]) count++;
+    return count;
+}
+
+// Where each edge at a vertex is meant once, by the face-vertices h there (outgoing) and those
+// before them, which lead to it: an edge between two faces by the one that leads on from the
+// vertex, any other by the last of its ring.
+static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
+{
+    int q = level->across[h];
+    if (q != h && level->across[q] == h && level->face_vertices[q] != level->face_vertices[h])
+        return outgoing;
+    return q <= h;
+}
+
 static sdv_place sdv_first_place(int h)
 {
     sdv_place place = { h, 0, 0, 1 };
     return place;
 }
 
-// The arrays that each level has besides its faces and edges.
-static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level)
+// The arrays that each level has besides face_vertices; chaikin: and half_sharpness.
+static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level, int chaikin)
 {
-    size_t vertices = (size_t)level->vertex_count, edges = (size_t)level->edge_count;
-    size_t faces = (size_t)level->face_count;
-    level->edge_sharpness = SDV_NEW(context, arena, float, edges);
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
+    size_t face_vertices = (size_t)level->face_vertex_count;
+    level->across = SDV_NEW(context, arena, int, face_vertices);
+    level->vertex_first = SDV_NEW(context, arena, int, vertices);
+    level->vertex_next = SDV_NEW(context, arena, int, face_vertices);
+    level->vertex_faces = SDV_NEW(context, arena, int, vertices);
+    level->sharpness = SDV_NEW(context, arena, float, face_vertices);
+    if (chaikin) level->half_sharpness = SDV_NEW(context, arena, float, face_vertices);
     level->vertex_sharpness = SDV_NEW(context, arena, float, vertices);
-    level->end_sharpness = SDV_NEW(context, arena, float, 2 * edges);
-    level->next_sharpness = SDV_NEW(context, arena, float, vertices);
+    level->creased = SDV_NEW(context, arena, unsigned char, vertices);
     level->face_point = SDV_NEW(context, arena, int, faces);
     level->core = SDV_NEW(context, arena, unsigned char, faces);
     level->rough = SDV_NEW(context, arena, unsigned char, faces);
-    level->creased = SDV_NEW(context, arena, unsigned char, vertices);
-    level->edge_done = SDV_NEW(context, arena, unsigned char, edges);
+    level->edge_done = SDV_NEW(context, arena, unsigned char, face_vertices);
     level->vertex_done = SDV_NEW(context, arena, unsigned char, vertices);
+    if (!context->result) memset(level->creased, 0, vertices);
 }
 
-// lists[i] = the places in keys that hold i, in order.
-static sdv_lists sdv_invert(sdv_context *context, sdv_arena *arena,
-                            const int *keys, int key_count, int list_count)
+// Lists the face-vertices at each vertex, in rising order.
+static void sdv_level_lists(sdv_level *level)
 {
-    sdv_lists lists;
-    lists.starts = SDV_NEW(context, arena, int, (size_t)list_count + 1);
-    lists.items = SDV_NEW(context, arena, int, key_count);
-    if (context->result) return lists;
-
-    memset(lists.starts, 0, ((size_t)list_count + 1) * sizeof(int));
-    for (int i = 0; i < key_count; i++) lists.starts[keys[i]]++;
-    int end = 0;
-    for (int i = 0; i < list_count; i++) lists.starts[i] = end += lists.starts[i];
-    lists.starts[list_count] = end;
-    for (int i = key_count - 1; i >= 0; i--) lists.items[--lists.starts[keys[i]]] = i;
-    return lists;
-}
-
-static int sdv_list_size(const sdv_lists *lists, int i)
-{
-    return lists->starts[i + 1] - lists->starts[i];
-}
-
-// Who meets whom: fills the lists of a level whose faces and edges are known.
-static void sdv_level_connect(sdv_context *context, sdv_arena *arena, sdv_level *level)
-{
-    level->vertex_faces = sdv_invert(context, arena, level->face_vertices,
-                                     level->face_vertex_count, level->vertex_count);
-    level->vertex_edges = sdv_invert(context, arena, level->edge_vertices,
-                                     2 * level->edge_count, level->vertex_count);
-    level->edge_faces = sdv_invert(context, arena, level->face_edges,
-                                   level->face_vertex_count, level->edge_count);
+    for (int v = 0; v < level->vertex_count; v++) level->vertex_first[v] = -1;
+    for (int h = level->face_vertex_count - 1; h >= 0; h--) {
+        int *first = &level->vertex_first[level->face_vertices[h]];
+        level->vertex_next[h] = *first;
+        *first = h;
+    }
 }
 
 // ---------------------------------------------------------------------------------- >>cage
@@ -1115,164 +1208,193 @@ static void sdv_level_connect(sdv_context *context, sdv_arena *arena, sdv_level 
 
 typedef struct sdv_cage {
     sdv_level level;
-    unsigned char *edge_nonmanifold;            // [edge_count]    non-manifold edges
-    unsigned char *vertex_nonmanifold;          // [vertex_count]  non-manifold vertices
+    unsigned char *edge_nonmanifold;    // [edge_count]
+    unsigned char *vertex_nonmanifold;  // [vertex_count]
     unsigned char *hole;                // [face_count]
-    int *chain_first;                   // [vertex_count]  edges by their end of smaller valence:
-    int *chain_next;                    // [edge_count]    -1 ends a chain
-    int *face_total;                    // [vertex_count]  face-vertices at each vertex
 } sdv_cage;
 
-// The chain that holds an edge between a and b: that of the end with fewer faces, so that a
-// vertex of huge valence makes no long chain.
-static int sdv_chain(const sdv_cage *cage, int a, int b)
+// Does the edge that leads on from h join a and b?
+static int sdv_joins(const sdv_level *level, int h, int a, int b)
 {
-    int less = cage->face_total[a] - cage->face_total[b];
-    return less < 0 || (less == 0 && a < b) ? a : b;
+    int from = level->face_vertices[h], to = level->face_vertices[sdv_next(level, h)];
+    return (from == a && to == b) || (from == b && to == a);
 }
 
-// The first edge between a and b, or -1.
-static int sdv_find_edge(const sdv_cage *cage, int a, int b)
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence.
+static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
-    const int *ends = cage->level.edge_vertices;
-    int e = cage->chain_first[sdv_chain(cage, a, b)];
-    while (e >= 0 && !(ends[2 * e] == a && ends[2 * e + 1] == b) &&
-                     !(ends[2 * e] == b && ends[2 * e + 1] == a)) e = cage->chain_next[e];
-    return e;
+    return level->vertex_faces[a] <= level->vertex_faces[b] ? a : b;
 }
 
-// A new edge from a to b; behind an equal one in the chain, so that that one stays the first.
-static int sdv_add_edge(sdv_cage *cage, int a, int b, int equal)
+// Takes h as one more of the ring of edge e, which starts at first and ends at last, and returns
+// the new last. A face has an edge once: its later ones are left for edges of their own, -2.
+static int sdv_join_edge(sdv_cage *cage, int e, int first, int last, int h)
 {
-    int e = cage->level.edge_count++;
-    int *link = equal >= 0 ? &cage->chain_next[equal] : &cage->chain_first[sdv_chain(cage, a, b)];
-    cage->chain_next[e] = *link;
-    *link = e;
-    cage->level.edge_vertices[2 * e] = a;
-    cage->level.edge_vertices[2 * e + 1] = b;
-    cage->edge_nonmanifold[e] = 0;
-    return e;
+    sdv_level *level = &cage->level;
+    if (h <= first || level->face_edges[h] != -1) return last;
+    if (sdv_face_of(level, h) == sdv_face_of(level, last)) {
+        int before = first, later = h > last ? h : last;
+        cage->edge_nonmanifold[e] = 1;
+        level->face_edges[later] = -2;
+        if (later == h) return last;
+        while (level->across[before] != last) before = level->across[before];
+        last = before;
+    }
+    if (last != first || level->face_vertices[h] == level->face_vertices[first])
+        cage->edge_nonmanifold[e] = 1;
+    level->face_edges[h] = e;
+    level->across[last] = h;
+    level->across[h] = first;
+    return h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
 // ends are the same vertex, or when one face has it twice: then each time is an edge of its own.
-static void sdv_cage_edges(sdv_cage *cage, int *last_face, int *uses)
+static void sdv_cage_edges(sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
-    for (int f = 0; f < level->face_count; f++) {
-        int end = sdv_face_end(level, f);
-        for (int h = sdv_face_start(level, f); h < end; h++) {
-            int a = level->face_vertices[h];
-            int b = level->face_vertices[h + 1 < end ? h + 1 : sdv_face_start(level, f)];
-            int found = sdv_find_edge(cage, a, b), e = found;
-            if (found < 0 || a == b || last_face[found] == f) {
-                e = sdv_add_edge(cage, a, b, found);
-                uses[e] = 0;
-                if (a == b) cage->edge_nonmanifold[e] = 1;
-                else if (found >= 0) cage->edge_nonmanifold[found] = cage->edge_nonmanifold[e] = 1;
-            } else if (uses[e] > 1 || level->edge_vertices[2 * e] == a) {
-                cage->edge_nonmanifold[e] = 1;
-            }
-            level->face_edges[h] = e;
-            last_face[e] = f;
-            uses[e]++;
+    for (int h = 0; h < level->face_vertex_count; h++) level->face_edges[h] = -1;
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        if (level->face_edges[h] >= 0) continue;
+        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+        int e = level->edge_count++, last = h, alone = a == b || level->face_edges[h] == -2;
+        level->face_edges[h] = e;
+        level->edge_first[e] = h;
+        level->across[h] = h;
+        cage->edge_nonmanifold[e] = (unsigned char)alone;
+        if (alone) continue;
+        int v = sdv_smaller_end(level, a, b), other = a + b - v;
+        for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
+            int p = sdv_previous(level, k);
+            if (level->face_vertices[p] == other) last = sdv_join_edge(cage, e, h, last, p);
+            if (level->face_vertices[sdv_next(level, k)] == other)
+                last = sdv_join_edge(cage, e, h, last, k);
         }
     }
 }
 
-// Do the faces at v, whose edges are all manifold, form one fan? From a boundary edge if there is
-// one, step from face to face until all edges are met, or an edge too early.
+// The edge between a and b, the first one if there are several, or -1.
+static int sdv_find_edge(const sdv_level *level, int a, int b)
+{
+    int found = -1;
+    int k = level->vertex_first[sdv_smaller_end(level, a, b)];
+    for (; k >= 0; k = level->vertex_next[k]) {
+        int two[2] = { k, sdv_previous(level, k) };
+        for (int i = 0; i < 2; i++) {
+            if (!sdv_joins(level, two[i], a, b)) continue;
+            int e = level->face_edges[two[i]];
+            if (found < 0 || e < found) found = e;
+        }
+    }
+    return found;
+}
+
+// Do the faces at v, whose edges are all manifold, form one fan? From face to face around v, to
+// the left and, if that ends at a boundary, to the right.
 static int sdv_is_fan(const sdv_level *level, int v)
 {
-    int faces = sdv_list_size(&level->vertex_faces, v);
-    int edges = sdv_list_size(&level->vertex_edges, v);
-    if (faces == 0 || edges < 2 || edges - faces > 1) return 0;
-
-    int h = level->vertex_faces.items[level->vertex_faces.starts[v]];
-    int first = level->face_edges[h];
-    if (edges > faces) {
-        first = -1;
-        for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
-            int e = level->vertex_edges.items[i] >> 1;
-            if (sdv_list_size(&level->edge_faces, e) != 1) continue;
-            first = e;
-            h = level->edge_faces.items[level->edge_faces.starts[e]];
-            if (level->face_vertices[h] == v) break;
-            h = sdv_next(level, h);
-        }
-        if (first < 0) return 0;
+    int first = level->vertex_first[v], h = first, met = 1;
+    if (first < 0) return 0;
+    for (;;) {
+        int before = sdv_previous(level, h), left = level->across[before];
+        if (left == first) return met == level->vertex_faces[v];
+        if (left == before) break;
+        h = left;
+        met++;
     }
-
-    int edge = first;
-    for (int met = 1, met_faces = 1; met < edges; met++) {
-        int next = level->face_edges[sdv_previous(level, h)];
-        if (next == edge || next == first) return 0;
-        if (met_faces < faces) {
-            const int *two = level->edge_faces.items + level->edge_faces.starts[next];
-            if (sdv_list_size(&level->edge_faces, next) < 2) return 0;
-            h = sdv_face_of(level, two[0]) == sdv_face_of(level, h) ? two[1] : two[0];
-            met_faces++;
-        }
-        edge = next;
-    }
-    return 1;
+    for (h = first; level->across[h] != h; met++) h = sdv_next(level, level->across[h]);
+    return met == level->vertex_faces[v];
 }
 
 static void sdv_find_nonmanifold_vertices(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    memset(cage->vertex_nonmanifold, 0, (size_t)level->vertex_count);
-    for (int k = 0; k < 2 * level->edge_count; k++)
-        if (cage->edge_nonmanifold[k >> 1]) cage->vertex_nonmanifold[level->edge_vertices[k]] = 1;
+    unsigned char *nonmanifold = cage->vertex_nonmanifold;
+    memset(nonmanifold, 0, (size_t)level->vertex_count);
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e];
+        if (!cage->edge_nonmanifold[e]) continue;
+        nonmanifold[level->face_vertices[h]] = 1;
+        nonmanifold[level->face_vertices[sdv_next(level, h)]] = 1;
+    }
     for (int v = 0; v < level->vertex_count; v++)
-        if (!cage->vertex_nonmanifold[v] && !sdv_is_fan(level, v)) cage->vertex_nonmanifold[v] = 1;
+        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
+}
+
+static void sdv_sharpen_edge(sdv_level *level, int e, float sharpness)
+{
+    int first = level->edge_first[e], h = first;
+    do level->sharpness[h] = sharpness;
+    while ((h = level->across[h]) != first);
+}
+
+static float sdv_clamp_sharpness(float s)
+{
+    return s > SUBDIV_INFINITE ? SUBDIV_INFINITE : s > 0 ? s : 0;
 }
 
 // The user's creases and corners. A crease that is no edge is skipped.
 static void sdv_user_sharpness(sdv_context *context, sdv_cage *cage, const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
-    for (int e = 0; e < level->edge_count; e++) level->edge_sharpness[e] = 0;
-    for (int v = 0; v < level->vertex_count; v++) level->vertex_sharpness[v] = 0;
+    memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
+    memset(level->vertex_sharpness, 0, (size_t)level->vertex_count * sizeof(float));
     for (int i = 0; i < mesh->crease_count; i++) {
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
-        int e = sdv_find_edge(cage, a, b);
-        float s = mesh->crease_sharpness[i];
+        int e = sdv_find_edge(level, a, b);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
-        else level->edge_sharpness[e] = s > SUBDIV_INFINITE ? SUBDIV_INFINITE : s > 0 ? s : 0;
+        else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
     }
-    for (int i = 0; i < mesh->corner_count; i++) {
-        float s = mesh->corner_sharpness[i];
+    for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
-            s > SUBDIV_INFINITE ? SUBDIV_INFINITE : s > 0 ? s : 0;
-    }
+            sdv_clamp_sharpness(mesh->corner_sharpness[i]);
+}
+
+static int sdv_is_boundary(const sdv_level *level, int h)
+{
+    return level->across[h] == h;
 }
 
 // Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole.
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    for (int k = 0; k < 2 * level->edge_count; k++) {
-        int e = k >> 1, v = level->edge_vertices[k];
-        if (sdv_list_size(&level->edge_faces, e) != 1) continue;
-        if (level->edge_sharpness[e] >= SUBDIV_INFINITE) continue;
-        for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++)
-            cage->hole[sdv_face_of(level, level->vertex_faces.items[i])] = 1;
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        if (!sdv_is_boundary(level, h) || level->sharpness[h] >= SUBDIV_INFINITE) continue;
+        int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
+        for (int i = 0; i < 2; i++)
+            for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
+                cage->hole[sdv_face_of(level, k)] = 1;
     }
+}
+
+// Around a vertex: how many edges, and of them boundary and non-manifold ones.
+typedef struct sdv_edges_at {
+    int count, boundary, nonmanifold;
+} sdv_edges_at;
+
+static sdv_edges_at sdv_count_edges_at(const sdv_cage *cage, int v)
+{
+    const sdv_level *level = &cage->level;
+    sdv_edges_at edges = { 0, 0, 0 };
+    for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
+        int two[2] = { k, sdv_previous(level, k) };
+        for (int i = 0; i < 2; i++) {
+            if (!sdv_is_edge_at(level, two[i], i == 0)) continue;
+            edges.count++;
+            edges.boundary += sdv_is_boundary(level, two[i]);
+            edges.nonmanifold += cage->edge_nonmanifold[level->face_edges[two[i]]];
+        }
+    }
+    return edges;
 }
 
 static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 {
-    const sdv_level *level = &cage->level;
-    int nonmanifold = 0, boundary = 0;
-    for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
-        int e = level->vertex_edges.items[i] >> 1;
-        nonmanifold += cage->edge_nonmanifold[e];
-        boundary += sdv_list_size(&level->edge_faces, e) < 2;
-    }
-    return nonmanifold == 2 && boundary == 0 &&
-           sdv_list_size(&level->vertex_faces, v) > sdv_list_size(&level->vertex_edges, v);
+    sdv_edges_at edges = sdv_count_edges_at(cage, v);
+    return edges.nonmanifold == 2 && edges.boundary == 0 &&
+           cage->level.vertex_faces[v] > edges.count;
 }
 
 // What is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
@@ -1280,25 +1402,29 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
-    for (int e = 0; e < level->edge_count; e++)
-        if (level->edge_sharpness[e] < SUBDIV_INFINITE &&
-            (cage->edge_nonmanifold[e] || sdv_list_size(&level->edge_faces, e) < 2))
-            level->edge_sharpness[e] = SDV_IMPLIED;
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e];
+        if (level->sharpness[h] < SUBDIV_INFINITE &&
+            (cage->edge_nonmanifold[e] || sdv_is_boundary(level, h)))
+            sdv_sharpen_edge(level, e, SDV_IMPLIED);
+    }
     for (int v = 0; v < level->vertex_count; v++) {
         if (level->vertex_sharpness[v] >= SUBDIV_INFINITE) continue;
-        int single = sdv_list_size(&level->vertex_faces, v) == 1 &&
-                     sdv_list_size(&level->vertex_edges, v) == 2;
-        if ((single && boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER) ||
-            (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
+        int single = boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER && level->vertex_faces[v] == 1 &&
+                     sdv_count_edges_at(cage, v).count == 2;
+        if (single || (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
             level->vertex_sharpness[v] = SDV_IMPLIED;
     }
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (level->sharpness[h] > 0)
+            level->creased[level->face_vertices[h]] =
+                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // Faces, as face-vertices; starts and faces of face-vertices where sizes are not all 3 or all 4.
-static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_cage *cage,
+static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *level,
                            const subdiv_mesh *mesh)
 {
-    sdv_level *level = &cage->level;
     size_t total = sdv_face_vertex_count(mesh);
     if (total > INT_MAX / 2) {
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the faces have too many vertices together");
@@ -1322,37 +1448,28 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_cage *cag
     level->face_starts[level->face_count] = h;
 }
 
-// Level 0 of a valid mesh, whose face_vertices it borrows.
-static void sdv_cage_build(sdv_context *context, sdv_arena *arena, sdv_cage *cage,
-                           const subdiv_mesh *mesh)
+// Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
+// scratch the rest.
+static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                           sdv_cage *cage, const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
     memset(cage, 0, sizeof *cage);
-    sdv_cage_faces(context, arena, cage, mesh);
+    sdv_cage_faces(context, keep, level, mesh);
     if (context->result) return;
-    size_t most = (size_t)level->face_vertex_count, vertices = (size_t)level->vertex_count;
-    level->face_edges = SDV_NEW(context, arena, int, most);
-    level->edge_vertices = SDV_NEW(context, arena, int, 2 * most);
-    cage->edge_nonmanifold = SDV_NEW(context, arena, unsigned char, most);
-    cage->vertex_nonmanifold = SDV_NEW(context, arena, unsigned char, vertices);
-    cage->hole = SDV_NEW(context, arena, unsigned char, level->face_count);
-    cage->chain_first = SDV_NEW(context, arena, int, vertices);
-    cage->chain_next = SDV_NEW(context, arena, int, most);
-    cage->face_total = SDV_NEW(context, arena, int, vertices);
-    sdv_arena scratch = { NULL };
-    int *last_face = SDV_NEW(context, &scratch, int, most);
-    int *uses = SDV_NEW(context, &scratch, int, most);
-    if (!context->result) {
-        for (size_t v = 0; v < vertices; v++) cage->chain_first[v] = -1;
-        memset(cage->face_total, 0, vertices * sizeof(int));
-        for (size_t h = 0; h < most; h++) cage->face_total[level->face_vertices[h]]++;
-        sdv_cage_edges(cage, last_face, uses);
-    }
-    sdv_arena_free(&scratch);
-    sdv_level_new(context, arena, level);
-    sdv_level_connect(context, arena, level);
+    level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
+    cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
+    level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
+    cage->vertex_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->vertex_count);
+    sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
+    memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
+    for (int h = 0; h < level->face_vertex_count; h++)
+        level->vertex_faces[level->face_vertices[h]]++;
+    sdv_level_lists(level);
+    sdv_cage_edges(cage);
     sdv_find_nonmanifold_vertices(cage);
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
@@ -1383,40 +1500,47 @@ static float sdv_fade_chaikin(float s, float sum, int count)
     return s > 1 ? s - 1 : 0;
 }
 
-// The edges' halves at v inherit this.
-static void sdv_fade_ends(sdv_level *level, int v, subdiv_creasing creasing)
+// The halves of edges at v, from the semi-sharp ones among them. Each leads on from a face-vertex
+// at v, as only a manifold edge between two faces is semi-sharp.
+static void sdv_fade_halves(sdv_level *level, int v)
 {
-    int first = level->vertex_edges.starts[v], end = level->vertex_edges.starts[v + 1], count = 0;
     float sum = 0;
-    for (int i = first; i < end; i++) {
-        float s = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
+    int count = 0;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        float s = level->sharpness[h];
         if (s <= 0 || s >= SUBDIV_INFINITE) continue;
         sum += s;
         count++;
     }
-    for (int i = first; i < end; i++) {
-        int k = level->vertex_edges.items[i];
-        float s = level->edge_sharpness[k >> 1];
-        level->end_sharpness[k] = creasing == SUBDIV_CREASING_CHAIKIN ?
-            sdv_fade_chaikin(s, sum, count) : sdv_fade(s);
-    }
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        level->half_sharpness[h] = sdv_fade_chaikin(level->sharpness[h], sum, count);
 }
 
-// What edges' halves and vertices inherit. Sharp vertices fade uniformly in either case.
-static void sdv_level_fade(sdv_level *level, subdiv_creasing creasing)
+// Only Chaikin's depend on other edges.
+static void sdv_level_fade(sdv_level *level)
 {
-    memset(level->creased, 0, (size_t)level->vertex_count);
-    memset(level->end_sharpness, 0, 2 * (size_t)level->edge_count * sizeof(float));
-    for (int k = 0; k < 2 * level->edge_count; k++)
-        if (level->edge_sharpness[k >> 1] > 0) level->creased[level->edge_vertices[k]] = 1;
-    for (int v = 0; v < level->vertex_count; v++) {
-        if (level->creased[v]) sdv_fade_ends(level, v, creasing);
-        level->next_sharpness[v] = sdv_fade(level->vertex_sharpness[v]);
-    }
+    if (!level->half_sharpness) return;
+    memset(level->half_sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
+    for (int v = 0; v < level->vertex_count; v++)
+        if (level->creased[v]) sdv_fade_halves(level, v);
+}
+
+// One level down: the half, here, of the edge that leads on from h; and of the one that leads to
+// the vertex of h from the one before.
+static float sdv_half(const sdv_level *level, int h)
+{
+    return level->half_sharpness ? level->half_sharpness[h] : sdv_fade(level->sharpness[h]);
+}
+
+static float sdv_half_before(const sdv_level *level, int before)
+{
+    float s = level->sharpness[before];
+    if (s <= 0 || s >= SUBDIV_INFINITE) return s;
+    return sdv_half(level, level->across[before]);
 }
 
 // The rule for a vertex is the number of its sharp edges: 0 smooth, 1 dart, 2 crease, 3 or more
-// corner. A sharp vertex is a corner, whatever its edges.
+// corner. A sharp vertex is a corner, whatever its edges. Sharp vertices always fade uniformly.
 typedef enum sdv_rule { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER } sdv_rule;
 
 static sdv_rule sdv_vertex_rule(float vertex_sharpness, int sharp_edges)
@@ -1435,27 +1559,30 @@ typedef struct sdv_fading {
 
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    float sharpness = level->vertex_sharpness[v], sum = 0;
+    sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    float sharpness = level->vertex_sharpness[v], left = sdv_fade(sharpness), sum = 0;
     int now = 0, next = 0, count = 0;
-    if (sharpness > 0 && level->next_sharpness[v] <= 0) {
+    if (!level->creased[v] && sharpness <= 0) return fading;
+    if (sharpness > 0 && left <= 0) {
         sum = sharpness;
         count = 1;
     }
-    int first = level->vertex_edges.starts[v], end = level->vertex_edges.starts[v + 1];
-    for (int i = first; i < end && level->creased[v]; i++) {
-        int k = level->vertex_edges.items[i];
-        float s = level->edge_sharpness[k >> 1], half = level->end_sharpness[k];
-        now += s > 0;
-        next += half > 0;
-        if (s > 0 && half <= 0) {                   // fades away here
-            sum += s;
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            float s = level->sharpness[two[i]];
+            if (s <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            float half = i == 0 ? sdv_half(level, h) : sdv_half_before(level, two[i]);
+            now++;
+            next += half > 0;
+            if (half > 0) continue;
+            sum += s;                               // fades away here
             count++;
         }
     }
     float mean = count ? sum / (float)count : 0;
-    sdv_fading fading;
     fading.rule = sdv_vertex_rule(sharpness, now);
-    fading.next = sdv_vertex_rule(level->next_sharpness[v], next);
+    fading.next = sdv_vertex_rule(left, next);
     fading.weight = mean < 1 ? mean : 1;
     return fading;
 }
@@ -1608,6 +1735,7 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
     sdv_mask smooth = rules->loop ? sdv_loop_edge(faces) :
                       triangles ? sdv_smooth_triangle_edge(triangles) :
                       sdv_catmull_clark_edge(faces);
+    if (sharpness <= 0) return smooth;
     return sdv_blend(sharpness < 1 ? sharpness : 1, sdv_crease_edge(), smooth);
 }
 
@@ -1806,105 +1934,247 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 }
 
 // ---------------------------------------------------------------------------------- >>rows
-// Masks written out: row i says which points to add with which weights. All points that are ever
-// looked at, of all levels, stand in one array, the work points: level 0, then level 1, and so on.
-// So a row's indices mean work points, and evaluation need not know what a level is.
+// Masks written out: which points to add with which weights. All points that are ever looked at, of
+// all levels, stand in one array, the work points: level 0, then level 1, and so on. So a row's
+// points are work points, and evaluation need not know what a level is.
+//
+// Rows stand one behind the other as a stream of ints: the number of a mask, where the row makes a
+// point of the result its target, and the points. As weights sum to 1, a row's sum is
+//
+//     p0 + w1 (p1 - p0) + w2 (p2 - p0) + ...
+//
+// whose rounding errors are those of the small differences: exact wherever the mesh stands. And
+// for most masks the weights but the first are all the same, w: p0 + w ((p1 - p0) + ...).
+
+typedef struct sdv_weights {            // the mask of a row
+    int   count;                        // points
+    float even;                         // the weight of all points but the first;
+    int   first;                        // or, if >= 0: where in a list of weights theirs start
+} sdv_weights;
+
+typedef struct sdv_table {             // all rows of a surface
+    int         *items;
+    size_t      *starts;                // where some of the rows start in items, see sdv_rows
+    sdv_weights *masks;
+    float       *weights;
+} sdv_table;
+
+#define SDV_ROW_BLOCK 64                // rows between two starts
 
 typedef struct sdv_rows {
-    int     count;
-    size_t *starts;                     // [count + 1], and one more while they are written
-    int    *indices;                    // [starts[count]]
-    float  *weights;                    // [starts[count]]
-    int     first;                      // row i makes work point first + i, or if there are
-    int    *targets;                    // [count] targets, point targets[i] of the result,
-    int    *faces;                      // [count] which belongs to this cage face, never falling
+    int    count;
+    int    first;                       // row i makes work point first + i; starts[start + i / 64] is
+                                        // where it stands, for i a multiple of 64. Or
+    int    targets;                     // rows make points of the result; starts[start + f] is where
+    size_t start;                       // the first of cage face f stands
 } sdv_rows;
 
-static void sdv_rows_new(sdv_context *context, sdv_arena *arena, sdv_rows *rows,
-                         int count, size_t entries, int result)
+// Three weights are enough: of the first points, the neighbours along a crease, all others.
+typedef struct sdv_runs {
+    float weight[3];
+    int   count[3];
+} sdv_runs;
+
+typedef struct sdv_known_mask {
+    sdv_runs runs;
+    int      mask;
+} sdv_known_mask;
+
+#define SDV_KNOWN_MASKS 256
+
+// Writes the rows and the patches (see there) of a surface, which are copied when all are done.
+typedef struct sdv_writer {
+    sdv_context *context;
+    sdv_array    items, starts;         // the stream: ints, size_ts,
+    sdv_array    masks, weights;        // sdv_weights, floats
+    sdv_array    known;                 // sdv_known_mask [SDV_KNOWN_MASKS] by their hash
+    sdv_array    patches, points;       // sdv_patches, ints
+    sdv_rows    *rows;                  // being written
+    sdv_known_mask last;                // the mask of the last row
+    int          target, face;          // of the next row, if it makes a point of the result
+} sdv_writer;
+
+static void sdv_writer_free(sdv_writer *writer)
+{
+    sdv_array *arrays[] = { &writer->items, &writer->starts, &writer->masks, &writer->weights,
+                            &writer->known, &writer->patches, &writer->points };
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sdv_array_free(arrays[i]);
+}
+
+static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
+{
+    memset(writer, 0, sizeof *writer);
+    writer->context = context;
+    writer->last.mask = -1;
+    sdv_known_mask *known = (sdv_known_mask *)sdv_room(context, &writer->known, SDV_KNOWN_MASKS,
+                                                       sizeof(sdv_known_mask));
+    for (int i = 0; i < SDV_KNOWN_MASKS && known; i++) known[i].mask = -1;
+}
+
+static int sdv_new_mask(sdv_writer *writer, const sdv_runs *runs)
+{
+    int count = runs->count[0] + runs->count[1] + runs->count[2], even = 1, n = 0;
+    sdv_weights *mask = (sdv_weights *)sdv_room(writer->context, &writer->masks, 1,
+                                                sizeof(sdv_weights));
+    float *weights = (float *)sdv_room(writer->context, &writer->weights, (size_t)count,
+                                       sizeof(float));
+    if (!mask || !weights) return 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < runs->count[i]; j++) weights[n++] = runs->weight[i];
+    for (int i = 2; i < n; i++) even &= weights[i] == weights[1];
+    mask->count = n;
+    mask->even = even && n > 1 ? weights[1] : 0;
+    mask->first = even ? -1 : (int)writer->weights.count;
+    if (!even) writer->weights.count += (size_t)n;
+    return (int)writer->masks.count++;
+}
+
+static int sdv_same_runs(const sdv_runs *a, const sdv_runs *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (a->count[i] != b->count[i] || a->weight[i] != b->weight[i]) return 0;
+    return 1;
+}
+
+// The number of a mask. Most have been there before.
+static int sdv_mask_number(sdv_writer *writer, const sdv_runs *runs)
+{
+    uint32_t bits[3], hash = 0;
+    if (writer->last.mask >= 0 && sdv_same_runs(&writer->last.runs, runs)) return writer->last.mask;
+    memcpy(bits, runs->weight, sizeof bits);
+    for (int i = 0; i < 3; i++) hash = (hash ^ bits[i] ^ (uint32_t)runs->count[i]) * 2654435761u;
+    sdv_known_mask *known = (sdv_known_mask *)(writer->known.block + 1) + (hash >> 24);
+    if (known->mask < 0 || !sdv_same_runs(&known->runs, runs)) {
+        known->mask = sdv_new_mask(writer, runs);
+        known->runs = *runs;
+    }
+    writer->last = *known;
+    return known->mask;
+}
+
+// The next row is the first of a block or of a cage face.
+static void sdv_note_start(sdv_writer *writer)
+{
+    size_t *start = (size_t *)sdv_room(writer->context, &writer->starts, 1, sizeof(size_t));
+    if (!start) return;
+    *start = writer->items.count;
+    writer->starts.count++;
+}
+
+static void sdv_begin_rows(sdv_writer *writer, sdv_rows *rows, int first)
 {
     memset(rows, 0, sizeof *rows);
-    rows->starts = SDV_NEW(context, arena, size_t, (size_t)count + 2);
-    rows->indices = SDV_NEW(context, arena, int, entries);
-    rows->weights = SDV_NEW(context, arena, float, entries);
-    if (result) rows->targets = SDV_NEW(context, arena, int, count);
-    if (result) rows->faces = SDV_NEW(context, arena, int, count);
-    if (!context->result) rows->starts[0] = rows->starts[1] = 0;
+    rows->first = first;
+    rows->start = writer->starts.count;
+    writer->rows = rows;
 }
 
-// Adds to the row that is being written; sdv_end_row goes on to the next.
-static void sdv_add(sdv_rows *rows, int index, double weight)
+// Rows that make points of the result, cage face by cage face.
+static void sdv_begin_result(sdv_writer *writer, sdv_rows *rows)
 {
-    size_t end = rows->starts[rows->count + 1]++;
-    rows->indices[end] = index;
-    rows->weights[end] = (float)weight;
+    sdv_begin_rows(writer, rows, 0);
+    rows->targets = 1;
+    writer->face = -1;
 }
 
-static void sdv_end_row(sdv_rows *rows)
+// The rows that follow belong to this cage face.
+static void sdv_go_to_face(sdv_writer *writer, int face)
 {
+    for (; writer->face < face; writer->face++) sdv_note_start(writer);
+}
+
+// Where the points of the next row go, count at most; NULL when there is no memory.
+static int *sdv_begin_row(sdv_writer *writer, int count)
+{
+    int *row = (int *)sdv_room(writer->context, &writer->items, (size_t)count + 2, sizeof(int));
+    return row ? row + 1 + writer->rows->targets : NULL;
+}
+
+static void sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
+{
+    sdv_rows *rows = writer->rows;
+    int *row = (int *)(writer->items.block + 1) + writer->items.count;
+    int points = runs->count[0] + runs->count[1] + runs->count[2];
+    if (rows->targets) row[1] = writer->target;
+    else if (rows->count % SDV_ROW_BLOCK == 0) sdv_note_start(writer);
+    row[0] = sdv_mask_number(writer, runs);
+    writer->items.count += (size_t)(1 + rows->targets + points);
     rows->count++;
-    rows->starts[rows->count + 1] = rows->starts[rows->count];
 }
 
-static void sdv_end_result_row(sdv_rows *rows, int target, int face)
-{
-    rows->targets[rows->count] = target;
-    rows->faces[rows->count] = face;
-    sdv_end_row(rows);
-}
-
-static void sdv_face_row(const sdv_level *level, int f, sdv_rows *rows)
+static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-    double weight = sdv_face_weight(end - start);
-    for (int h = start; h < end; h++)
-        sdv_add(rows, level->first_point + level->face_vertices[h], weight);
+    int *point = sdv_begin_row(writer, end - start);
+    sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0 }, { end - start, 0, 0 } };
+    if (!point) return;
+    for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
+    sdv_end_row(writer, &runs);
 }
 
-// The neighbours along a crease are the other ends of the two edges that are sharp: now, or on
-// the next level where a corner turns into a crease.
-static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v, sdv_rows *rows)
+// Adds the neighbours of v along the edges that are sharp: now, or on the next level where a
+// corner turns into a crease. Or along the others.
+static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int sharp, int *point)
 {
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int before = sdv_previous(level, h);
+        float s = rule == SDV_CREASE ? level->sharpness[h] : sdv_half(level, h);
+        if (sdv_is_edge_at(level, h, 1) && (s > 0) == sharp)
+            *point++ = level->first_point + level->face_vertices[sdv_next(level, h)];
+        s = rule == SDV_CREASE ? level->sharpness[before] : sdv_half_before(level, before);
+        if (sdv_is_edge_at(level, before, 0) && (s > 0) == sharp)
+            *point++ = level->first_point + level->face_vertices[before];
+    }
+    return point;
+}
+
+// Without a crease each edge at v lies between two faces. Catmull-Clark weighs neighbours and
+// face points alike, so they are one run.
+static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v,
+                           sdv_writer *writer)
+{
+    int faces = level->vertex_faces[v];
     sdv_fading fading = sdv_vertex_fading(level, v);
-    sdv_mask mask = sdv_vertex_mask(rules, fading, sdv_list_size(&level->vertex_faces, v));
-    if (mask.self != 0) sdv_add(rows, level->first_point + v, mask.self);
-    for (int i = level->vertex_edges.starts[v]; i < level->vertex_edges.starts[v + 1]; i++) {
-        int k = level->vertex_edges.items[i];
-        float s = fading.rule == SDV_CREASE ? level->edge_sharpness[k >> 1]
-                                            : level->end_sharpness[k];
-        double weight = mask.edge + (s > 0 ? mask.crease : 0);
-        if (weight != 0) sdv_add(rows, level->first_point + level->edge_vertices[k ^ 1], weight);
-    }
-    if (mask.face == 0) return;
-    for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++) {
-        int f = sdv_face_of(level, level->vertex_faces.items[i]);
-        sdv_add(rows, level->face_point[f], mask.face);
-    }
+    sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
+    int *start = sdv_begin_row(writer, 1 + 3 * faces), *point = start;
+    sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge },
+                      { 0, 0, 0 } };
+    if (!start) return;
+    if (mask.self != 0) *point++ = level->first_point + v;
+    runs.count[0] = (int)(point - start);
+    if (mask.crease != 0) point = sdv_add_neighbours(level, v, fading.rule, 1, point);
+    runs.count[1] = (int)(point - start) - runs.count[0];
+    if (mask.crease != 0 && mask.edge != 0)
+        point = sdv_add_neighbours(level, v, fading.rule, 0, point);
+    if (mask.crease == 0 && mask.edge != 0)
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+            *point++ = level->first_point + level->face_vertices[sdv_next(level, h)];
+    if (mask.face != 0)
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+            *point++ = level->face_point[sdv_face_of(level, h)];
+    runs.count[2] = (int)(point - start) - runs.count[0] - runs.count[1];
+    sdv_end_row(writer, &runs);
 }
 
-static int sdv_is_triangle(const sdv_level *level, int face)
+// The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
+static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
 {
-    return sdv_face_end(level, face) - sdv_face_start(level, face) == 3;
-}
-
-static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int e, sdv_rows *rows)
-{
-    const int *faces = level->edge_faces.items + level->edge_faces.starts[e];
-    int count = sdv_list_size(&level->edge_faces, e), triangles = 0;
-    if (count == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
-        triangles = sdv_is_triangle(level, sdv_face_of(level, faces[0])) +
-                    sdv_is_triangle(level, sdv_face_of(level, faces[1]));
-    int stays_sharp = level->end_sharpness[2 * e] > 0 && level->end_sharpness[2 * e + 1] > 0;
-    sdv_mask mask = sdv_edge_mask(rules, level->edge_sharpness[e], stays_sharp, count, triangles);
-    sdv_add(rows, level->first_point + level->edge_vertices[2 * e], mask.self);
-    sdv_add(rows, level->first_point + level->edge_vertices[2 * e + 1], mask.self);
-    if (mask.face == 0) return;
-    for (int i = 0; i < count; i++) {
-        int opposite = rules->loop ?
-            level->first_point + level->face_vertices[sdv_previous(level, faces[i])] :
-            level->face_point[sdv_face_of(level, faces[i])];
-        sdv_add(rows, opposite, mask.face);
-    }
+    int faces = sdv_edge_faces(level, h), triangles = 0, k = h;
+    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
+        triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
+    sdv_mask mask = sdv_edge_mask(rules, level->sharpness[h], stays_sharp, faces, triangles);
+    int *point = sdv_begin_row(writer, 2 + faces);
+    sdv_runs runs = { { (float)mask.self, 0, (float)mask.face },
+                      { 2, 0, mask.face != 0 ? faces : 0 } };
+    if (!point) return;
+    point[0] = level->first_point + level->face_vertices[h];
+    point[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
+    for (int i = 0; i < runs.count[2]; i++, k = level->across[k])
+        point[2 + i] = rules->loop ?
+            level->first_point + level->face_vertices[sdv_previous(level, k)] :
+            level->face_point[sdv_face_of(level, k)];
+    sdv_end_row(writer, &runs);
 }
 
 // --------------------------------------------------------------------------------- >>split
@@ -1912,67 +2182,15 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int e, 
 // but once a region is regular, patches take it to the last level at once (see >>patches). Active
 // are the vertices of the faces that are not yet regular. A face-vertex makes a child face if its
 // vertex is active: the children of such a face and the ring of faces around them.
-//
-// Edges of the next level: those inside the faces, then the two halves of each edge, which lead
-// from the edge point to the vertex.
 
 typedef struct sdv_split {
     unsigned char *active;              // [vertex_count]
-    int *vertex, *face, *edge;          // [counts] their points as vertices of the next level,
-    int *inside, *half;                 // [face-vertices, edge-ends] its edges,
-    int *child;                         // [face-vertices; Loop: and one per face] its faces; or -1
-    int vertex_points, face_points, edge_points, edges, faces;
+    int *vertex, *face, *edge;          // [vertices, faces, face-vertices] their points as vertices
+                                        //      of the next level, or -1
+    int *child;                         // [face-vertices; Loop: and one per face] of each child the
+                                        //      face-vertex that stands for its parent's, or -1
+    int vertex_points, face_points, edge_points, faces;
 } sdv_split;
-
-static int sdv_edge_active(const sdv_level *level, const sdv_split *split, int e)
-{
-    return split->active[level->edge_vertices[2 * e]] |
-           split->active[level->edge_vertices[2 * e + 1]];
-}
-
-static int sdv_active_count(const sdv_level *level, const sdv_split *split, int f)
-{
-    int count = 0;
-    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
-        count += split->active[level->face_vertices[h]];
-    return count;
-}
-
-// Numbers what the next level will have: vertex points, face points, edge points.
-static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
-{
-    int next = 0;
-    for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
-    split->vertex_points = next;
-    for (int f = 0; f < level->face_count; f++)
-        split->face[f] = !loop && sdv_active_count(level, split, f) ? next++ : -1;
-    split->face_points = next - split->vertex_points;
-    for (int e = 0; e < level->edge_count; e++)
-        split->edge[e] = sdv_edge_active(level, split, e) ? next++ : -1;
-    split->edge_points = next - split->vertex_points - split->face_points;
-}
-
-// Faces and edges. Catmull-Clark: the edge inside from the face point to edge h parts the children
-// of h and of the next face-vertex. Loop: that at h parts the child of h from the middle one, which
-// is there for two active vertices.
-static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
-{
-    int face = 0, edge = 0;
-    for (int f = 0; f < level->face_count; f++) {
-        int middle = loop && sdv_active_count(level, split, f) >= 2;
-        for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
-            int active = split->active[level->face_vertices[h]];
-            split->child[loop ? h + f : h] = active ? face++ : -1;
-            split->inside[h] = (loop ? active || middle : split->edge[level->face_edges[h]] >= 0) ?
-                edge++ : -1;
-        }
-        if (loop) split->child[4 * f + 3] = middle ? face++ : -1;
-    }
-    for (int k = 0; k < 2 * level->edge_count; k++)
-        split->half[k] = split->active[level->edge_vertices[k]] ? edge++ : -1;
-    split->edges = edge;
-    split->faces = face;
-}
 
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
@@ -1981,119 +2199,202 @@ static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_leve
     split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
     split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
     split->face = SDV_NEW(context, arena, int, level->face_count);
-    split->edge = SDV_NEW(context, arena, int, level->edge_count);
-    split->inside = SDV_NEW(context, arena, int, level->face_vertex_count);
-    split->half = SDV_NEW(context, arena, int, 2 * (size_t)level->edge_count);
+    split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
     split->child = SDV_NEW(context, arena, int,
                            (size_t)level->face_vertex_count + (size_t)level->face_count);
 }
 
-// The half of edge e at vertex v. If both its ends are v: the first or second.
-static int sdv_half(const sdv_level *level, const sdv_split *split, int e, int v, int which)
+static void sdv_find_active(const sdv_level *level, sdv_split *split)
 {
-    const int *ends = level->edge_vertices + 2 * (size_t)e;
-    if (ends[0] != ends[1]) which = ends[1] == v;
-    return split->half[2 * e + which];
+    memset(split->active, 0, (size_t)level->vertex_count);
+    for (int f = 0; f < level->face_count; f++) {
+        int end = level->rough[f] ? sdv_face_end(level, f) : 0;
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            split->active[level->face_vertices[h]] = 1;
+    }
 }
 
-// Sharpness and what is done pass from edges to their halves and from vertices to vertex points.
-static void sdv_split_edges(const sdv_level *level, const sdv_split *split, sdv_level *next)
+// Numbers the children: each face-vertex has one where its vertex is active, and knows the
+// face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
+// that all descendants have their parent's orientation, and so with triangles; of any other polygon
+// it becomes vertex 0. The middle child of a triangle is there for two active vertices.
+static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
 {
-    memset(next->vertex_sharpness, 0, (size_t)next->vertex_count * sizeof(float));
-    memset(next->edge_sharpness, 0, (size_t)next->edge_count * sizeof(float));
-    memset(next->vertex_done, 0, (size_t)next->vertex_count);
-    memset(next->edge_done, 0, (size_t)next->edge_count);
+    int face = 0, point = 0, size = loop ? 3 : 4;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
+        for (int i = 0; i < end - start; i++) {
+            child[i] = -1;
+            if (!split->active[level->face_vertices[start + i]]) continue;
+            child[i] = size * face++ + (turn ? i : 0);
+            active++;
+        }
+        if (loop) child[3] = active >= 2 ? size * face++ : -1;
+        split->face[f] = active && !loop ? point++ : -1;
+    }
+    split->faces = face;
+    split->face_points = point;
+}
+
+// Numbers what the next level will have: vertex points, face points, edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split)
+{
+    int next = 0;
+    for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
+    split->vertex_points = next;
+    for (int f = 0; f < level->face_count; f++)
+        if (split->face[f] >= 0) split->face[f] += next;
+    next += split->face_points;
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        if (!sdv_is_edge(level, h)) continue;
+        int active = split->active[level->face_vertices[h]] |
+                     split->active[level->face_vertices[sdv_next(level, h)]];
+        int point = active ? next++ : -1, k = h;
+        do split->edge[k] = point;
+        while ((k = level->across[k]) != h);
+    }
+    split->edge_points = next - split->vertex_points - split->face_points;
+}
+
+// What vertex, edge and face points inherit; each child has 2 (Loop: 3) faces at an edge point.
+static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                             int loop)
+{
     for (int v = 0; v < level->vertex_count; v++) {
-        if (split->vertex[v] < 0) continue;
-        next->vertex_sharpness[split->vertex[v]] = level->next_sharpness[v];
-        next->vertex_done[split->vertex[v]] = level->vertex_done[v];
+        int point = split->vertex[v];
+        if (point < 0) continue;
+        next->vertex_sharpness[point] = sdv_fade(level->vertex_sharpness[v]);
+        next->vertex_done[point] = level->vertex_done[v];
+        next->vertex_faces[point] = level->vertex_faces[v];
     }
-    for (int k = 0; k < 2 * level->edge_count; k++) {
-        int half = split->half[k], e = k >> 1;
-        if (half < 0) continue;
-        next->edge_vertices[2 * half] = split->edge[e];
-        next->edge_vertices[2 * half + 1] = split->vertex[level->edge_vertices[k]];
-        next->edge_sharpness[half] = level->end_sharpness[k];
-        next->edge_done[half] = level->edge_done[e];
-        next->vertex_done[split->edge[e]] = level->edge_done[e];
+    for (int f = 0; f < level->face_count; f++) {
+        int point = split->face[f];
+        if (point < 0) continue;
+        next->vertex_sharpness[point] = 0;
+        next->vertex_done[point] = 0;
+        next->vertex_faces[point] = sdv_face_end(level, f) - sdv_face_start(level, f);
+    }
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        int point = split->edge[h];
+        if (point < 0 || !sdv_is_edge(level, h)) continue;
+        next->vertex_sharpness[point] = 0;
+        next->vertex_done[point] = level->edge_done[h];
+        next->vertex_faces[point] = (loop ? 3 : 2) * sdv_edge_faces(level, h);
     }
 }
 
-// Catmull-Clark and bilinear: one quad for each face-vertex.
+// The face-vertex of a quad or triangle that stands i places behind h.
+static inline int sdv_turn(int size, int h, int i)
+{
+    if (size == 4) return (h & ~3) | ((h + i) & 3);
+    int at = (int)((unsigned)h % 3), to = at + i;
+    return h - at + (to < 3 ? to : to - 3);
+}
+
+// The child at h. Its face-vertex 0 places behind vertex h leads along the edge of h, the last one
+// back along the edge before; they are where the next level meets the neighbours.
 //
-//     3-----2        vertex i, edge point i, face point, edge point i-1. Of a quad, child i keeps
-//     | 3|2 |        vertex i as its own vertex i, so that all descendants have their
-//     |--F--|        parent's orientation; of any other polygon it is vertex 0.
-//     | 0|1 |
+//     Catmull-Clark           Loop        2          child at vertex 0:
+//     3-----2                            /2\                vertex
+//     | 3|2 |  F face point            e2---e1              edge point of edge 0
+//     |--F--|                          /0\3/1\              (Catmull-Clark: face point)
+//     | 0|1 |                         0---e0--1             edge point of the edge before
 //     0-----1
+static void sdv_split_vertex(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                             int size, int h, int child)
+{
+    const int *own = split->child, *vertices = level->face_vertices;
+    int loop = size == 3, before = sdv_previous(level, h), v = vertices[h];
+    int q = level->across[h], p = level->across[before], last = sdv_turn(size, child, size - 1);
+    int on_q = vertices[q] == v ? q : sdv_next(level, q);        // the face-vertices at v across
+    int on_p = vertices[p] == v ? p : sdv_next(level, p);
+    int child_q = own[loop ? on_q + sdv_face_of(level, on_q) : on_q];
+    int child_p = own[loop ? on_p + sdv_face_of(level, on_p) : on_p];
+    float ahead = sdv_half(level, h), behind = sdv_half_before(level, before);
+
+    next->face_vertices[child] = split->vertex[v];
+    next->face_vertices[sdv_turn(size, child, 1)] = split->edge[h];
+    next->face_vertices[last] = split->edge[before];
+    if (on_q != q) child_q = sdv_turn(size, child_q, size - 1);
+    if (on_p != p) child_p = sdv_turn(size, child_p, size - 1);
+    next->across[child] = q == h ? child : child_q;
+    next->across[last] = p == before ? last : child_p;
+    next->sharpness[child] = ahead;
+    next->sharpness[last] = behind;
+    if (ahead > 0) next->creased[split->vertex[v]] = next->creased[split->edge[h]] = 1;
+    if (behind > 0) next->creased[split->vertex[v]] = next->creased[split->edge[before]] = 1;
+    next->edge_done[child] = level->edge_done[h];
+    next->edge_done[last] = level->edge_done[before];
+}
+
+// An edge inside a face, between siblings: smooth and new. other < 0: there is only one.
+static void sdv_split_inside(sdv_level *next, int at, int other)
+{
+    next->across[at] = other < 0 ? at : other;
+    next->sharpness[at] = 0;
+    next->edge_done[at] = 0;
+}
+
+// The place of the child at the vertex that is so far from vertex 0.
+static sdv_place sdv_child_place(sdv_place place, int up, int right)
+{
+    place.row = 2 * place.row + place.step * up;
+    place.column = 2 * place.column + place.step * right;
+    return place;
+}
+
 static void sdv_split_quads(const sdv_level *level, const sdv_split *split, sdv_level *next)
 {
     for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), quad = end - start == 4;
+        if (split->face[f] < 0) continue;
         for (int h = start; h < end; h++) {
-            int previous = h > start ? h - 1 : end - 1, v = level->face_vertices[h];
-            int e = level->face_edges[h], d = level->face_edges[previous], child = split->child[h];
-            if (split->inside[h] >= 0) {
-                next->edge_vertices[2 * split->inside[h]] = split->face[f];
-                next->edge_vertices[2 * split->inside[h] + 1] = split->edge[e];
-            }
+            int child = split->child[h], i = quad ? h - start : 0;
             if (child < 0) continue;
-            int vertices[4] = { split->vertex[v], split->edge[e], split->face[f], split->edge[d] };
-            int edges[4] = { sdv_half(level, split, e, v, 0), split->inside[h],
-                             split->inside[previous], sdv_half(level, split, d, v, 1) };
-            int quad = end - start == 4, turn = quad ? h - start : 0;
-            for (int i = 0; i < 4; i++) {
-                next->face_vertices[4 * child + ((i + turn) & 3)] = vertices[i];
-                next->face_edges[4 * child + ((i + turn) & 3)] = edges[i];
-            }
-            sdv_place *place = &next->places[child];
-            *place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
-            place->row = 2 * place->row + (turn >> 1);
-            place->column = 2 * place->column + (turn == 1 || turn == 2);
-            next->core[child] = level->rough[f];
+            int after = split->child[h + 1 < end ? h + 1 : start];
+            int before = split->child[h > start ? h - 1 : end - 1];
+            sdv_split_vertex(level, split, next, 4, h, child);
+            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
+            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
+            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
+            sdv_place place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
+            next->places[child >> 2] = sdv_child_place(place, i >> 1, i == 1 || i == 2);
+            next->core[child >> 2] = level->rough[f];
         }
     }
 }
 
-// Loop: four triangles, the middle one turned by half.
-//
-//         2
-//        /2\             child i keeps vertex i; the middle child is e1 e2 e0
-//      e2---e1
-//      /0\3/1\           the edge inside at vertex i leads from edge point i to i-1
-//     0---e0--1
-static void sdv_split_triangle(const sdv_level *level, const sdv_split *split, sdv_level *next,
-                               int f)
+// The middle child is e1 e2 e0: its edge i lies across from child i + 2.
+static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
 {
-    const int *v = level->face_vertices + 3 * (size_t)f, *e = level->face_edges + 3 * (size_t)f;
-    const int *in = split->inside + 3 * (size_t)f, *child = split->child + 4 * (size_t)f;
-    int V[3], p[3], half[3], other[3];
+    const int *child = split->child + 4 * (size_t)f, *edge = split->edge + 3 * (size_t)f;
     for (int i = 0; i < 3; i++) {
-        int which = level->edge_vertices[2 * e[i]] != v[i];
-        V[i] = split->vertex[v[i]];
-        p[i] = split->edge[e[i]];
-        half[i] = split->half[2 * e[i] + which];
-        other[i] = split->half[2 * e[i] + !which];
+        int at = child[3] + i, beside = child[(i + 2) % 3];
+        next->face_vertices[at] = edge[(i + 1) % 3];
+        sdv_split_inside(next, at, beside < 0 ? -1 : sdv_turn(3, beside, 1));
     }
-    int vertices[4][3] = { { V[0], p[0], p[2] }, { p[0], V[1], p[1] }, { p[2], p[1], V[2] },
-                           { p[1], p[2], p[0] } };
-    int edges[4][3] = { { half[0], in[0], other[2] }, { other[0], half[1], in[1] },
-                        { in[2], other[1], half[2] }, { in[2], in[0], in[1] } };
-    for (int i = 0; i < 3; i++) {
-        if (in[i] < 0) continue;
-        next->edge_vertices[2 * in[i]] = p[i];
-        next->edge_vertices[2 * in[i] + 1] = p[(i + 2) % 3];
-    }
-    for (int i = 0; i < 4; i++) {
-        if (child[i] < 0) continue;
-        memcpy(next->face_vertices + 3 * (size_t)child[i], vertices[i], sizeof vertices[i]);
-        memcpy(next->face_edges + 3 * (size_t)child[i], edges[i], sizeof edges[i]);
-        sdv_place *place = &next->places[child[i]];
-        *place = level->places ? level->places[f] : sdv_first_place(3 * f);
-        place->row = 2 * place->row + (i >= 2 ? place->step : 0);
-        place->column = 2 * place->column + (i & 1 ? place->step : 0);
-        if (i == 3) place->step = -place->step;
-        next->core[child[i]] = level->rough[f];
+}
+
+static void sdv_split_triangles(const sdv_level *level, const sdv_split *split, sdv_level *next)
+{
+    for (int f = 0; f < level->face_count; f++) {
+        const int *child = split->child + 4 * (size_t)f;
+        sdv_place place = level->places ? level->places[f] : sdv_first_place(3 * f);
+        for (int i = 0; i < 4; i++) {
+            if (child[i] < 0) continue;
+            if (i == 3) {
+                sdv_split_middle(split, next, f);
+            } else {
+                int middle = child[3] < 0 ? -1 : child[3] + (i + 1) % 3;
+                sdv_split_vertex(level, split, next, 3, 3 * f + i, child[i]);
+                sdv_split_inside(next, sdv_turn(3, child[i], 1), middle);
+            }
+            int face = child[i] / 3;
+            next->places[face] = sdv_child_place(place, i >= 2, i & 1);
+            if (i == 3) next->places[face].step = -place.step;
+            next->core[face] = level->rough[f];
+        }
     }
 }
 
@@ -2104,20 +2405,17 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->face_size = loop ? 3 : 4;
     next->face_count = split->faces;
     next->face_vertex_count = next->face_count * next->face_size;
-    next->edge_count = split->edges;
     next->vertex_count = split->vertex_points + split->face_points + split->edge_points;
     next->first_point = level->first_point + level->vertex_count;
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
-    next->face_edges = SDV_NEW(context, arena, int, next->face_vertex_count);
-    next->edge_vertices = SDV_NEW(context, arena, int, 2 * (size_t)next->edge_count);
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
-    sdv_level_new(context, arena, next);
+    sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     if (context->result) return;
-    if (!loop) sdv_split_quads(level, split, next);
-    for (int f = 0; loop && f < level->face_count; f++)
-        sdv_split_triangle(level, split, next, f);
-    sdv_split_edges(level, split, next);
-    sdv_level_connect(context, arena, next);
+    sdv_split_points(level, split, next, loop);
+    if (loop) sdv_split_triangles(level, split, next);
+    else sdv_split_quads(level, split, next);
+    sdv_level_lists(next);
+    sdv_level_fade(next);
 }
 
 // ------------------------------------------------------------------------------- >>patches
@@ -2131,12 +2429,9 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
 // This gives the B-spline curve along the edge, on every level: the masks of a crease.
 
 typedef struct sdv_patch {
-    int points[16];                     // work points; for those that are mirrored, any
-    int cage_face;
     int h;                              // the cage face-vertex of its grid (see >>order)
     int row, column;                    // of vertex 0 on that grid, in segments of the last level
     signed char step;                   // -1 for a triangle that is turned by half
-    unsigned char depth;                // levels to go
     unsigned char sharp;                // bit i: edge i is sharp
     unsigned char owned;                // which of its sides and vertices it writes, see below
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
@@ -2153,10 +2448,15 @@ static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5
 #define SDV_QUAD_PATCH_DEPTH 1
 #define SDV_LOOP_PATCH_DEPTH 2
 
-typedef struct sdv_patches {
-    sdv_patch *items;                   // [count] in the order of cage faces
-    int count;
+typedef struct sdv_patches {            // of one level, in the order of cage faces
+    int first, count, depth;            // depth: levels to go
 } sdv_patches;
+
+// A patch's control points are work points; for those that are mirrored, any.
+static int sdv_control_points(const sdv_rules *rules)
+{
+    return rules->loop ? 12 : 16;
+}
 
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
@@ -2176,39 +2476,53 @@ static int sdv_lasts(float sharpness, int levels, subdiv_creasing creasing)
 // How the surface goes on at a vertex, down to the last level.
 typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_EDGED, SDV_PINNED } sdv_kind;
 
-// Free: smooth with the regular valence, in faces of the regular size. Edged: on a crease that
-// stays sharp. Pinned: a corner that stays one. Everything else is rough.
+// Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
+static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
+{
+    int size = rules->loop ? 3 : 4;
+    if (level->vertex_faces[v] != (rules->loop ? 6 : 4)) return SDV_ROUGH;
+    if (level->face_size) return level->face_size == size ? SDV_FREE : SDV_ROUGH;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        if (sdv_size_of(level, h) != size) return SDV_ROUGH;
+    return SDV_FREE;
+}
+
+// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Everything else is rough.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
-    int sharp = 0, stay = 0, last = 0, faces = sdv_list_size(&level->vertex_faces, v);
-    int first = level->vertex_edges.starts[v], end = level->vertex_edges.starts[v + 1];
-    if (rules->linear) return SDV_FREE;
-    for (int i = first; i < end && level->creased[v]; i++) {
-        float s = level->edge_sharpness[level->vertex_edges.items[i] >> 1];
-        sharp += s > 0;
-        stay += sdv_stays(s, levels, rules->creasing);
-        last += sdv_lasts(s, levels, rules->creasing);
-    }
+    int sharp = 0, stay = 0, last = 0;
     float s = level->vertex_sharpness[v];
+    if (rules->linear) return SDV_FREE;
+    if (s <= 0 && !level->creased[v]) return sdv_smooth_kind(level, rules, v);
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            float t = level->sharpness[two[i]];
+            if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            sharp++;
+            stay += sdv_stays(t, levels, rules->creasing);
+            last += sdv_lasts(t, levels, rules->creasing);
+        }
+    }
     if (last > 2 || sdv_lasts(s, levels, rules->creasing)) return SDV_PINNED;
     if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules->creasing))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
-    if (sharp) return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
-    if (faces != (rules->loop ? 6 : 4)) return SDV_ROUGH;
-    for (int i = level->vertex_faces.starts[v]; i < level->vertex_faces.starts[v + 1]; i++)
-        if (sdv_size_of(level, level->vertex_faces.items[i]) != (rules->loop ? 3 : 4))
-            return SDV_ROUGH;
-    return SDV_FREE;
+    return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
 }
 
 // The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
 // back. -1 across a sharp edge.
 static int sdv_across(const sdv_level *level, int h)
 {
-    int e = level->face_edges[h], first = level->edge_faces.starts[e];
-    const int *two = level->edge_faces.items + first;
-    if (level->edge_sharpness[e] > 0 || level->edge_faces.starts[e + 1] - first != 2) return -1;
-    return two[0] == h ? two[1] : two[0];
+    int q = level->across[h];
+    return level->sharpness[h] > 0 || q == h ? -1 : q;
+}
+
+static int sdv_same_edge(const sdv_level *level, int h, int other)
+{
+    int k = h;
+    while (k != other && level->across[k] != h) k = level->across[k];
+    return k == other;
 }
 
 // The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
@@ -2244,8 +2558,8 @@ static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int lo
     }
     if (kind == SDV_PINNED) return count == 1 ? SDV_FAN_CORNER : SDV_FAN_ROUGH;
     // The two edges are the crease, unless a non-manifold edge is both.
-    int first = level->face_edges[right], last = level->face_edges[sdv_previous(level, left)];
-    if (count != faces || first == last) return SDV_FAN_ROUGH;
+    int before = sdv_previous(level, left);
+    if (count != faces || sdv_same_edge(level, right, before)) return SDV_FAN_ROUGH;
     return right == h ? SDV_FAN_FIRST : left == h ? SDV_FAN_LAST : SDV_FAN_MIDDLE;
 }
 
@@ -2272,9 +2586,9 @@ static void sdv_gather_quad(const sdv_level *level, int h, const sdv_fan *fan, i
         if (across < 0) continue;
         int at = sdv_next(level, across);      // the face-vertex at vertex i
         points[beside[i]] = sdv_point_at(level, sdv_next(level, at));
-        points[next[i]] = sdv_point_at(level, sdv_next(level, sdv_next(level, at)));
+        points[next[i]] = sdv_point_at(level, sdv_previous(level, across));
         if (fan[i] != SDV_FAN_RING) continue;
-        int opposite = sdv_across(level, at);
+        int opposite = level->across[at];
         points[diagonal[i]] = sdv_point_at(level, sdv_previous(level, opposite));
     }
 }
@@ -2315,24 +2629,24 @@ static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fa
     }
 }
 
-// Bilinear: the four vertices; the others have no weight.
+// Bilinear: the vertices of the face; the other control points have no weight.
 static void sdv_gather_linear(const sdv_level *level, int h, int size, int *points)
 {
     const int *own = size == 4 ? sdv_quad_own : sdv_triangle_own;
-    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, h);
+    for (int i = 0; i < (size == 4 ? 16 : 12); i++) points[i] = sdv_point_at(level, h);
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
 // Makes the patch of face f, if it has one.
-static int sdv_make_patch(const sdv_level *level, const sdv_level *cage, const sdv_rules *rules,
-                          const unsigned char *kinds, int f, int levels, sdv_patch *patch)
+static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
+                          const unsigned char *kinds, int f, int levels, sdv_patch *patch,
+                          int *points)
 {
     int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
     sdv_fan fan[4];
-    if (size != (rules->loop ? 3 : 4)) return 0;
     memset(patch, 0, sizeof *patch);
     for (int i = 0; i < size && !rules->linear; i++) {
-        float s = level->edge_sharpness[level->face_edges[h + i]];
+        float s = level->sharpness[h + i];
         if (s > 0 && !sdv_stays(s, levels, rules->creasing)) return 0;
         patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
@@ -2340,16 +2654,14 @@ static int sdv_make_patch(const sdv_level *level, const sdv_level *cage, const s
         if (fan[i] == SDV_FAN_ROUGH) return 0;
         if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
     }
-    if (rules->linear) sdv_gather_linear(level, h, size, patch->points);
-    else if (rules->loop) sdv_gather_triangle(level, h, fan, patch->points);
-    else sdv_gather_quad(level, h, fan, patch->points);
+    if (rules->linear) sdv_gather_linear(level, h, size, points);
+    else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
+    else sdv_gather_quad(level, h, fan, points);
     sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
     patch->h = place.h;
-    patch->cage_face = sdv_face_of(cage, place.h);
     patch->row = (int)((unsigned)place.row << levels);
     patch->column = (int)((unsigned)place.column << levels);
     patch->step = (signed char)place.step;
-    patch->depth = (unsigned char)levels;
     return 1;
 }
 
@@ -2359,52 +2671,58 @@ static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
     for (int i = 0; i < size; i++) {
-        unsigned char *edge = &level->edge_done[level->face_edges[h + i]];
         unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
-        int bit = size == 3 && i == 2 ? 3 : i;
-        patch->owned |= (unsigned char)(!*edge << bit | !*vertex << (4 + bit));
-        *edge = *vertex = 1;
+        int bit = size == 3 && i == 2 ? 3 : i, k = h + i;
+        patch->owned |= (unsigned char)(!level->edge_done[k] << bit | !*vertex << (4 + bit));
+        *vertex = 1;
+        do level->edge_done[k] = 1;
+        while ((k = level->across[k]) != h + i);
     }
 }
 
-// Is no vertex of the face rough? Then it may have a patch.
-static int sdv_may_be_patch(const sdv_level *level, const unsigned char *kinds, int f)
+// Is the face of the regular size and none of its vertices rough? Then it may have a patch.
+static int sdv_may_be_patch(const sdv_level *level, const unsigned char *kinds, int f, int size)
 {
-    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
+    int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+    if (end - start != size) return 0;
+    for (int h = start; h < end; h++)
         if (kinds[level->face_vertices[h]] == SDV_ROUGH) return 0;
     return 1;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
-static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
-                             const sdv_level *cage, const sdv_rules *rules, int levels,
-                             sdv_patches *patches)
+static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rules *rules,
+                             int levels, sdv_patches *patches)
 {
-    sdv_arena scratch = { NULL };
+    sdv_context *context = writer->context;
+    sdv_arena scratch = sdv_scratch();
+    int size = rules->loop ? 3 : 4, width = sdv_control_points(rules);
     memcpy(level->rough, level->core, (size_t)level->face_count);
+    patches->first = (int)writer->patches.count;
+    patches->count = 0;
+    patches->depth = levels;
     if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
     unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    int count = 0;
-    for (int v = 0; v < level->vertex_count && !context->result; v++)
+    for (int v = 0; v < level->vertex_count && kinds; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
-    int *candidates = SDV_NEW(context, &scratch, int, level->face_count);
-    for (int f = 0; f < level->face_count && !context->result; f++)
-        if (level->core[f] && sdv_may_be_patch(level, kinds, f)) candidates[count++] = f;
-    patches->items = SDV_NEW(context, arena, sdv_patch, count);
-    for (int i = 0; i < count && !context->result; i++) {
-        sdv_patch *patch = &patches->items[patches->count];
-        int f = candidates[i];
-        if (!sdv_make_patch(level, cage, rules, kinds, f, levels, patch)) continue;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        if (!level->core[f] || !sdv_may_be_patch(level, kinds, f, size)) continue;
+        sdv_patch *patch = (sdv_patch *)sdv_room(context, &writer->patches, 1, sizeof(sdv_patch));
+        int *points = (int *)sdv_room(context, &writer->points, (size_t)width, sizeof(int));
+        if (context->result || !sdv_make_patch(level, rules, kinds, f, levels, patch, points))
+            continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
         patches->count++;
+        writer->patches.count++;
+        writer->points.count += (size_t)width;
     }
     sdv_arena_free(&scratch);
 }
 
 // ------------------------------------------------------------------------------- >>prepare
 
-// One step from a level to the next: face points first, as the others are made from them.
+// From a level to the next: face points first, as the others are made from them.
 typedef struct sdv_step {
     sdv_rows faces, vertices, edges;
 } sdv_step;
@@ -2415,8 +2733,11 @@ struct subdiv_surface {
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone
+    sdv_rows   copies, last;            // rows that make points of the result
+    sdv_table  rows;                    // of all levels
     sdv_patches *patches;               // [levels]
-    sdv_rows  copies, last;             // rows that make points of the result
+    sdv_patch *patch_items;             // of all levels
+    int       *patch_points;            // their control points, 16 each; Loop 12
     int       work_count;               // work points
     sdv_order order;
     unsigned char *hole;                // [cage face_count]
@@ -2528,15 +2849,16 @@ static int sdv_survives(float sharpness)
 
 // The creases of the result: each cage edge's, piece by piece along it. Sharpness fades without
 // regard to anything but other creases, so it is followed here apart from the surface: pieces
-// [n * count] of the sharp edges e [count], whose first and last pieces meet at vertices.
-static void sdv_fade_pieces(const sdv_level *cage, const int *e, int count, int n,
-                            const float *pieces, float *next, float *sums, subdiv_creasing creasing)
+// [n * count] of edges between ends [2 * count], where they meet others.
+static void sdv_fade_pieces(const int *ends, int count, int n, const float *pieces, float *next,
+                            float *sums, subdiv_creasing creasing)
 {
     // At vertex v: the sum and number of semi-sharp ends.
-    memset(sums, 0, 2 * (size_t)cage->vertex_count * sizeof(float));
+    for (int i = 0; i < 2 * count; i++)
+        sums[2 * (size_t)ends[i]] = sums[2 * (size_t)ends[i] + 1] = 0;
     for (int i = 0; i < 2 * count; i++) {
         float s = pieces[(size_t)(i / 2) * (size_t)n + (size_t)(i & 1 ? n - 1 : 0)];
-        float *sum = sums + 2 * (size_t)cage->edge_vertices[2 * e[i / 2] + (i & 1)];
+        float *sum = sums + 2 * (size_t)ends[i];
         if (s <= 0 || s >= SUBDIV_INFINITE) continue;
         sum[0] += s;
         sum[1] += 1;
@@ -2548,7 +2870,7 @@ static void sdv_fade_pieces(const sdv_level *cage, const int *e, int count, int 
             float s = piece[j / 2], sum[2] = { 0, 0 };
             int beside = j & 1 ? j / 2 + 1 : j / 2 - 1;         // the piece that this half meets
             if (beside < 0 || beside == n) {
-                const float *at = sums + 2 * (size_t)cage->edge_vertices[2 * e[i] + (beside == n)];
+                const float *at = sums + 2 * (size_t)ends[2 * i + (beside == n)];
                 sum[0] = at[0];
                 sum[1] = at[1];
             } else if (piece[beside] > 0) {
@@ -2561,9 +2883,9 @@ static void sdv_fade_pieces(const sdv_level *cage, const int *e, int count, int 
     }
 }
 
-static void sdv_add_creases(const sdv_order *order, int e, const float *pieces, subdiv_mesh *fine)
+static void sdv_add_creases(const sdv_order *order, int e, int a, int b, const float *pieces,
+                            subdiv_mesh *fine)
 {
-    int a = order->cage.edge_vertices[2 * e], b = order->cage.edge_vertices[2 * e + 1];
     int n = order->n, first = order->first_edge_point + e * (n - 1) - 1, from = a;
     for (int j = 0; j < n; j++) {
         int to = j + 1 == n ? b : a > b ? first + n - j - 1 : first + j + 1;
@@ -2578,29 +2900,32 @@ static void sdv_add_creases(const sdv_order *order, int e, const float *pieces, 
 }
 
 // Has the edge a face that is not left out of the result?
-static int sdv_edge_is_seen(const subdiv_surface *surface, int e)
+static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage, int e)
 {
-    const sdv_level *cage = &surface->order.cage;
-    int seen = surface->fine.hole_count > 0;
-    for (int i = cage->edge_faces.starts[e]; i < cage->edge_faces.starts[e + 1]; i++)
-        seen |= !surface->hole[sdv_face_of(cage, cage->edge_faces.items[i])];
+    int seen = surface->fine.hole_count > 0, first = cage->edge_first[e], h = first;
+    do seen |= !surface->hole[sdv_face_of(cage, h)];
+    while ((h = cage->across[h]) != first);
     return seen;
 }
 
 static void sdv_surviving_creases(sdv_context *context, subdiv_surface *surface,
-                                  const float *pieces, const int *edges, int count)
+                                  const sdv_level *cage, const float *pieces, const int *edges,
+                                  int count)
 {
     subdiv_mesh *fine = &surface->fine;
     size_t n = (size_t)surface->order.n, left = 0;
     for (int i = 0; i < count; i++)
-        for (size_t j = 0; j < n && sdv_edge_is_seen(surface, edges[i]); j++)
+        for (size_t j = 0; j < n && sdv_edge_is_seen(surface, cage, edges[i]); j++)
             left += (size_t)sdv_survives(pieces[(size_t)i * n + j]);
     if (left > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
     fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * left);
     fine->crease_sharpness = SDV_NEW(context, &surface->arena, float, left);
-    for (int i = 0; i < count && !context->result; i++)
-        if (sdv_edge_is_seen(surface, edges[i]))
-            sdv_add_creases(&surface->order, edges[i], pieces + (size_t)i * n, fine);
+    for (int i = 0; i < count && !context->result; i++) {
+        int h = cage->edge_first[edges[i]], a = cage->face_vertices[h];
+        int b = cage->face_vertices[sdv_next(cage, h)];
+        if (sdv_edge_is_seen(surface, cage, edges[i]))
+            sdv_add_creases(&surface->order, edges[i], a, b, pieces + (size_t)i * n, fine);
+    }
 }
 
 static void sdv_surviving_corners(sdv_context *context, subdiv_surface *surface,
@@ -2624,22 +2949,28 @@ static void sdv_surviving_corners(sdv_context *context, subdiv_surface *surface,
 static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surface,
                                     const sdv_level *cage)
 {
-    sdv_arena scratch = { NULL };
+    sdv_arena scratch = sdv_scratch();
     int *edges = SDV_NEW(context, &scratch, int, cage->edge_count), count = 0;
     for (int e = 0; e < cage->edge_count && !context->result; e++)
-        if (sdv_survives(cage->edge_sharpness[e])) edges[count++] = e;
+        if (sdv_survives(cage->sharpness[cage->edge_first[e]])) edges[count++] = e;
     size_t pieces = (size_t)count << surface->levels;
+    int *ends = SDV_NEW(context, &scratch, int, 2 * (size_t)count);
     float *from = SDV_NEW(context, &scratch, float, pieces);
     float *to = SDV_NEW(context, &scratch, float, pieces);
-    float *sums = SDV_NEW(context, &scratch, float, 2 * (size_t)cage->vertex_count);
-    for (int i = 0; i < count && !context->result; i++) from[i] = cage->edge_sharpness[edges[i]];
+    float *sums = SDV_NEW(context, &scratch, float, 2 * (size_t)(count ? cage->vertex_count : 0));
+    for (int i = 0; i < count && !context->result; i++) {
+        int h = cage->edge_first[edges[i]];
+        from[i] = cage->sharpness[h];
+        ends[2 * i] = cage->face_vertices[h];
+        ends[2 * i + 1] = cage->face_vertices[sdv_next(cage, h)];
+    }
     for (int i = 0; i < surface->levels && !context->result; i++) {
-        sdv_fade_pieces(cage, edges, count, 1 << i, from, to, sums, surface->rules.creasing);
+        sdv_fade_pieces(ends, count, 1 << i, from, to, sums, surface->rules.creasing);
         float *swap = from;
         from = to;
         to = swap;
     }
-    if (!context->result) sdv_surviving_creases(context, surface, from, edges, count);
+    if (!context->result) sdv_surviving_creases(context, surface, cage, from, edges, count);
     sdv_surviving_corners(context, surface, cage);
     sdv_arena_free(&scratch);
 }
@@ -2647,221 +2978,251 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
 // Vertices that never move are copied: those without faces, corners that stay, all if linear.
 static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage, int v)
 {
-    if (surface->rules.linear || sdv_list_size(&cage->vertex_faces, v) == 0) return 1;
+    if (surface->rules.linear || cage->vertex_faces[v] == 0) return 1;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
-// Each with the first cage face that has it; those without, with face 0.
-static void sdv_find_copies(sdv_context *context, subdiv_surface *surface, sdv_level *cage)
+static void sdv_copy_row(sdv_writer *writer, int v)
 {
-    sdv_rows *rows = &surface->copies;
+    sdv_runs runs = { { 1, 0, 0 }, { 1, 0, 0 } };
+    int *point = sdv_begin_row(writer, 1);
+    writer->target = v;
+    if (!point) return;
+    *point = v;
+    sdv_end_row(writer, &runs);
+}
+
+// Each with the first cage face that has it; those without, with face 0.
+static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer *writer)
+{
     int count = 0;
     for (int v = 0; v < cage->vertex_count; v++)
         count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
-    sdv_rows_new(context, &surface->arena, rows, count, (size_t)count, 1);
-    if (context->result || count == 0) return;
-    for (int v = 0; v < cage->vertex_count; v++) {
-        if (sdv_list_size(&cage->vertex_faces, v)) continue;
-        sdv_add(rows, v, 1);
-        sdv_end_result_row(rows, v, 0);
-    }
+    if (count == 0) return;
+    sdv_begin_result(writer, &surface->copies);
+    sdv_go_to_face(writer, 0);
+    for (int v = 0; v < cage->vertex_count; v++)
+        if (cage->vertex_faces[v] == 0) sdv_copy_row(writer, v);
     for (int h = 0; h < cage->face_vertex_count; h++) {
         int v = cage->face_vertices[h];
-        if (!cage->vertex_done[v] || cage->vertex_faces.items[cage->vertex_faces.starts[v]] != h)
-            continue;
-        sdv_add(rows, v, 1);
-        sdv_end_result_row(rows, v, sdv_face_of(cage, h));
+        if (!cage->vertex_done[v] || cage->vertex_first[v] != h) continue;
+        sdv_go_to_face(writer, sdv_face_of(cage, h));
+        sdv_copy_row(writer, v);
     }
-}
-
-// Rows for the vertex and edge points of the next level.
-static void sdv_step_rows(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                          const sdv_split *split, const sdv_rules *rules, sdv_step *step)
-{
-    size_t vertex_entries = 0, edge_entries = 0;
-    for (int v = 0; v < level->vertex_count; v++)
-        if (split->active[v])
-            vertex_entries += 1 + (size_t)sdv_list_size(&level->vertex_edges, v) +
-                                  (size_t)sdv_list_size(&level->vertex_faces, v);
-    for (int e = 0; e < level->edge_count; e++)
-        if (split->edge[e] >= 0) edge_entries += 2 + (size_t)sdv_list_size(&level->edge_faces, e);
-    sdv_rows_new(context, arena, &step->vertices, split->vertex_points, vertex_entries, 0);
-    sdv_rows_new(context, arena, &step->edges, split->edge_points, edge_entries, 0);
-    if (context->result) return;
-
-    step->vertices.first = level->first_point + level->vertex_count;
-    step->edges.first = step->vertices.first + split->vertex_points + split->face_points;
-    for (int v = 0; v < level->vertex_count; v++) {
-        if (!split->active[v]) continue;
-        sdv_vertex_row(level, rules, v, &step->vertices);
-        sdv_end_row(&step->vertices);
-    }
-    for (int e = 0; e < level->edge_count; e++) {
-        if (split->edge[e] < 0) continue;
-        sdv_edge_row(level, rules, e, &step->edges);
-        sdv_end_row(&step->edges);
-    }
+    sdv_go_to_face(writer, surface->cage_face_count ? surface->cage_face_count : 1);
 }
 
 // Face points become work points: behind the vertex points of the next level, or alone if the
 // next level is the last.
-static void sdv_step_face_rows(sdv_context *context, sdv_arena *arena, sdv_level *level,
-                               const sdv_split *split, int last, sdv_step *step)
+static void sdv_step_faces(sdv_level *level, const sdv_split *split, int last, sdv_writer *writer,
+                           sdv_step *step)
 {
-    size_t entries = 0;
-    for (int f = 0; f < level->face_count; f++)
-        if (split->face[f] >= 0)
-            entries += (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
-    sdv_rows_new(context, arena, &step->faces, split->face_points, entries, 0);
-    if (context->result) return;
-
     int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
-    step->faces.first = next + split->vertex_points;
-    for (int f = 0; f < level->face_count; f++) {
+    sdv_begin_rows(writer, &step->faces, next + split->vertex_points);
+    for (int f = 0; f < level->face_count && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
-        if (split->face[f] < 0) continue;
-        sdv_face_row(level, f, &step->faces);
-        sdv_end_row(&step->faces);
+        if (split->face[f] >= 0) sdv_face_row(level, f, writer);
     }
 }
 
-// The places in the result of a face's vertex points, edge points and face point.
-static void sdv_find_targets(const sdv_order *order, const sdv_level *level, int f, int *vertices,
-                             int *edges, int *face)
+// Rows for the vertex and edge points of the next level.
+static void sdv_step_points(const sdv_level *level, const sdv_rules *rules, const sdv_split *split,
+                            sdv_writer *writer, sdv_step *step)
 {
-    int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
-    static const int quad[5][2] = { {0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0} };
-    static const int triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
-    const int (*corner)[2] = order->loop ? triangle : quad;
-    if (!level->places) {
-        for (int i = 0; i < size; i++) {
-            sdv_side side = sdv_edge_side(order, start + i, 0);
-            vertices[i] = level->face_vertices[start + i];
-            edges[i] = side.first + side.step;
+    int next = level->first_point + level->vertex_count;
+    sdv_begin_rows(writer, &step->vertices, next);
+    for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
+        if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
+
+    next += split->vertex_points + split->face_points;
+    sdv_begin_rows(writer, &step->edges, next);
+    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
+        if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
+}
+
+// Where in the result the vertex points, edge points and face point of a face stand.
+typedef struct sdv_targets {
+    const sdv_order *order;
+    const sdv_level *level;
+    sdv_grid grid;
+    int      h;                         // the grid's face-vertex; -1: none yet
+    sdv_place place;                    // of the face
+} sdv_targets;
+
+static void sdv_aim(sdv_targets *targets, int f)
+{
+    const sdv_level *level = targets->level;
+    if (!level->places) return;
+    targets->place = level->places[f];
+    if (targets->place.h != targets->h)
+        targets->grid = sdv_grid_at(targets->order, targets->h = targets->place.h);
+}
+
+// So far from vertex 0, in segments of the last level.
+static int sdv_target(const sdv_targets *targets, int up, int right)
+{
+    const sdv_place *place = &targets->place;
+    return sdv_grid_index(&targets->grid, 2 * place->row + place->step * up,
+                          2 * place->column + place->step * right);
+}
+
+static const int sdv_corner_quad[5][2] = { {0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0} };
+static const int sdv_corner_triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
+
+static int sdv_vertex_target(const sdv_targets *targets, int h, int i)
+{
+    const int *at = targets->order->loop ? sdv_corner_triangle[i] : sdv_corner_quad[i];
+    return targets->level->places ? sdv_target(targets, at[0], at[1])
+                                  : targets->level->face_vertices[h];
+}
+
+static int sdv_edge_target(const sdv_targets *targets, int h, int i)
+{
+    const int (*at)[2] = targets->order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    if (targets->level->places)
+        return sdv_target(targets, (at[i][0] + at[i + 1][0]) / 2, (at[i][1] + at[i + 1][1]) / 2);
+    sdv_side side = sdv_edge_side(targets->order, h, 0);
+    return side.first + side.step;
+}
+
+static int sdv_face_target(const sdv_targets *targets, int f)
+{
+    return targets->level->places ? sdv_target(targets, 1, 1)
+                                  : sdv_first_inside(targets->order, f);
+}
+
+static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f,
+                          sdv_targets *targets, sdv_writer *writer)
+{
+    const sdv_rules *rules = &surface->rules;
+    int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+    sdv_aim(targets, f);
+    sdv_go_to_face(writer, level->places ? sdv_face_of(&surface->order.cage, level->places[f].h)
+                                         : f);
+    if (!rules->loop) {
+        sdv_runs runs = { { 1, 0, 0 }, { 1, 0, 0 } };
+        int *point = sdv_begin_row(writer, 1);
+        if (!point) return;
+        *point = level->face_point[f];
+        writer->target = sdv_face_target(targets, f);
+        sdv_end_row(writer, &runs);
+    }
+    for (int h = start; h < end; h++) {
+        int v = level->face_vertices[h], k = h;
+        if (!level->vertex_done[v]) {
+            writer->target = sdv_vertex_target(targets, h, h - start);
+            sdv_vertex_row(level, rules, v, writer);
         }
-        *face = sdv_first_inside(order, f);
-        return;
+        if (!level->edge_done[h]) {
+            writer->target = sdv_edge_target(targets, h, h - start);
+            sdv_edge_row(level, rules, h, writer);
+        }
+        level->vertex_done[v] = 1;
+        do level->edge_done[k] = 1;
+        while ((k = level->across[k]) != h);
     }
-    sdv_place place = level->places[f];
-    sdv_grid grid = sdv_grid_at(order, place.h);
-    int row = 2 * place.row, column = 2 * place.column, step = place.step;
-    for (int i = 0; i < size; i++) {
-        const int *a = corner[i], *b = corner[i + 1];
-        vertices[i] = sdv_grid_index(&grid, row + step * a[0], column + step * a[1]);
-        edges[i] = sdv_grid_index(&grid, row + step * (a[0] + b[0]) / 2,
-                                  column + step * (a[1] + b[1]) / 2);
-    }
-    *face = order->loop ? 0 : sdv_grid_index(&grid, row + 1, column + 1);
 }
 
 // The result's points that no patch makes: those of the faces that are rough to the end.
-static void sdv_last_rows(sdv_context *context, subdiv_surface *surface, sdv_level *level)
+static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer *writer)
 {
-    const sdv_order *order = &surface->order;
-    sdv_rows *rows = &surface->last;
-    size_t count = 0, entries = 0;
-    int most = 4;
-    for (int f = 0; f < level->face_count; f++) {
-        int size = sdv_face_end(level, f) - sdv_face_start(level, f);
-        count += level->rough[f] && !order->loop;
-        most = size > most ? size : most;
-    }
-    entries = count;
-    for (int v = 0; v < level->vertex_count; v++) {
-        if (level->vertex_done[v]) continue;
-        count++;
-        entries += 1 + (size_t)sdv_list_size(&level->vertex_edges, v) +
-                       (size_t)sdv_list_size(&level->vertex_faces, v);
-    }
-    for (int e = 0; e < level->edge_count; e++) {
-        if (level->edge_done[e]) continue;
-        count++;
-        entries += 2 + (size_t)sdv_list_size(&level->edge_faces, e);
-    }
-    sdv_arena scratch = { NULL };
-    int *vertices = SDV_NEW(context, &scratch, int, most);
-    int *edges = SDV_NEW(context, &scratch, int, most), face;
-    sdv_rows_new(context, &surface->arena, rows, (int)count, entries, 1);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        if (!level->rough[f]) continue;
-        int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
-        int cage_face = level->places ? sdv_face_of(&order->cage, level->places[f].h) : f;
-        sdv_find_targets(order, level, f, vertices, edges, &face);
-        if (!order->loop) {
-            sdv_add(rows, level->face_point[f], 1);
-            sdv_end_result_row(rows, face, cage_face);
-        }
-        for (int i = 0; i < size; i++) {
-            int v = level->face_vertices[h + i], e = level->face_edges[h + i];
-            if (!level->vertex_done[v]) {
-                sdv_vertex_row(level, &surface->rules, v, rows);
-                sdv_end_result_row(rows, vertices[i], cage_face);
-            }
-            if (!level->edge_done[e]) {
-                sdv_edge_row(level, &surface->rules, e, rows);
-                sdv_end_result_row(rows, edges[i], cage_face);
-            }
-            level->vertex_done[v] = level->edge_done[e] = 1;
-        }
-    }
-    sdv_arena_free(&scratch);
+    sdv_targets targets;
+    memset(&targets, 0, sizeof targets);
+    targets.order = &surface->order;
+    targets.level = level;
+    targets.h = -1;
+    sdv_begin_result(writer, &surface->last);
+    for (int f = 0; f < level->face_count && !writer->context->result; f++)
+        if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
+    sdv_go_to_face(writer, surface->cage_face_count);
 }
 
 // A level: its patches; then, of what is rough, the rows to the next level and the next level,
 // which has no faces if nothing is.
-static void sdv_prepare_level(sdv_context *context, subdiv_surface *surface, int depth,
-                              sdv_level *level, sdv_arena *arena, sdv_level *next,
-                              sdv_arena *next_arena)
+static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int depth,
+                              sdv_level *level, sdv_level *next, sdv_arena *next_arena)
 {
     const sdv_rules *rules = &surface->rules;
+    sdv_context *context = writer->context;
     sdv_step *step = &surface->steps[depth];
+    sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels;
     sdv_split split;
-    sdv_find_patches(context, &surface->arena, level, &surface->order.cage, rules,
-                     surface->levels - depth, &surface->patches[depth]);
-    surface->work_count = level->first_point + level->vertex_count;
+    sdv_find_patches(writer, level, rules, surface->levels - depth, &surface->patches[depth]);
     next->face_count = 0;
+    surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
-    sdv_split_new(context, arena, level, &split);
-    if (context->result) return;
-
-    memset(split.active, 0, (size_t)level->vertex_count);
-    for (int h = 0; h < level->face_vertex_count; h++)
-        split.active[level->face_vertices[h]] |= level->rough[sdv_face_of(level, h)];
-    sdv_number_points(level, &split, rules->loop);
-    sdv_step_face_rows(context, &surface->arena, level, &split, last, step);
-    surface->work_count = level->first_point + level->vertex_count + split.face_points;
-    if (context->result) return;
-    if (last) {
-        sdv_last_rows(context, surface, level);
-        return;
+    sdv_split_new(context, &scratch, level, &split);
+    if (!context->result) {
+        sdv_find_active(level, &split);
+        sdv_number_faces(level, &split, rules->loop);
+        sdv_number_points(level, &split);
+        sdv_step_faces(level, &split, last, writer, step);
+        surface->work_count += split.face_points;
+        if (last) sdv_last_rows(surface, level, writer);
+        else sdv_step_points(level, rules, &split, writer, step);
     }
-    sdv_step_rows(context, &surface->arena, level, &split, rules, step);
-    sdv_number_faces(level, &split, rules->loop);
-    sdv_split_level(context, next_arena, level, &split, next, rules->loop);
-    if (!context->result) sdv_level_fade(next, rules->creasing);
-    surface->work_count = next->first_point + next->vertex_count;
+    if (!last && !context->result)
+        sdv_split_level(context, next_arena, level, &split, next, rules->loop);
+    if (!last && !context->result) surface->work_count = next->first_point + next->vertex_count;
+    sdv_arena_free(&scratch);
 }
 
-static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage)
+// A copy of an array that grew, of just its size.
+static void *sdv_copy_array(sdv_context *context, sdv_arena *arena, const sdv_array *array,
+                            size_t item)
 {
-    sdv_arena arena = { NULL }, next_arena = { NULL };
-    sdv_level level = *cage, next;
-    memset(level.core, 1, (size_t)level.face_count);
-    memset(level.edge_done, 0, (size_t)level.edge_count);
-    sdv_level_fade(&level, surface->rules.creasing);
-    sdv_find_copies(context, surface, &level);
-    surface->work_count = level.vertex_count;
+    void *copy = sdv_new(context, arena, array->count, item);
+    if (!context->result) sdv_copy(copy, sdv_items(array), array->count, item);
+    return copy;
+}
+
+// What was written goes into one block of the surface.
+static void sdv_keep(subdiv_surface *surface, sdv_writer *writer)
+{
+    sdv_context *context = writer->context;
+    sdv_arena *arena = &surface->arena;
+    sdv_table *table = &surface->rows;
+    size_t size = writer->items.count * sizeof(int) + writer->starts.count * sizeof(size_t) +
+                  writer->masks.count * sizeof(sdv_weights) +
+                  writer->weights.count * sizeof(float) +
+                  writer->patches.count * sizeof(sdv_patch) + writer->points.count * sizeof(int);
+    sdv_reserve(context, arena, size + 6 * 16);
+    table->items = (int *)sdv_copy_array(context, arena, &writer->items, sizeof(int));
+    table->starts = (size_t *)sdv_copy_array(context, arena, &writer->starts, sizeof(size_t));
+    table->masks = (sdv_weights *)sdv_copy_array(context, arena, &writer->masks,
+                                                  sizeof(sdv_weights));
+    table->weights = (float *)sdv_copy_array(context, arena, &writer->weights, sizeof(float));
+    surface->patch_items = (sdv_patch *)sdv_copy_array(context, arena, &writer->patches,
+                                                       sizeof(sdv_patch));
+    surface->patch_points = (int *)sdv_copy_array(context, arena, &writer->points, sizeof(int));
+}
+
+// Level by level from the cage, whose arena it frees.
+static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                               sdv_arena *arena)
+{
+    sdv_arena next_arena = sdv_scratch();
+    sdv_level level = *cage, next = level;
+    sdv_writer writer;
+    sdv_writer_new(context, &writer);
+    if (!context->result) {
+        memset(level.core, 1, (size_t)level.face_count);
+        memset(level.edge_done, 0, (size_t)level.face_vertex_count);
+        sdv_level_fade(&level);
+        sdv_find_copies(surface, &level, &writer);
+        surface->work_count = level.vertex_count;
+    }
     for (int i = 0; i < surface->levels && level.face_count && !context->result; i++) {
-        next = level;
-        sdv_prepare_level(context, surface, i, &level, &arena, &next, &next_arena);
-        sdv_arena_free(&arena);
-        arena = next_arena;
-        next_arena.blocks = NULL;
+        sdv_prepare_level(&writer, surface, i, &level, &next, &next_arena);
+        sdv_arena_free(arena);
+        *arena = next_arena;
+        next_arena = sdv_scratch();
         level = next;
     }
-    sdv_arena_free(&arena);
-    sdv_arena_free(&next_arena);
+    sdv_keep(surface, &writer);
+    sdv_writer_free(&writer);
+    sdv_arena_free(arena);
 }
 
 // What the result will be: counts and rules.
@@ -2927,13 +3288,17 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     }
 
     sdv_cage built;
-    sdv_cage_build(context, &surface->arena, &built, &work);
+    sdv_arena scratch = sdv_scratch();
+    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
     sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     size_t levels = (size_t)surface->levels;
     surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
     surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
     surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
-    if (context->result) return;
+    if (context->result) {
+        sdv_arena_free(&scratch);
+        return;
+    }
     memset(surface->steps, 0, levels * sizeof *surface->steps);
     memset(surface->patches, 0, levels * sizeof *surface->patches);
     surface->order.cage = built.level;
@@ -2949,7 +3314,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     surface->rules.triangles = cage->triangles;
     sdv_prepare_result(surface, &work, opt && opt->keep_holes);
     sdv_surviving_sharpness(context, surface, &built.level);
-    sdv_prepare_levels(context, surface, &built.level);
+    sdv_prepare_levels(context, surface, &built.level, &scratch);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
@@ -2964,7 +3329,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
         sdv_check_triangles(&context, cage);
     if (context.result) return context.result;
 
-    sdv_arena arena = { NULL };
+    sdv_arena arena = sdv_new_arena(0);
     subdiv_surface *made = SDV_NEW(&context, &arena, subdiv_surface, 1);
     if (!made) return context.result;
     memset(made, 0, sizeof *made);
@@ -3017,51 +3382,65 @@ static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     sdv_store_some(out->values + out->stride * (size_t)(index - out->first), a, out->lanes);
 }
 
-// The weighted sum of a row, in one order of additions, so that its bits are always the same.
-// Weights sum to 1, so p0 + w1 (p1 - p0) + w2 (p2 - p0) + ... is the same sum, whose rounding
-// errors are those of the small differences: exact wherever the mesh stands.
-static sdv_four sdv_row_sum(const sdv_rows *rows, int row, const float *work)
+// The sum of a row whose points start here, in one order of additions, so that its bits are always
+// the same.
+static sdv_four sdv_row_sum(const sdv_table *table, const sdv_weights *mask, const int *points,
+                            const float *work)
 {
-    size_t first = rows->starts[row], end = rows->starts[row + 1];
-    sdv_four p0 = sdv_load(work + 4 * (size_t)rows->indices[first]), sum = sdv_all(0);
-    for (size_t i = first + 1; i < end; i++) {
-        sdv_four p = sdv_load(work + 4 * (size_t)rows->indices[i]);
-        sum = sdv_plus(sum, sdv_times(sdv_all(rows->weights[i]), sdv_minus(p, p0)));
+    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
+    if (mask->first < 0) {
+        for (int i = 1; i < mask->count; i++)
+            sum = sdv_plus(sum, sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0));
+        return sdv_plus(p0, sdv_times(sdv_all(mask->even), sum));
+    }
+    const float *weights = table->weights + mask->first;
+    for (int i = 1; i < mask->count; i++) {
+        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
+        sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
     }
     return sdv_plus(p0, sum);
 }
 
-static void sdv_apply(const sdv_rows *rows, int row, int end, float *work)
+// Blocks of rows, from one up to another.
+static void sdv_apply(const sdv_table *table, const sdv_rows *rows, int block, int end,
+                      float *work)
 {
-    for (; row < end; row++)
-        sdv_store(work + 4 * (size_t)(rows->first + row), sdv_row_sum(rows, row, work));
+    if (block == end) return;
+    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
+    const int *row = table->items + table->starts[rows->start + (size_t)block];
+    float *out = work + 4 * (size_t)(rows->first + first);
+    if (last > rows->count) last = rows->count;
+    for (int i = first; i < last; i++, out += 4) {
+        const sdv_weights *mask = &table->masks[row[0]];
+        sdv_store(out, sdv_row_sum(table, mask, row + 1, work));
+        row += 1 + mask->count;
+    }
 }
 
-// The first of so many items that belongs to a cage face or one behind it; each item's cage face is
-// so many ints behind that of the one before.
-static int sdv_first_at(const int *faces, size_t stride, int count, int face)
+// The first patch of a cage face or one behind it.
+static int sdv_first_patch(const subdiv_surface *surface, const sdv_patches *patches, int face)
 {
-    int low = 0, high = count;
+    int low = patches->first, high = low + patches->count;
+    int h = sdv_face_start(&surface->order.cage, face);
     while (low < high) {
         int middle = low + (high - low) / 2;
-        if (faces[stride * (size_t)middle] < face) low = middle + 1;
+        if (surface->patch_items[middle].h < h) low = middle + 1;
         else high = middle;
     }
     return low;
 }
 
-static int sdv_first_patch(const sdv_patches *patches, int face)
+static void sdv_apply_result(const sdv_table *table, const sdv_rows *rows, const float *work,
+                             int face, int end, const sdv_window *out)
 {
-    const int *faces = patches->count ? &patches->items->cage_face : NULL;
-    return sdv_first_at(faces, sizeof(sdv_patch) / sizeof(int), patches->count, face);
-}
-
-static void sdv_apply_result(const sdv_rows *rows, const float *work, int face, int end,
-                             const sdv_window *out)
-{
-    int last = sdv_first_at(rows->faces, 1, rows->count, end);
-    for (int i = sdv_first_at(rows->faces, 1, rows->count, face); i < last; i++)
-        sdv_put_point(out, rows->targets[i], sdv_row_sum(rows, i, work));
+    if (rows->count == 0) return;
+    const size_t *starts = table->starts + rows->start;
+    const int *row = table->items + starts[face], *last = table->items + starts[end];
+    while (row < last) {
+        const sdv_weights *mask = &table->masks[row[0]];
+        sdv_put_point(out, row[1], sdv_row_sum(table, mask, row + 2, work));
+        row += 2 + mask->count;
+    }
 }
 
 // The control points of level k of a uniform cubic B-spline segment lie on a cubic polynomial: that
@@ -3242,9 +3621,8 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
 
 // All points of a patch that it owns.
 static void sdv_put_patch(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                          const sdv_polynomial *q)
+                          const sdv_polynomial *q, int n)
 {
-    int n = 1 << patch->depth;
     sdv_put_row(out, grid, patch, q, n, 0);
     if (out->whole && out->lanes >= 3 && (size_t)out->lanes == out->stride)
         sdv_put_inner_rows(out, grid, patch, q, n);
@@ -3268,9 +3646,10 @@ static void sdv_load_points(const int *points, int count, const float *work, sdv
 
 // The 16 control points relative to vertex 0. What lies beyond sharp edges is mirrored: first to
 // the left and right in all rows that are known, then below and above.
-static void sdv_quad_points(const sdv_patch *patch, const float *work, sdv_four origin, sdv_four *p)
+static void sdv_quad_points(const sdv_patch *patch, const int *points, const float *work,
+                            sdv_four origin, sdv_four *p)
 {
-    sdv_load_points(patch->points, 16, work, origin, p);
+    sdv_load_points(points, 16, work, origin, p);
     if (!patch->sharp) return;
     for (int i = 0; i < 16; i += 4) {
         if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
@@ -3296,13 +3675,13 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
 
 // A quad with one level to go: nine points, which its polynomial would be too much work for.
 static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                         int linear, const float *work)
+                         const int *points, int linear, const float *work)
 {
     static const unsigned char bits[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
                                               { SDV_LEFT, 0, SDV_RIGHT },
                                               { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
     sdv_four p[16], up[3][4];
-    sdv_quad_points(patch, work, sdv_all(0), p);
+    sdv_quad_points(patch, points, work, sdv_all(0), p);
     for (int i = 0; i < 4; i++) {
         up[0][i] = linear ? p[4 + i] : sdv_spline_vertex(p[i], p[4 + i], p[8 + i]);
         up[1][i] = sdv_middle(p[4 + i], p[8 + i]);
@@ -3325,14 +3704,14 @@ static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_
 
 // The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
 // along the rows.
-static void sdv_quad_polynomial(const sdv_patch *patch, int linear, const float *work,
-                                sdv_polynomial *q)
+static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n, int linear,
+                                const float *work, sdv_polynomial *q)
 {
-    float h = 1.0f / (float)(1 << patch->depth);
+    float h = 1.0f / (float)n;
     sdv_four p[16], up[4][4], x[4];
     q->degree = 3;
-    q->origin = sdv_load(work + 4 * (size_t)patch->points[5]);
-    sdv_quad_points(patch, work, q->origin, p);
+    q->origin = sdv_load(work + 4 * (size_t)points[5]);
+    sdv_quad_points(patch, points, work, q->origin, p);
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
         else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], h * h, up[i]);
@@ -3347,10 +3726,10 @@ static void sdv_quad_polynomial(const sdv_patch *patch, int linear, const float 
 // The 12 control points relative to vertex 0. Around vertex v, counter-clockwise, stand r[0] and
 // r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across the
 // edge after. What lies beyond sharp edges follows from a + b - inside.
-static void sdv_triangle_points(const sdv_patch *patch, const float *work, sdv_four origin,
-                                sdv_four *p)
+static void sdv_triangle_points(const sdv_patch *patch, const int *points, const float *work,
+                                sdv_four origin, sdv_four *p)
 {
-    sdv_load_points(patch->points, 12, work, origin, p);
+    sdv_load_points(points, 12, work, origin, p);
     for (int i = 0; i < 3; i++) {
         const int *r = sdv_triangle_ring[i];
         sdv_four v = p[sdv_triangle_own[i]];
@@ -3441,43 +3820,50 @@ static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
     q->c[0][1] = p[8];
 }
 
-static void sdv_triangle_polynomial(const sdv_patch *patch, int linear, const float *work,
-                                    sdv_polynomial *q)
+static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int n, int linear,
+                                    const float *work, sdv_polynomial *q)
 {
-    float h = 1.0f / (float)(1 << patch->depth);
+    float h = 1.0f / (float)n;
     sdv_four p[12];
     q->degree = 4;
-    q->origin = sdv_load(work + 4 * (size_t)patch->points[4]);
-    sdv_triangle_points(patch, work, q->origin, p);
+    q->origin = sdv_load(work + 4 * (size_t)points[4]);
+    sdv_triangle_points(patch, points, work, q->origin, p);
     if (linear) sdv_plane(p, q);
     else sdv_box_spline(p, h * h, q);
+}
+
+// The points that the patches of a level make for cage faces face to end - 1.
+static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *patches,
+                             const float *work, int face, int end, const sdv_window *out)
+{
+    const sdv_order *order = &surface->order;
+    int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
+    int last = sdv_first_patch(surface, patches, end);
+    size_t width = (size_t)sdv_control_points(&surface->rules);
+    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    sdv_polynomial q;
+    for (int i = sdv_first_patch(surface, patches, face); i < last; i++) {
+        const sdv_patch *patch = &surface->patch_items[i];
+        const int *points = surface->patch_points + width * (size_t)i;
+        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (!order->loop && n == 2) {
+            sdv_put_nine(out, &grid, patch, points, linear, work);
+            continue;
+        }
+        if (order->loop) sdv_triangle_polynomial(patch, points, n, linear, work, &q);
+        else sdv_quad_polynomial(patch, points, n, linear, work, &q);
+        sdv_put_patch(out, &grid, patch, &q, n);
+    }
 }
 
 // Cage faces face to end - 1: the points of the result that belong to them.
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
 {
-    const sdv_order *order = &surface->order;
-    int linear = surface->rules.linear;
-    sdv_polynomial q;
-    sdv_apply_result(&surface->copies, work, face, end, out);
-    for (int level = 0; level < surface->levels; level++) {
-        const sdv_patches *patches = &surface->patches[level];
-        int last = sdv_first_patch(patches, end), h = -1;
-        sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-        for (int i = sdv_first_patch(patches, face); i < last; i++) {
-            const sdv_patch *patch = &patches->items[i];
-            if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-            if (!order->loop && patch->depth == 1) {
-                sdv_put_nine(out, &grid, patch, linear, work);
-                continue;
-            }
-            if (order->loop) sdv_triangle_polynomial(patch, linear, work, &q);
-            else sdv_quad_polynomial(patch, linear, work, &q);
-            sdv_put_patch(out, &grid, patch, &q);
-        }
-    }
-    sdv_apply_result(&surface->last, work, face, end, out);
+    sdv_apply_result(&surface->rows, &surface->copies, work, face, end, out);
+    for (int i = 0; i < surface->levels; i++)
+        sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
+    sdv_apply_result(&surface->rows, &surface->last, work, face, end, out);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
@@ -3527,11 +3913,18 @@ static void sdv_input_job(void *context, int job)
     }
 }
 
+static int sdv_row_blocks(const sdv_rows *rows)
+{
+    return (rows->count + SDV_ROW_BLOCK - 1) / SDV_ROW_BLOCK;
+}
+
 static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int job)
 {
-    int row = sdv_share(rows->count, job, e->jobs), end = sdv_share(rows->count, job + 1, e->jobs);
+    int blocks = sdv_row_blocks(rows);
+    int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4)
-        sdv_apply(rows, row, end, e->work + (size_t)c * (size_t)e->surface->work_count);
+        sdv_apply(&e->surface->rows, rows, block, end,
+                  e->work + (size_t)c * (size_t)e->surface->work_count);
 }
 
 static void sdv_face_point_job(void *context, int job)
@@ -3700,7 +4093,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
                                          void *scratch, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_arena arena = { NULL };
+    sdv_arena arena = sdv_scratch();
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     if (context.result) return context.result;
@@ -3873,7 +4266,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
 
     subdiv_mesh made;
     memset(&made, 0, sizeof made);
-    sdv_arena arena = { NULL };
+    sdv_arena arena = sdv_scratch();
     float factor = sdv_tame(&context, &arena, surface, &positions);
     if (!context.result) sdv_new_mesh(&context, &made, &surface->fine, 1);
     if (!context.result) {
@@ -3927,7 +4320,7 @@ static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
 static void sdv_count_sharp(subdiv_info *info, const sdv_level *level)
 {
     for (int e = 0; e < level->edge_count; e++) {
-        float s = level->edge_sharpness[e];
+        float s = level->sharpness[level->edge_first[e]];
         info->crease_count += sdv_survives(s);
         info->infinite_crease_count += s == SUBDIV_INFINITE;
     }
@@ -3940,12 +4333,11 @@ static void sdv_count_topology(subdiv_info *info, const sdv_cage *cage, subdiv_s
     const sdv_level *level = &cage->level;
     int regular = scheme == SUBDIV_LOOP ? 6 : 4;
     for (int e = 0; e < level->edge_count; e++) {
-        info->boundary_edge_count += sdv_list_size(&level->edge_faces, e) == 1;
+        info->boundary_edge_count += sdv_is_boundary(level, level->edge_first[e]);
         info->nonmanifold_edge_count += cage->edge_nonmanifold[e];
     }
     for (int v = 0; v < level->vertex_count; v++) {
-        int faces = sdv_list_size(&level->vertex_faces, v);
-        int valence = sdv_list_size(&level->vertex_edges, v);
+        int faces = level->vertex_faces[v], valence = sdv_count_edges_at(cage, v).count;
         if (valence > info->max_valence) info->max_valence = valence;
         if (faces == 0) info->isolated_vertex_count++;
         else if (cage->vertex_nonmanifold[v]) info->nonmanifold_vertex_count++;
@@ -3965,12 +4357,13 @@ static void sdv_count_components(subdiv_info *info, const sdv_level *level, int 
 {
     for (int v = 0; v < level->vertex_count; v++) parent[v] = v;
     for (int e = 0; e < level->edge_count; e++) {
-        int a = sdv_root(parent, level->edge_vertices[2 * e]);
-        int b = sdv_root(parent, level->edge_vertices[2 * e + 1]);
+        int h = level->edge_first[e];
+        int a = sdv_root(parent, level->face_vertices[h]);
+        int b = sdv_root(parent, level->face_vertices[sdv_next(level, h)]);
         parent[a > b ? a : b] = a > b ? b : a;
     }
     for (int v = 0; v < level->vertex_count; v++)
-        info->component_count += parent[v] == v && sdv_list_size(&level->vertex_faces, v) > 0;
+        info->component_count += parent[v] == v && level->vertex_faces[v] > 0;
 }
 
 SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *mesh,
@@ -3982,11 +4375,11 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     if (!context.result) sdv_check_all(&context, mesh);
     if (context.result) return context.result;
 
-    sdv_arena arena = { NULL };
+    sdv_arena arena = sdv_scratch();
     sdv_cage cage;
     subdiv_mesh shape = *mesh;
     shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
-    sdv_cage_build(&context, &arena, &cage, &shape);
+    sdv_cage_build(&context, &arena, &arena, &cage, &shape);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
     if (!context.result) {
         info->vertex_count = mesh->vertex_count;
@@ -4204,29 +4597,6 @@ static size_t sdv_write_number(char *out, float number)
 
 // ------------------------------------------------------------------------------ >>obj-read
 
-typedef struct sdv_array {              // grows
-    sdv_block *block;
-    size_t count, capacity;             // in items
-} sdv_array;
-
-// Room for so many items in all; those that are there are kept.
-static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
-{
-    if (context->result) return;
-    if (capacity > (size_t)PTRDIFF_MAX / item) {
-        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-        return;
-    }
-    sdv_block *block = sdv_allocate(context, capacity * item);
-    if (!block) return;
-    if (array->block) {
-        memcpy(block + 1, array->block + 1, array->count * item);
-        SUBDIV_FREE(array->block, array->block->user);
-    }
-    array->block = block;
-    array->capacity = capacity;
-}
-
 // One more item, not cleared; NULL when out of memory.
 static void *sdv_push(sdv_context *context, sdv_array *array, size_t item)
 {
@@ -4246,17 +4616,6 @@ static void sdv_push_float(sdv_context *context, sdv_array *array, float value)
 {
     float *item = (float *)sdv_push(context, array, sizeof(float));
     if (item) *item = value;
-}
-
-static const void *sdv_items(const sdv_array *array)
-{
-    return array->block ? array->block + 1 : NULL;
-}
-
-static void sdv_array_free(sdv_array *array)
-{
-    if (array->block) SUBDIV_FREE(array->block, array->block->user);
-    array->block = NULL;
 }
 
 typedef struct sdv_tag {                // an entry of a tag: kind 'c' crease, 'v' corner, 'h' hole
@@ -4898,7 +5257,7 @@ static subdiv_result sdv_save(sdv_context *context, const subdiv_mesh *mesh, sub
     if (!write) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     if (!context->result) sdv_check_all(context, mesh);
 
-    sdv_arena arena = { NULL };
+    sdv_arena arena = sdv_scratch();
     sdv_output out = { context, write, user, NULL, 0 };
     out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
     if (!context->result) {
@@ -4976,7 +5335,7 @@ static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surf
                                 const float *positions, subdiv_write write, void *user,
                                 const subdiv_options *opt)
 {
-    sdv_arena arena = { NULL };
+    sdv_arena arena = sdv_scratch();
     sdv_output out = { context, write, user, NULL, 0 };
     subdiv_mesh fine = surface->fine;
     float factor = sdv_tame(context, &arena, surface, &positions);
