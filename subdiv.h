@@ -611,7 +611,7 @@ static void sdv_huge_pages(void *memory, size_t size)
 {
     uintptr_t page = (uintptr_t)1 << 21, first = ((uintptr_t)memory + page - 1) & ~(page - 1);
     uintptr_t end = ((uintptr_t)memory + size) & ~(page - 1);
-    if (end > first + page) sdv_madvise((void *)first, end - first, 14);   // MADV_HUGEPAGE
+    if (end > first) sdv_madvise((void *)first, end - first, 14);   // MADV_HUGEPAGE
 }
 #else
 static void sdv_huge_pages(void *memory, size_t size)
@@ -701,14 +701,6 @@ static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, si
     array->capacity = capacity;
 }
 
-// A place behind the items, with room for so many more. NULL when out of memory.
-static void *sdv_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
-{
-    if (array->capacity - array->count < more)
-        sdv_grow(context, array, 2 * (array->count + more), item);
-    return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
-}
-
 static const void *sdv_items(const sdv_array *array)
 {
     return array->block ? array->block + 1 : NULL;
@@ -718,6 +710,60 @@ static void sdv_array_free(sdv_array *array)
 {
     if (array->block) SUBDIV_FREE(array->block, array->block->user);
     array->block = NULL;
+}
+
+// A pile is an array that only grows, in blocks of its own, so that nothing is ever moved.
+typedef struct sdv_pile {
+    sdv_block *first, *last;            // behind each header: its bytes, then the items
+    size_t     size;                    // bytes of all items
+    size_t     used, capacity;          // of the last block
+} sdv_pile;
+
+static size_t *sdv_pile_bytes(sdv_block *block)
+{
+    return (size_t *)(block + 1);
+}
+
+// Where the next item goes, with room for so many bytes; NULL when out of memory. sdv_took says how
+// many were written.
+static void *sdv_room(sdv_context *context, sdv_pile *pile, size_t bytes)
+{
+    if (pile->capacity - pile->used < bytes) {
+        size_t room = pile->size > 4096 ? pile->size : 4096;
+        sdv_block *block = context->result ? NULL : sdv_allocate(context, 16 + room + bytes);
+        if (!block) return NULL;
+        if (pile->last) pile->last->next = block;
+        else pile->first = block;
+        pile->last = block;
+        pile->capacity = room + bytes;
+        pile->used = *sdv_pile_bytes(block) = 0;
+    }
+    return (char *)(pile->last + 1) + 16 + pile->used;
+}
+
+static void sdv_took(sdv_pile *pile, size_t bytes)
+{
+    pile->used += bytes;
+    pile->size += bytes;
+    *sdv_pile_bytes(pile->last) = pile->used;
+}
+
+// All of it, one behind the other.
+static void *sdv_pile_copy(sdv_context *context, sdv_arena *arena, const sdv_pile *pile)
+{
+    char *copy = (char *)sdv_new(context, arena, pile->size, 1), *to = copy;
+    for (sdv_block *block = pile->first; block && copy; block = block->next) {
+        memcpy(to, (char *)(block + 1) + 16, *sdv_pile_bytes(block));
+        to += *sdv_pile_bytes(block);
+    }
+    return copy;
+}
+
+static void sdv_pile_free(sdv_pile *pile)
+{
+    sdv_arena blocks = sdv_new_arena(0);
+    blocks.blocks = pile->first;
+    sdv_arena_free(&blocks);
 }
 
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
@@ -1104,7 +1150,7 @@ static int sdv_face_of(const sdv_level *level, int h)
     return level->face_of[h];
 }
 
-// The face-vertices before and after h in its face. Quads are most of what there is.
+// The face-vertices before and after h in its face.
 static int sdv_previous_any(const sdv_level *level, int h)
 {
     int face = sdv_face_of(level, h);
@@ -1113,7 +1159,9 @@ static int sdv_previous_any(const sdv_level *level, int h)
 
 static inline int sdv_previous(const sdv_level *level, int h)
 {
-    return level->face_size == 4 ? (h & ~3) | ((h + 3) & 3) : sdv_previous_any(level, h);
+    if (level->face_size == 4) return (h & ~3) | ((h + 3) & 3);
+    if (level->face_size == 3) return (unsigned)h % 3 == 0 ? h + 2 : h - 1;
+    return sdv_previous_any(level, h);
 }
 
 static int sdv_next_any(const sdv_level *level, int h)
@@ -1124,7 +1172,9 @@ static int sdv_next_any(const sdv_level *level, int h)
 
 static inline int sdv_next(const sdv_level *level, int h)
 {
-    return level->face_size == 4 ? (h & ~3) | ((h + 1) & 3) : sdv_next_any(level, h);
+    if (level->face_size == 4) return (h & ~3) | ((h + 1) & 3);
+    if (level->face_size == 3) return (unsigned)h % 3 == 2 ? h - 2 : h + 1;
+    return sdv_next_any(level, h);
 }
 
 // The number of vertices of the face of h.
@@ -1171,6 +1221,7 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
 {
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     size_t face_vertices = (size_t)level->face_vertex_count;
+    sdv_reserve(context, arena, 24 * face_vertices + 32 * faces + 16 * vertices + 1024);
     level->across = SDV_NEW(context, arena, int, face_vertices);
     level->vertex_first = SDV_NEW(context, arena, int, vertices);
     level->vertex_next = SDV_NEW(context, arena, int, face_vertices);
@@ -1982,23 +2033,26 @@ typedef struct sdv_known_mask {
 
 #define SDV_KNOWN_MASKS 256
 
-// Writes the rows and the patches (see there) of a surface, which are copied when all are done.
+// Writes the rows and the patches (see there) of a surface.
 typedef struct sdv_writer {
     sdv_context *context;
-    sdv_array    items, starts;         // the stream: ints, size_ts,
-    sdv_array    masks, weights;        // sdv_weights, floats
-    sdv_array    known;                 // sdv_known_mask [SDV_KNOWN_MASKS] by their hash
-    sdv_array    patches, points;       // sdv_patches, ints
+    sdv_pile     items, starts;         // the stream: ints, size_ts,
+    sdv_pile     masks, weights;        // sdv_weights, floats
+    sdv_pile     patches, points;       // sdv_patches, ints
     sdv_rows    *rows;                  // being written
-    sdv_known_mask last;                // the mask of the last row
-    int          target, face;          // of the next row, if it makes a point of the result
+    int         *row;                   // the row itself
+    int          mask_count, target, face;          // of the next row, if it has a target
+    sdv_known_mask  last;               // the mask of the last row
+    sdv_known_mask *known;              // [SDV_KNOWN_MASKS] by their hash
+    sdv_arena    arena;
 } sdv_writer;
 
 static void sdv_writer_free(sdv_writer *writer)
 {
-    sdv_array *arrays[] = { &writer->items, &writer->starts, &writer->masks, &writer->weights,
-                            &writer->known, &writer->patches, &writer->points };
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sdv_array_free(arrays[i]);
+    sdv_pile *piles[] = { &writer->items, &writer->starts, &writer->masks, &writer->weights,
+                          &writer->patches, &writer->points };
+    for (size_t i = 0; i < sizeof piles / sizeof *piles; i++) sdv_pile_free(piles[i]);
+    sdv_arena_free(&writer->arena);
 }
 
 static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
@@ -2006,34 +2060,31 @@ static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
     memset(writer, 0, sizeof *writer);
     writer->context = context;
     writer->last.mask = -1;
-    sdv_known_mask *known = (sdv_known_mask *)sdv_room(context, &writer->known, SDV_KNOWN_MASKS,
-                                                       sizeof(sdv_known_mask));
-    for (int i = 0; i < SDV_KNOWN_MASKS && known; i++) known[i].mask = -1;
+    writer->known = SDV_NEW(context, &writer->arena, sdv_known_mask, SDV_KNOWN_MASKS);
+    for (int i = 0; i < SDV_KNOWN_MASKS && writer->known; i++) writer->known[i].mask = -1;
 }
 
 static int sdv_new_mask(sdv_writer *writer, const sdv_runs *runs)
 {
     int count = runs->count[0] + runs->count[1] + runs->count[2], even = 1, n = 0;
-    sdv_weights *mask = (sdv_weights *)sdv_room(writer->context, &writer->masks, 1,
-                                                sizeof(sdv_weights));
-    float *weights = (float *)sdv_room(writer->context, &writer->weights, (size_t)count,
-                                       sizeof(float));
+    size_t bytes = (size_t)count * sizeof(float);
+    sdv_weights *mask = (sdv_weights *)sdv_room(writer->context, &writer->masks, sizeof *mask);
+    float *weights = (float *)sdv_room(writer->context, &writer->weights, bytes);
     if (!mask || !weights) return 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < runs->count[i]; j++) weights[n++] = runs->weight[i];
     for (int i = 2; i < n; i++) even &= weights[i] == weights[1];
     mask->count = n;
     mask->even = even && n > 1 ? weights[1] : 0;
-    mask->first = even ? -1 : (int)writer->weights.count;
-    if (!even) writer->weights.count += (size_t)n;
-    return (int)writer->masks.count++;
+    mask->first = even ? -1 : (int)(writer->weights.size / sizeof(float));
+    if (!even) sdv_took(&writer->weights, bytes);
+    sdv_took(&writer->masks, sizeof *mask);
+    return writer->mask_count++;
 }
 
 static int sdv_same_runs(const sdv_runs *a, const sdv_runs *b)
 {
-    for (int i = 0; i < 3; i++)
-        if (a->count[i] != b->count[i] || a->weight[i] != b->weight[i]) return 0;
-    return 1;
+    return memcmp(a, b, sizeof *a) == 0;
 }
 
 // The number of a mask. Most have been there before.
@@ -2043,7 +2094,7 @@ static int sdv_mask_number(sdv_writer *writer, const sdv_runs *runs)
     if (writer->last.mask >= 0 && sdv_same_runs(&writer->last.runs, runs)) return writer->last.mask;
     memcpy(bits, runs->weight, sizeof bits);
     for (int i = 0; i < 3; i++) hash = (hash ^ bits[i] ^ (uint32_t)runs->count[i]) * 2654435761u;
-    sdv_known_mask *known = (sdv_known_mask *)(writer->known.block + 1) + (hash >> 24);
+    sdv_known_mask *known = &writer->known[hash >> 24];
     if (known->mask < 0 || !sdv_same_runs(&known->runs, runs)) {
         known->mask = sdv_new_mask(writer, runs);
         known->runs = *runs;
@@ -2055,17 +2106,17 @@ static int sdv_mask_number(sdv_writer *writer, const sdv_runs *runs)
 // The next row is the first of a block or of a cage face.
 static void sdv_note_start(sdv_writer *writer)
 {
-    size_t *start = (size_t *)sdv_room(writer->context, &writer->starts, 1, sizeof(size_t));
+    size_t *start = (size_t *)sdv_room(writer->context, &writer->starts, sizeof *start);
     if (!start) return;
-    *start = writer->items.count;
-    writer->starts.count++;
+    *start = writer->items.size / sizeof(int);
+    sdv_took(&writer->starts, sizeof *start);
 }
 
 static void sdv_begin_rows(sdv_writer *writer, sdv_rows *rows, int first)
 {
     memset(rows, 0, sizeof *rows);
     rows->first = first;
-    rows->start = writer->starts.count;
+    rows->start = writer->starts.size / sizeof(size_t);
     writer->rows = rows;
 }
 
@@ -2086,19 +2137,19 @@ static void sdv_go_to_face(sdv_writer *writer, int face)
 // Where the points of the next row go, count at most; NULL when there is no memory.
 static int *sdv_begin_row(sdv_writer *writer, int count)
 {
-    int *row = (int *)sdv_room(writer->context, &writer->items, (size_t)count + 2, sizeof(int));
-    return row ? row + 1 + writer->rows->targets : NULL;
+    writer->row = (int *)sdv_room(writer->context, &writer->items,
+                                  ((size_t)count + 2) * sizeof(int));
+    return writer->row ? writer->row + 1 + writer->rows->targets : NULL;
 }
 
 static void sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
 {
     sdv_rows *rows = writer->rows;
-    int *row = (int *)(writer->items.block + 1) + writer->items.count;
     int points = runs->count[0] + runs->count[1] + runs->count[2];
-    if (rows->targets) row[1] = writer->target;
+    if (rows->targets) writer->row[1] = writer->target;
     else if (rows->count % SDV_ROW_BLOCK == 0) sdv_note_start(writer);
-    row[0] = sdv_mask_number(writer, runs);
-    writer->items.count += (size_t)(1 + rows->targets + points);
+    writer->row[0] = sdv_mask_number(writer, runs);
+    sdv_took(&writer->items, (size_t)(1 + rows->targets + points) * sizeof(int));
     rows->count++;
 }
 
@@ -2160,7 +2211,8 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
 {
     int faces = sdv_edge_faces(level, h), triangles = 0, k = h;
-    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    int stays_sharp = level->sharpness[h] > 0 && sdv_half(level, h) > 0 &&
+                      sdv_half_before(level, h) > 0;
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
     sdv_mask mask = sdv_edge_mask(rules, level->sharpness[h], stays_sharp, faces, triangles);
@@ -2195,7 +2247,9 @@ typedef struct sdv_split {
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     memset(split, 0, sizeof *split);
+    sdv_reserve(context, arena, 8 * ((size_t)level->face_vertex_count + vertices + faces) + 1024);
     split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
     split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
     split->face = SDV_NEW(context, arena, int, level->face_count);
@@ -2407,9 +2461,9 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->face_vertex_count = next->face_count * next->face_size;
     next->vertex_count = split->vertex_points + split->face_points + split->edge_points;
     next->first_point = level->first_point + level->vertex_count;
+    sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
-    sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     if (context->result) return;
     sdv_split_points(level, split, next, loop);
     if (loop) sdv_split_triangles(level, split, next);
@@ -2569,21 +2623,22 @@ static int sdv_point_at(const sdv_level *level, int h)
 }
 
 // The 4 x 4 control points. Each smooth edge adds the two points of the face across it, and each
-// vertex in a ring the one diagonally across.
+// vertex in a ring the one diagonally across. (Without sharp edges, all are in rings.)
 //
 //     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
 //      8  9 10 11
 //      4  5  6  7
 //      0  1  2  3
-static void sdv_gather_quad(const sdv_level *level, int h, const sdv_fan *fan, int *points)
+static void sdv_gather_quad(const sdv_level *level, int h, const sdv_patch *patch,
+                            const sdv_fan *fan, int *points)
 {
     static const int diagonal[4] = { 0, 3, 15, 12 };
     static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
-    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, h);
+    for (int i = 0; i < 16 && patch->sharp; i++) points[i] = sdv_point_at(level, h);
     for (int i = 0; i < 4; i++) {
         points[sdv_quad_own[i]] = sdv_point_at(level, h + i);
-        int across = sdv_across(level, h + i);
-        if (across < 0) continue;
+        if (patch->sharp >> i & 1) continue;
+        int across = level->across[h + i];
         int at = sdv_next(level, across);      // the face-vertex at vertex i
         points[beside[i]] = sdv_point_at(level, sdv_next(level, at));
         points[next[i]] = sdv_point_at(level, sdv_previous(level, across));
@@ -2637,15 +2692,13 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
-// Makes the patch of face f, if it has one.
-static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
-                          const unsigned char *kinds, int f, int levels, sdv_patch *patch,
-                          int *points)
+// Looks at the edges and vertices of a face, unless all is free: which edges are sharp and how its
+// vertices' fans go on. Does it have a patch?
+static int sdv_find_fans(const sdv_level *level, const sdv_rules *rules,
+                         const unsigned char *kinds, int h, int size, int levels,
+                         sdv_patch *patch, sdv_fan *fan)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
-    sdv_fan fan[4];
-    memset(patch, 0, sizeof *patch);
-    for (int i = 0; i < size && !rules->linear; i++) {
+    for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
         if (s > 0 && !sdv_stays(s, levels, rules->creasing)) return 0;
         patch->sharp |= (unsigned char)((s > 0) << i);
@@ -2654,15 +2707,35 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
         if (fan[i] == SDV_FAN_ROUGH) return 0;
         if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
     }
+    return 1;
+}
+
+// Makes the patch of face f, if it has one. free: so are all its vertices.
+static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
+                          const unsigned char *kinds, int f, int levels, int is_free,
+                          sdv_patch *patch, int *points)
+{
+    int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
+    sdv_fan fan[4] = { SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING };
+    sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
+    memset(patch, 0, sizeof *patch);
+    memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
+    if (!is_free && !sdv_find_fans(level, rules, kinds, h, size, levels, patch, fan)) return 0;
     if (rules->linear) sdv_gather_linear(level, h, size, points);
     else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
-    else sdv_gather_quad(level, h, fan, points);
-    sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
+    else sdv_gather_quad(level, h, patch, fan, points);
     patch->h = place.h;
     patch->row = (int)((unsigned)place.row << levels);
     patch->column = (int)((unsigned)place.column << levels);
     patch->step = (signed char)place.step;
     return 1;
+}
+
+static void sdv_mark_edge(sdv_level *level, int h)
+{
+    int k = h;
+    do level->edge_done[k] = 1;
+    while ((k = level->across[k]) != h);
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
@@ -2675,19 +2748,21 @@ static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
         int bit = size == 3 && i == 2 ? 3 : i, k = h + i;
         patch->owned |= (unsigned char)(!level->edge_done[k] << bit | !*vertex << (4 + bit));
         *vertex = 1;
-        do level->edge_done[k] = 1;
-        while ((k = level->across[k]) != h + i);
+        sdv_mark_edge(level, k);
     }
 }
 
-// Is the face of the regular size and none of its vertices rough? Then it may have a patch.
-static int sdv_may_be_patch(const sdv_level *level, const unsigned char *kinds, int f, int size)
+// The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
+static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
 {
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-    if (end - start != size) return 0;
-    for (int h = start; h < end; h++)
-        if (kinds[level->face_vertices[h]] == SDV_ROUGH) return 0;
-    return 1;
+    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), free = 1;
+    if (end - start != size) return SDV_ROUGH;
+    for (int h = start; h < end; h++) {
+        unsigned char kind = kinds[level->face_vertices[h]];
+        if (kind == SDV_ROUGH) return SDV_ROUGH;
+        free &= kind == SDV_FREE;
+    }
+    return free ? SDV_FREE : SDV_EDGED;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
@@ -2696,9 +2771,10 @@ static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rul
 {
     sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
-    int size = rules->loop ? 3 : 4, width = sdv_control_points(rules);
+    int size = rules->loop ? 3 : 4;
+    size_t width = (size_t)sdv_control_points(rules);
     memcpy(level->rough, level->core, (size_t)level->face_count);
-    patches->first = (int)writer->patches.count;
+    patches->first = (int)(writer->patches.size / sizeof(sdv_patch));
     patches->count = 0;
     patches->depth = levels;
     if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
@@ -2706,16 +2782,19 @@ static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rul
     for (int v = 0; v < level->vertex_count && kinds; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        if (!level->core[f] || !sdv_may_be_patch(level, kinds, f, size)) continue;
-        sdv_patch *patch = (sdv_patch *)sdv_room(context, &writer->patches, 1, sizeof(sdv_patch));
-        int *points = (int *)sdv_room(context, &writer->points, (size_t)width, sizeof(int));
-        if (context->result || !sdv_make_patch(level, rules, kinds, f, levels, patch, points))
+        if (!level->core[f]) continue;
+        sdv_kind kind = sdv_face_kind(level, kinds, f, size);
+        if (kind == SDV_ROUGH) continue;
+        sdv_patch *patch = (sdv_patch *)sdv_room(context, &writer->patches, sizeof *patch);
+        int *points = (int *)sdv_room(context, &writer->points, width * sizeof(int));
+        if (!patch || !points ||
+            !sdv_make_patch(level, rules, kinds, f, levels, kind == SDV_FREE, patch, points))
             continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
         patches->count++;
-        writer->patches.count++;
-        writer->points.count += (size_t)width;
+        sdv_took(&writer->patches, sizeof *patch);
+        sdv_took(&writer->points, width * sizeof(int));
     }
     sdv_arena_free(&scratch);
 }
@@ -3108,7 +3187,7 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
         sdv_end_row(writer, &runs);
     }
     for (int h = start; h < end; h++) {
-        int v = level->face_vertices[h], k = h;
+        int v = level->face_vertices[h];
         if (!level->vertex_done[v]) {
             writer->target = sdv_vertex_target(targets, h, h - start);
             sdv_vertex_row(level, rules, v, writer);
@@ -3118,8 +3197,7 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
             sdv_edge_row(level, rules, h, writer);
         }
         level->vertex_done[v] = 1;
-        do level->edge_done[k] = 1;
-        while ((k = level->across[k]) != h);
+        sdv_mark_edge(level, h);
     }
 }
 
@@ -3168,34 +3246,21 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena_free(&scratch);
 }
 
-// A copy of an array that grew, of just its size.
-static void *sdv_copy_array(sdv_context *context, sdv_arena *arena, const sdv_array *array,
-                            size_t item)
-{
-    void *copy = sdv_new(context, arena, array->count, item);
-    if (!context->result) sdv_copy(copy, sdv_items(array), array->count, item);
-    return copy;
-}
-
 // What was written goes into one block of the surface.
 static void sdv_keep(subdiv_surface *surface, sdv_writer *writer)
 {
     sdv_context *context = writer->context;
     sdv_arena *arena = &surface->arena;
-    sdv_table *table = &surface->rows;
-    size_t size = writer->items.count * sizeof(int) + writer->starts.count * sizeof(size_t) +
-                  writer->masks.count * sizeof(sdv_weights) +
-                  writer->weights.count * sizeof(float) +
-                  writer->patches.count * sizeof(sdv_patch) + writer->points.count * sizeof(int);
-    sdv_reserve(context, arena, size + 6 * 16);
-    table->items = (int *)sdv_copy_array(context, arena, &writer->items, sizeof(int));
-    table->starts = (size_t *)sdv_copy_array(context, arena, &writer->starts, sizeof(size_t));
-    table->masks = (sdv_weights *)sdv_copy_array(context, arena, &writer->masks,
-                                                  sizeof(sdv_weights));
-    table->weights = (float *)sdv_copy_array(context, arena, &writer->weights, sizeof(float));
-    surface->patch_items = (sdv_patch *)sdv_copy_array(context, arena, &writer->patches,
-                                                       sizeof(sdv_patch));
-    surface->patch_points = (int *)sdv_copy_array(context, arena, &writer->points, sizeof(int));
+    sdv_table *rows = &surface->rows;
+    sdv_reserve(context, arena, writer->items.size + writer->starts.size + writer->masks.size +
+                                writer->weights.size + writer->patches.size +
+                                writer->points.size + 6 * 16);
+    rows->items = (int *)sdv_pile_copy(context, arena, &writer->items);
+    rows->starts = (size_t *)sdv_pile_copy(context, arena, &writer->starts);
+    rows->masks = (sdv_weights *)sdv_pile_copy(context, arena, &writer->masks);
+    rows->weights = (float *)sdv_pile_copy(context, arena, &writer->weights);
+    surface->patch_items = (sdv_patch *)sdv_pile_copy(context, arena, &writer->patches);
+    surface->patch_points = (int *)sdv_pile_copy(context, arena, &writer->points);
 }
 
 // Level by level from the cage, whose arena it frees.
