@@ -1936,40 +1936,70 @@ typedef struct sdv_row {
 
 static sdv_row sdv_grid_points(const sdv_grid *grid, int row)
 {
+    const int *corner = grid->corner;
+    int n = grid->size, first = row == 0, last = row == n, top = grid->triangle ? 2 : 3;
     sdv_row points;
-    points.size = grid->triangle ? grid->size - row : grid->size;
+    points.size = grid->triangle ? n - row : n;
     points.line = sdv_grid_line(grid, row);
-    points.left = sdv_grid_index(grid, row, 0);
-    points.right = sdv_grid_index(grid, row, points.size);
+    points.left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
+    points.right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
     return points;
 }
 
-static int sdv_row_index(const sdv_row *row, int column)
+// The fine faces between two rows of points, low and high: quads a b c d.
+//
+//     d c
+//     a b
+static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
-    if (column == 0) return row->left;
-    return column == row->size ? row->right : row->line.first + row->line.step * column;
+    int a = low->left, d = high->left;
+    int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
+    for (int i = 1; i <= low->size; i++, out += 4) {
+        if (i == low->size) {
+            b = low->right;
+            c = high->right;
+        }
+        out[0] = a;
+        out[1] = b;
+        out[2] = c;
+        out[3] = d;
+        a = b;
+        d = c;
+        b += low->line.step;
+        c += high->line.step;
+    }
+    return out;
+}
+
+// Triangles a b d and, turned by half, c d b; the last of a row has no c.
+static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out)
+{
+    int a = low->left, d = high->left;
+    int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
+    for (int i = 1; i < low->size; i++, out += 6) {
+        if (i == high->size) c = high->right;
+        out[0] = a;
+        out[1] = b;
+        out[2] = d;
+        out[3] = c;
+        out[4] = d;
+        out[5] = b;
+        a = b;
+        d = c;
+        b += low->line.step;
+        c += high->line.step;
+    }
+    out[0] = a;
+    out[1] = low->right;
+    out[2] = d;
+    return out + 3;
 }
 
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
 static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
 {
     sdv_row low = sdv_grid_points(grid, row), high = sdv_grid_points(grid, row + 1);
-    int a = low.left, d = high.left;            //   d c     a quad a b c d; or a triangle a b d,
-    for (int i = 1; i <= low.size; i++) {       //   a b     and one turned by half, c d b
-        int b = sdv_row_index(&low, i), c = i <= high.size ? sdv_row_index(&high, i) : -1;
-        *out++ = a;
-        *out++ = b;
-        if (grid->triangle) {
-            *out++ = d;
-            if (c < 0) break;
-        }
-        *out++ = c;
-        *out++ = d;
-        if (grid->triangle) *out++ = b;
-        a = b;
-        d = c;
-    }
-    return out;
+    return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
 // The fine faces of cage face f.
@@ -3702,20 +3732,15 @@ static sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
     return sdv_minus(sdv_plus(edge, edge), inside);
 }
 
-static void sdv_load_points(const int *points, int count, const float *work, sdv_four origin,
-                            sdv_four *p)
+static void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
 {
-    for (int i = 0; i < count; i++)
-        p[i] = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), origin);
+    for (int i = 0; i < count; i++) p[i] = sdv_load(work + 4 * (size_t)points[i]);
 }
 
-// The 16 control points relative to vertex 0. What lies beyond sharp edges is mirrored: first to
-// the left and right in all rows that are known, then below and above.
-static void sdv_quad_points(const sdv_patch *patch, const int *points, const float *work,
-                            sdv_four origin, sdv_four *p)
+// What lies beyond sharp edges is mirrored: first to the left and right in all rows that are known,
+// then below and above.
+static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
 {
-    sdv_load_points(points, 16, work, origin, p);
-    if (!patch->sharp) return;
     for (int i = 0; i < 16; i += 4) {
         if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
         if (patch->sharp & 2) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
@@ -3738,30 +3763,32 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
-// A quad with one level to go: nine points, which its polynomial would be too much work for.
+// A quad with one level to go: nine points, which its polynomial would be too much work for. Of the
+// three rows of points those that it owns, each from three or two rows of control points.
 static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                          const int *points, int linear, const float *work)
 {
     static const unsigned char bits[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
                                               { SDV_LEFT, 0, SDV_RIGHT },
                                               { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
-    sdv_four p[16], up[3][4];
-    sdv_quad_points(patch, points, work, sdv_all(0), p);
-    for (int i = 0; i < 4; i++) {
-        up[0][i] = linear ? p[4 + i] : sdv_spline_vertex(p[i], p[4 + i], p[8 + i]);
-        up[1][i] = sdv_middle(p[4 + i], p[8 + i]);
-        up[2][i] = linear ? p[8 + i] : sdv_spline_vertex(p[4 + i], p[8 + i], p[12 + i]);
-    }
+    int owned = patch->owned, x = patch->column;
+    sdv_four p[16], u[4];
+    sdv_load_points(points, 16, work, p);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
     for (int row = 0; row < 3; row++) {
-        const sdv_four *u = up[row];
+        const sdv_four *at = row == 2 ? p + 8 : p + 4;
         const unsigned char *bit = bits[row];
-        int y = patch->row + row, x = patch->column;
-        if (bit[0] & patch->owned)
+        int y = patch->row + row;
+        if (row != 1 && !(owned & (bit[0] | bit[1] | bit[2]))) continue;
+        for (int i = 0; i < 4; i++)
+            u[i] = row == 1 ? sdv_middle(at[i], at[i + 4]) :
+                   linear ? at[i] : sdv_spline_vertex(at[i - 4], at[i], at[i + 4]);
+        if (bit[0] & owned)
             sdv_put_point(out, sdv_quad_index(grid, y, x),
                           linear ? u[1] : sdv_spline_vertex(u[0], u[1], u[2]));
-        if (row == 1 || bit[1] & patch->owned)
+        if (row == 1 || bit[1] & owned)
             sdv_put_point(out, sdv_quad_index(grid, y, x + 1), sdv_middle(u[1], u[2]));
-        if (bit[2] & patch->owned)
+        if (bit[2] & owned)
             sdv_put_point(out, sdv_quad_index(grid, y, x + 2),
                           linear ? u[2] : sdv_spline_vertex(u[1], u[2], u[3]));
     }
@@ -3775,8 +3802,10 @@ static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n
     float h = 1.0f / (float)n;
     sdv_four p[16], up[4][4], x[4];
     q->degree = 3;
-    q->origin = sdv_load(work + 4 * (size_t)points[5]);
-    sdv_quad_points(patch, points, work, q->origin, p);
+    sdv_load_points(points, 16, work, p);
+    q->origin = p[5];
+    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
         else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], h * h, up[i]);
@@ -3788,13 +3817,11 @@ static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n
     }
 }
 
-// The 12 control points relative to vertex 0. Around vertex v, counter-clockwise, stand r[0] and
-// r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across the
-// edge after. What lies beyond sharp edges follows from a + b - inside.
-static void sdv_triangle_points(const sdv_patch *patch, const int *points, const float *work,
-                                sdv_four origin, sdv_four *p)
+// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise, stand
+// r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across
+// the edge after.
+static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
 {
-    sdv_load_points(points, 12, work, origin, p);
     for (int i = 0; i < 3; i++) {
         const int *r = sdv_triangle_ring[i];
         sdv_four v = p[sdv_triangle_own[i]];
@@ -3891,8 +3918,10 @@ static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, i
     float h = 1.0f / (float)n;
     sdv_four p[12];
     q->degree = 4;
-    q->origin = sdv_load(work + 4 * (size_t)points[4]);
-    sdv_triangle_points(patch, points, work, q->origin, p);
+    sdv_load_points(points, 12, work, p);
+    q->origin = p[4];
+    for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
+    sdv_mirror_triangle(patch, p);
     if (linear) sdv_plane(p, q);
     else sdv_box_spline(p, h * h, q);
 }
