@@ -2664,18 +2664,19 @@ static void sdv_gather_quad(const sdv_level *level, int h, const sdv_patch *patc
 {
     static const int diagonal[4] = { 0, 3, 15, 12 };
     static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
-    for (int i = 0; i < 16 && patch->sharp; i++) points[i] = sdv_point_at(level, h);
+    int p[16];                                 // face-vertices, whose vertices are the points
+    for (int i = 0; i < 16 && patch->sharp; i++) p[i] = h;
     for (int i = 0; i < 4; i++) {
-        points[sdv_quad_own[i]] = sdv_point_at(level, h + i);
+        p[sdv_quad_own[i]] = h + i;
         if (patch->sharp >> i & 1) continue;
         int across = level->across[h + i];
         int at = sdv_next(level, across);      // the face-vertex at vertex i
-        points[beside[i]] = sdv_point_at(level, sdv_next(level, at));
-        points[next[i]] = sdv_point_at(level, sdv_previous(level, across));
+        p[beside[i]] = sdv_next(level, at);
+        p[next[i]] = sdv_previous(level, across);
         if (fan[i] != SDV_FAN_RING) continue;
-        int opposite = level->across[at];
-        points[diagonal[i]] = sdv_point_at(level, sdv_previous(level, opposite));
+        p[diagonal[i]] = sdv_previous(level, level->across[at]);
     }
+    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, p[i]);
 }
 
 // The 12 control points. The neighbours of a point are to its right and left, above and below,
