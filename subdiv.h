@@ -701,6 +701,14 @@ static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, si
     array->capacity = capacity;
 }
 
+// A place behind the items, with room for so many more. NULL when out of memory.
+static void *sdv_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
+{
+    if (array->capacity - array->count < more)
+        sdv_grow(context, array, 2 * (array->count + more), item);
+    return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
+}
+
 static const void *sdv_items(const sdv_array *array)
 {
     return array->block ? array->block + 1 : NULL;
@@ -710,60 +718,6 @@ static void sdv_array_free(sdv_array *array)
 {
     if (array->block) SUBDIV_FREE(array->block, array->block->user);
     array->block = NULL;
-}
-
-// A pile is an array that only grows, in blocks of its own, so that nothing is ever moved.
-typedef struct sdv_pile {
-    sdv_block *first, *last;            // behind each header: its bytes, then the items
-    size_t     size;                    // bytes of all items
-    size_t     used, capacity;          // of the last block
-} sdv_pile;
-
-static size_t *sdv_pile_bytes(sdv_block *block)
-{
-    return (size_t *)(block + 1);
-}
-
-// Where the next item goes, with room for so many bytes; NULL when out of memory. sdv_took says how
-// many were written.
-static void *sdv_room(sdv_context *context, sdv_pile *pile, size_t bytes)
-{
-    if (pile->capacity - pile->used < bytes) {
-        size_t room = pile->size > 4096 ? pile->size : 4096;
-        sdv_block *block = context->result ? NULL : sdv_allocate(context, 16 + room + bytes);
-        if (!block) return NULL;
-        if (pile->last) pile->last->next = block;
-        else pile->first = block;
-        pile->last = block;
-        pile->capacity = room + bytes;
-        pile->used = *sdv_pile_bytes(block) = 0;
-    }
-    return (char *)(pile->last + 1) + 16 + pile->used;
-}
-
-static void sdv_took(sdv_pile *pile, size_t bytes)
-{
-    pile->used += bytes;
-    pile->size += bytes;
-    *sdv_pile_bytes(pile->last) = pile->used;
-}
-
-// All of it, one behind the other.
-static void *sdv_pile_copy(sdv_context *context, sdv_arena *arena, const sdv_pile *pile)
-{
-    char *copy = (char *)sdv_new(context, arena, pile->size, 1), *to = copy;
-    for (sdv_block *block = pile->first; block && copy; block = block->next) {
-        memcpy(to, (char *)(block + 1) + 16, *sdv_pile_bytes(block));
-        to += *sdv_pile_bytes(block);
-    }
-    return copy;
-}
-
-static void sdv_pile_free(sdv_pile *pile)
-{
-    sdv_arena blocks = sdv_new_arena(0);
-    blocks.blocks = pile->first;
-    sdv_arena_free(&blocks);
 }
 
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
@@ -2033,21 +1987,20 @@ typedef struct sdv_weights {            // the mask of a row
     int   first;                        // or, if >= 0: where in a list of weights theirs start
 } sdv_weights;
 
-typedef struct sdv_table {             // all rows of a surface
-    int         *items;
-    size_t      *starts;                // where some of the rows start in items, see sdv_rows
-    sdv_weights *masks;
+typedef struct sdv_masks {              // of all rows of a surface
+    sdv_weights *items;
     float       *weights;
-} sdv_table;
+} sdv_masks;
 
 #define SDV_ROW_BLOCK 64                // rows between two starts
 
 typedef struct sdv_rows {
-    int    count;
-    int    first;                       // row i makes work point first + i; starts[start + i / 64] is
-                                        // where it stands, for i a multiple of 64. Or
-    int    targets;                     // rows make points of the result; starts[start + f] is where
-    size_t start;                       // the first of cage face f stands
+    int     count;
+    int     first;                      // row i makes work point first + i; starts[i / 64] is where
+                                        // it stands, for i a multiple of 64. Or
+    int     targets;                    // rows make points of the result; starts[f] is where the
+    size_t *starts;                     // first of cage face f stands
+    int    *items;                      // the stream
 } sdv_rows;
 
 // Three weights are enough: of the first points, the neighbours along a crease, all others.
@@ -2063,25 +2016,22 @@ typedef struct sdv_known_mask {
 
 #define SDV_KNOWN_MASKS 256
 
-// Writes the rows and the patches (see there) of a surface.
+// Writes rows.
 typedef struct sdv_writer {
     sdv_context *context;
-    sdv_pile     items, starts;         // the stream: ints, size_ts,
-    sdv_pile     masks, weights;        // sdv_weights, floats
-    sdv_pile     patches, points;       // sdv_patches, ints
-    sdv_rows    *rows;                  // being written
-    int         *row;                   // the row itself
-    int          mask_count, target, face;          // of the next row, if it has a target
+    sdv_array    masks, weights;        // sdv_weights, floats: grow, and are copied at the end
     sdv_known_mask  last;               // the mask of the last row
     sdv_known_mask *known;              // [SDV_KNOWN_MASKS] by their hash
     sdv_arena    arena;
+    sdv_rows    *rows;                  // being written
+    int         *row;                   // the next one
+    int          target, face;          // and what it makes, if it has a target
 } sdv_writer;
 
 static void sdv_writer_free(sdv_writer *writer)
 {
-    sdv_pile *piles[] = { &writer->items, &writer->starts, &writer->masks, &writer->weights,
-                          &writer->patches, &writer->points };
-    for (size_t i = 0; i < sizeof piles / sizeof *piles; i++) sdv_pile_free(piles[i]);
+    sdv_array_free(&writer->masks);
+    sdv_array_free(&writer->weights);
     sdv_arena_free(&writer->arena);
 }
 
@@ -2097,19 +2047,18 @@ static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
 static int sdv_new_mask(sdv_writer *writer, const sdv_runs *runs)
 {
     int count = runs->count[0] + runs->count[1] + runs->count[2], even = 1, n = 0;
-    size_t bytes = (size_t)count * sizeof(float);
-    sdv_weights *mask = (sdv_weights *)sdv_room(writer->context, &writer->masks, sizeof *mask);
-    float *weights = (float *)sdv_room(writer->context, &writer->weights, bytes);
+    sdv_weights *mask = (sdv_weights *)sdv_room(writer->context, &writer->masks, 1, sizeof *mask);
+    float *weights = (float *)sdv_room(writer->context, &writer->weights, (size_t)count,
+                                       sizeof(float));
     if (!mask || !weights) return 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < runs->count[i]; j++) weights[n++] = runs->weight[i];
     for (int i = 2; i < n; i++) even &= weights[i] == weights[1];
     mask->count = n;
     mask->even = even && n > 1 ? weights[1] : 0;
-    mask->first = even ? -1 : (int)(writer->weights.size / sizeof(float));
-    if (!even) sdv_took(&writer->weights, bytes);
-    sdv_took(&writer->masks, sizeof *mask);
-    return writer->mask_count++;
+    mask->first = even ? -1 : (int)writer->weights.count;
+    if (!even) writer->weights.count += (size_t)n;
+    return (int)writer->masks.count++;
 }
 
 static int sdv_same_runs(const sdv_runs *a, const sdv_runs *b)
@@ -2133,62 +2082,70 @@ static int sdv_mask_number(sdv_writer *writer, const sdv_runs *runs)
     return known->mask;
 }
 
-// The next row is the first of a block or of a cage face.
-static void sdv_note_start(sdv_writer *writer)
-{
-    size_t *start = (size_t *)sdv_room(writer->context, &writer->starts, sizeof *start);
-    if (!start) return;
-    *start = writer->items.size / sizeof(int);
-    sdv_took(&writer->starts, sizeof *start);
-}
-
-static void sdv_begin_rows(sdv_writer *writer, sdv_rows *rows, int first)
+// So many rows at most of size ints in all, each the mask, the points and, if it has one, the
+// target. starts: for blocks of rows or for cage faces.
+static void sdv_begin_rows(sdv_writer *writer, sdv_arena *arena, sdv_rows *rows, size_t size,
+                           size_t starts, int first)
 {
     memset(rows, 0, sizeof *rows);
     rows->first = first;
-    rows->start = writer->starts.size / sizeof(size_t);
+    rows->items = SDV_NEW(writer->context, arena, int, size);
+    rows->starts = SDV_NEW(writer->context, arena, size_t, starts);
     writer->rows = rows;
+    writer->row = rows->items;
 }
 
 // Rows that make points of the result, cage face by cage face.
-static void sdv_begin_result(sdv_writer *writer, sdv_rows *rows)
+static void sdv_begin_result(sdv_writer *writer, sdv_arena *arena, sdv_rows *rows, size_t size,
+                             int cage_faces)
 {
-    sdv_begin_rows(writer, rows, 0);
+    sdv_begin_rows(writer, arena, rows, size, (size_t)cage_faces + 1, 0);
     rows->targets = 1;
-    writer->face = -1;
+    writer->face = 0;
 }
 
 // The rows that follow belong to this cage face.
 static void sdv_go_to_face(sdv_writer *writer, int face)
 {
-    for (; writer->face < face; writer->face++) sdv_note_start(writer);
+    sdv_rows *rows = writer->rows;
+    while (writer->face <= face) rows->starts[writer->face++] = (size_t)(writer->row - rows->items);
 }
 
-// Where the points of the next row go, count at most; NULL when there is no memory.
-static int *sdv_begin_row(sdv_writer *writer, int count)
+// Where the points of the next row go.
+static int *sdv_begin_row(sdv_writer *writer)
 {
-    writer->row = (int *)sdv_room(writer->context, &writer->items,
-                                  ((size_t)count + 2) * sizeof(int));
-    return writer->row ? writer->row + 1 + writer->rows->targets : NULL;
+    return writer->row + 1 + writer->rows->targets;
 }
 
 static void sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
 {
     sdv_rows *rows = writer->rows;
-    int points = runs->count[0] + runs->count[1] + runs->count[2];
-    if (rows->targets) writer->row[1] = writer->target;
-    else if (rows->count % SDV_ROW_BLOCK == 0) sdv_note_start(writer);
-    writer->row[0] = sdv_mask_number(writer, runs);
-    sdv_took(&writer->items, (size_t)(1 + rows->targets + points) * sizeof(int));
+    int *row = writer->row, points = runs->count[0] + runs->count[1] + runs->count[2];
+    if (rows->targets) row[1] = writer->target;
+    else if (rows->count % SDV_ROW_BLOCK == 0)
+        rows->starts[rows->count / SDV_ROW_BLOCK] = (size_t)(row - rows->items);
+    row[0] = sdv_mask_number(writer, runs);
+    writer->row = row + 1 + rows->targets + points;
     rows->count++;
+}
+
+// The most ints of a vertex's row: itself, its neighbours, its faces. Without a crease, there are as
+// many neighbours as faces.
+static size_t sdv_vertex_row_size(const sdv_level *level, int v, int loop)
+{
+    return 3 + (size_t)level->vertex_faces[v] * (size_t)((loop ? 1 : 2) + level->creased[v]);
+}
+
+static size_t sdv_edge_row_size(const sdv_level *level, int h)
+{
+    return 4 + (size_t)sdv_edge_faces(level, h);
 }
 
 static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-    int *point = sdv_begin_row(writer, end - start);
+    int *point = sdv_begin_row(writer);
     sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0 }, { end - start, 0, 0 } };
-    if (!point) return;
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
     sdv_end_row(writer, &runs);
 }
@@ -2217,10 +2174,9 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     int faces = level->vertex_faces[v];
     sdv_fading fading = sdv_vertex_fading(level, v);
     sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
-    int *start = sdv_begin_row(writer, 1 + 3 * faces), *point = start;
+    int *start = sdv_begin_row(writer), *point = start;
     sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge },
                       { 0, 0, 0 } };
-    if (!start) return;
     if (mask.self != 0) *point++ = level->first_point + v;
     runs.count[0] = (int)(point - start);
     if (mask.crease != 0) point = sdv_add_neighbours(level, v, fading.rule, 1, point);
@@ -2246,10 +2202,9 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
     sdv_mask mask = sdv_edge_mask(rules, level->sharpness[h], stays_sharp, faces, triangles);
-    int *point = sdv_begin_row(writer, 2 + faces);
+    int *point = sdv_begin_row(writer);
     sdv_runs runs = { { (float)mask.self, 0, (float)mask.face },
                       { 2, 0, mask.face != 0 ? faces : 0 } };
-    if (!point) return;
     point[0] = level->first_point + level->face_vertices[h];
     point[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
     for (int i = 0; i < runs.count[2]; i++, k = level->across[k])
@@ -2532,11 +2487,12 @@ static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5
 #define SDV_QUAD_PATCH_DEPTH 1
 #define SDV_LOOP_PATCH_DEPTH 2
 
-typedef struct sdv_patches {            // of one level, in the order of cage faces
-    int first, count, depth;            // depth: levels to go
-} sdv_patches;
+typedef struct sdv_patches {            // of one level
+    int        count, depth;            // depth: levels to go
+    sdv_patch *items;                   // [count] in the order of cage faces
+    int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
+} sdv_patches;                          //      work points; for those that are mirrored, any
 
-// A patch's control points are work points; for those that are mirrored, any.
 static int sdv_control_points(const sdv_rules *rules)
 {
     return rules->loop ? 12 : 16;
@@ -2797,35 +2753,36 @@ static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
-static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rules *rules,
-                             int levels, sdv_patches *patches)
+static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
+                             const sdv_rules *rules, int levels, sdv_patches *patches)
 {
-    sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
-    int size = rules->loop ? 3 : 4;
-    size_t width = (size_t)sdv_control_points(rules);
+    int size = rules->loop ? 3 : 4, most = 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
-    patches->first = (int)(writer->patches.size / sizeof(sdv_patch));
-    patches->count = 0;
     patches->depth = levels;
     if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
     unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    for (int v = 0; v < level->vertex_count && kinds; v++)
+    unsigned char *face_kinds = SDV_NEW(context, &scratch, unsigned char, level->face_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        if (!level->core[f]) continue;
-        sdv_kind kind = sdv_face_kind(level, kinds, f, size);
-        if (kind == SDV_ROUGH) continue;
-        sdv_patch *patch = (sdv_patch *)sdv_room(context, &writer->patches, sizeof *patch);
-        int *points = (int *)sdv_room(context, &writer->points, width * sizeof(int));
-        if (!patch || !points ||
-            !sdv_make_patch(level, rules, kinds, f, levels, kind == SDV_FREE, patch, points))
+        sdv_kind kind = level->core[f] ? sdv_face_kind(level, kinds, f, size) : SDV_ROUGH;
+        face_kinds[f] = (unsigned char)kind;
+        most += kind != SDV_ROUGH;
+    }
+    size_t width = (size_t)sdv_control_points(rules);
+    patches->items = SDV_NEW(context, arena, sdv_patch, most);
+    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        if (face_kinds[f] == SDV_ROUGH) continue;
+        sdv_patch *patch = &patches->items[patches->count];
+        int *points = patches->points + width * (size_t)patches->count;
+        if (!sdv_make_patch(level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE, patch,
+                            points))
             continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
         patches->count++;
-        sdv_took(&writer->patches, sizeof *patch);
-        sdv_took(&writer->points, width * sizeof(int));
     }
     sdv_arena_free(&scratch);
 }
@@ -2843,11 +2800,9 @@ struct subdiv_surface {
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone
-    sdv_rows   copies, last;            // rows that make points of the result
-    sdv_table  rows;                    // of all levels
     sdv_patches *patches;               // [levels]
-    sdv_patch *patch_items;             // of all levels
-    int       *patch_points;            // their control points, 16 each; Loop 12
+    sdv_rows  copies, last;             // rows that make points of the result
+    sdv_masks masks;                    // of all rows
     int       work_count;               // work points
     sdv_order order;
     unsigned char *hole;                // [cage face_count]
@@ -3095,10 +3050,8 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
 static void sdv_copy_row(sdv_writer *writer, int v)
 {
     sdv_runs runs = { { 1, 0, 0 }, { 1, 0, 0 } };
-    int *point = sdv_begin_row(writer, 1);
+    *sdv_begin_row(writer) = v;
     writer->target = v;
-    if (!point) return;
-    *point = v;
     sdv_end_row(writer, &runs);
 }
 
@@ -3109,7 +3062,9 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
     for (int v = 0; v < cage->vertex_count; v++)
         count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
     if (count == 0) return;
-    sdv_begin_result(writer, &surface->copies);
+    int faces = surface->cage_face_count ? surface->cage_face_count : 1;
+    sdv_begin_result(writer, &surface->arena, &surface->copies, 3 * (size_t)count, faces);
+    if (writer->context->result) return;
     sdv_go_to_face(writer, 0);
     for (int v = 0; v < cage->vertex_count; v++)
         if (cage->vertex_faces[v] == 0) sdv_copy_row(writer, v);
@@ -3119,16 +3074,26 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
         sdv_go_to_face(writer, sdv_face_of(cage, h));
         sdv_copy_row(writer, v);
     }
-    sdv_go_to_face(writer, surface->cage_face_count ? surface->cage_face_count : 1);
+    sdv_go_to_face(writer, faces);
+}
+
+static size_t sdv_row_blocks(int rows)
+{
+    return ((size_t)rows + SDV_ROW_BLOCK - 1) / SDV_ROW_BLOCK;
 }
 
 // Face points become work points: behind the vertex points of the next level, or alone if the
 // next level is the last.
-static void sdv_step_faces(sdv_level *level, const sdv_split *split, int last, sdv_writer *writer,
-                           sdv_step *step)
+static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_split *split,
+                           int last, sdv_writer *writer, sdv_step *step)
 {
     int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
-    sdv_begin_rows(writer, &step->faces, next + split->vertex_points);
+    size_t size = 0;
+    for (int f = 0; f < level->face_count; f++)
+        if (split->face[f] >= 0)
+            size += 1 + (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
+    sdv_begin_rows(writer, &surface->arena, &step->faces, size,
+                   sdv_row_blocks(split->face_points), next + split->vertex_points);
     for (int f = 0; f < level->face_count && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
         if (split->face[f] >= 0) sdv_face_row(level, f, writer);
@@ -3136,16 +3101,25 @@ static void sdv_step_faces(sdv_level *level, const sdv_split *split, int last, s
 }
 
 // Rows for the vertex and edge points of the next level.
-static void sdv_step_points(const sdv_level *level, const sdv_rules *rules, const sdv_split *split,
-                            sdv_writer *writer, sdv_step *step)
+static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
+                            const sdv_split *split, sdv_writer *writer, sdv_step *step)
 {
+    const sdv_rules *rules = &surface->rules;
     int next = level->first_point + level->vertex_count;
-    sdv_begin_rows(writer, &step->vertices, next);
+    size_t size = 0;
+    for (int v = 0; v < level->vertex_count; v++)
+        if (split->active[v]) size += sdv_vertex_row_size(level, v, rules->loop);
+    sdv_begin_rows(writer, &surface->arena, &step->vertices, size,
+                   sdv_row_blocks(split->vertex_points), next);
     for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
         if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
 
+    size = 0;
     next += split->vertex_points + split->face_points;
-    sdv_begin_rows(writer, &step->edges, next);
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (split->edge[h] >= 0 && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
+    sdv_begin_rows(writer, &surface->arena, &step->edges, size,
+                   sdv_row_blocks(split->edge_points), next);
     for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
 }
@@ -3211,9 +3185,7 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
                                          : f);
     if (!rules->loop) {
         sdv_runs runs = { { 1, 0, 0 }, { 1, 0, 0 } };
-        int *point = sdv_begin_row(writer, 1);
-        if (!point) return;
-        *point = level->face_point[f];
+        *sdv_begin_row(writer) = level->face_point[f];
         writer->target = sdv_face_target(targets, f);
         sdv_end_row(writer, &runs);
     }
@@ -3235,15 +3207,22 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
 // The result's points that no patch makes: those of the faces that are rough to the end.
 static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer *writer)
 {
+    const sdv_order *order = &surface->order;
     sdv_targets targets;
     memset(&targets, 0, sizeof targets);
-    targets.order = &surface->order;
+    targets.order = order;
     targets.level = level;
     targets.h = -1;
-    sdv_begin_result(writer, &surface->last);
+    size_t size = 0;
+    for (int v = 0; v < level->vertex_count; v++)
+        if (!level->vertex_done[v]) size += sdv_vertex_row_size(level, v, order->loop);
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (!level->edge_done[h] && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
+    for (int f = 0; f < level->face_count && !order->loop; f++) size += 3 * (size_t)level->rough[f];
+    sdv_begin_result(writer, &surface->arena, &surface->last, size, surface->cage_face_count);
     for (int f = 0; f < level->face_count && !writer->context->result; f++)
         if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
-    sdv_go_to_face(writer, surface->cage_face_count);
+    if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
 }
 
 // A level: its patches; then, of what is rough, the rows to the next level and the next level,
@@ -3257,7 +3236,8 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels;
     sdv_split split;
-    sdv_find_patches(writer, level, rules, surface->levels - depth, &surface->patches[depth]);
+    sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
+                     &surface->patches[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
@@ -3266,32 +3246,15 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
         sdv_find_active(level, &split);
         sdv_number_faces(level, &split, rules->loop);
         sdv_number_points(level, &split);
-        sdv_step_faces(level, &split, last, writer, step);
+        sdv_step_faces(surface, level, &split, last, writer, step);
         surface->work_count += split.face_points;
         if (last) sdv_last_rows(surface, level, writer);
-        else sdv_step_points(level, rules, &split, writer, step);
+        else sdv_step_points(surface, level, &split, writer, step);
     }
     if (!last && !context->result)
         sdv_split_level(context, next_arena, level, &split, next, rules->loop);
     if (!last && !context->result) surface->work_count = next->first_point + next->vertex_count;
     sdv_arena_free(&scratch);
-}
-
-// What was written goes into one block of the surface.
-static void sdv_keep(subdiv_surface *surface, sdv_writer *writer)
-{
-    sdv_context *context = writer->context;
-    sdv_arena *arena = &surface->arena;
-    sdv_table *rows = &surface->rows;
-    sdv_reserve(context, arena, writer->items.size + writer->starts.size + writer->masks.size +
-                                writer->weights.size + writer->patches.size +
-                                writer->points.size + 6 * 16);
-    rows->items = (int *)sdv_pile_copy(context, arena, &writer->items);
-    rows->starts = (size_t *)sdv_pile_copy(context, arena, &writer->starts);
-    rows->masks = (sdv_weights *)sdv_pile_copy(context, arena, &writer->masks);
-    rows->weights = (float *)sdv_pile_copy(context, arena, &writer->weights);
-    surface->patch_items = (sdv_patch *)sdv_pile_copy(context, arena, &writer->patches);
-    surface->patch_points = (int *)sdv_pile_copy(context, arena, &writer->points);
 }
 
 // Level by level from the cage, whose arena it frees.
@@ -3316,7 +3279,14 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
         next_arena = sdv_scratch();
         level = next;
     }
-    sdv_keep(surface, &writer);
+    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
+    surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
+    if (!context->result) {
+        sdv_copy(surface->masks.items, sdv_items(&writer.masks), writer.masks.count,
+                 sizeof(sdv_weights));
+        sdv_copy(surface->masks.weights, sdv_items(&writer.weights), writer.weights.count,
+                 sizeof(float));
+    }
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -3480,7 +3450,7 @@ static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 
 // The sum of a row whose points start here, in one order of additions, so that its bits are always
 // the same.
-static sdv_four sdv_row_sum(const sdv_table *table, const sdv_weights *mask, const int *points,
+static sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask, const int *points,
                             const float *work)
 {
     sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
@@ -3489,7 +3459,7 @@ static sdv_four sdv_row_sum(const sdv_table *table, const sdv_weights *mask, con
             sum = sdv_plus(sum, sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0));
         return sdv_plus(p0, sdv_times(sdv_all(mask->even), sum));
     }
-    const float *weights = table->weights + mask->first;
+    const float *weights = masks->weights + mask->first;
     for (int i = 1; i < mask->count; i++) {
         sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
         sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
@@ -3498,43 +3468,41 @@ static sdv_four sdv_row_sum(const sdv_table *table, const sdv_weights *mask, con
 }
 
 // Blocks of rows, from one up to another.
-static void sdv_apply(const sdv_table *table, const sdv_rows *rows, int block, int end,
+static void sdv_apply(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
                       float *work)
 {
     if (block == end) return;
     int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
-    const int *row = table->items + table->starts[rows->start + (size_t)block];
+    const int *row = rows->items + rows->starts[block];
     float *out = work + 4 * (size_t)(rows->first + first);
     if (last > rows->count) last = rows->count;
     for (int i = first; i < last; i++, out += 4) {
-        const sdv_weights *mask = &table->masks[row[0]];
-        sdv_store(out, sdv_row_sum(table, mask, row + 1, work));
+        const sdv_weights *mask = &masks->items[row[0]];
+        sdv_store(out, sdv_row_sum(masks, mask, row + 1, work));
         row += 1 + mask->count;
     }
 }
 
 // The first patch of a cage face or one behind it.
-static int sdv_first_patch(const subdiv_surface *surface, const sdv_patches *patches, int face)
+static int sdv_first_patch(const sdv_order *order, const sdv_patches *patches, int face)
 {
-    int low = patches->first, high = low + patches->count;
-    int h = sdv_face_start(&surface->order.cage, face);
+    int low = 0, high = patches->count, h = sdv_face_start(&order->cage, face);
     while (low < high) {
         int middle = low + (high - low) / 2;
-        if (surface->patch_items[middle].h < h) low = middle + 1;
+        if (patches->items[middle].h < h) low = middle + 1;
         else high = middle;
     }
     return low;
 }
 
-static void sdv_apply_result(const sdv_table *table, const sdv_rows *rows, const float *work,
+static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const float *work,
                              int face, int end, const sdv_window *out)
 {
     if (rows->count == 0) return;
-    const size_t *starts = table->starts + rows->start;
-    const int *row = table->items + starts[face], *last = table->items + starts[end];
+    const int *row = rows->items + rows->starts[face], *last = rows->items + rows->starts[end];
     while (row < last) {
-        const sdv_weights *mask = &table->masks[row[0]];
-        sdv_put_point(out, row[1], sdv_row_sum(table, mask, row + 2, work));
+        const sdv_weights *mask = &masks->items[row[0]];
+        sdv_put_point(out, row[1], sdv_row_sum(masks, mask, row + 2, work));
         row += 2 + mask->count;
     }
 }
@@ -3933,13 +3901,13 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 {
     const sdv_order *order = &surface->order;
     int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
-    int last = sdv_first_patch(surface, patches, end);
+    int last = sdv_first_patch(order, patches, end);
     size_t width = (size_t)sdv_control_points(&surface->rules);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
     sdv_polynomial q;
-    for (int i = sdv_first_patch(surface, patches, face); i < last; i++) {
-        const sdv_patch *patch = &surface->patch_items[i];
-        const int *points = surface->patch_points + width * (size_t)i;
+    for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
+        const sdv_patch *patch = &patches->items[i];
+        const int *points = patches->points + width * (size_t)i;
         if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
         if (!order->loop && n == 2) {
             sdv_put_nine(out, &grid, patch, points, linear, work);
@@ -3955,10 +3923,10 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
 {
-    sdv_apply_result(&surface->rows, &surface->copies, work, face, end, out);
+    sdv_apply_result(&surface->masks, &surface->copies, work, face, end, out);
     for (int i = 0; i < surface->levels; i++)
         sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
-    sdv_apply_result(&surface->rows, &surface->last, work, face, end, out);
+    sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
@@ -4008,17 +3976,12 @@ static void sdv_input_job(void *context, int job)
     }
 }
 
-static int sdv_row_blocks(const sdv_rows *rows)
-{
-    return (rows->count + SDV_ROW_BLOCK - 1) / SDV_ROW_BLOCK;
-}
-
 static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int job)
 {
-    int blocks = sdv_row_blocks(rows);
+    int blocks = (int)sdv_row_blocks(rows->count);
     int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4)
-        sdv_apply(&e->surface->rows, rows, block, end,
+        sdv_apply(&e->surface->masks, rows, block, end,
                   e->work + (size_t)c * (size_t)e->surface->work_count);
 }
 
