@@ -1768,14 +1768,22 @@ typedef struct sdv_order {
     int first_edge_point, first_face_point;
 } sdv_order;
 
+// A cage edge seen from the end that stands first in the result, or from the other.
+static inline sdv_side sdv_seen_edge(const sdv_order *order, int edge, int backwards)
+{
+    int first = order->first_edge_point + edge * (order->n - 1) - 1;
+    sdv_side side;
+    side.first = backwards ? first + order->n : first;
+    side.step = backwards ? -1 : 1;
+    return side;
+}
+
 // The cage edge that leads on from face-vertex h, seen from there or from its other end.
 static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 {
     const sdv_level *cage = &order->cage;
     int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
-    int first = order->first_edge_point + cage->face_edges[h] * (order->n - 1) - 1;
-    sdv_side forward = { first, 1 }, reverse = { first + order->n, -1 };
-    return (a > b) != backwards ? reverse : forward;
+    return sdv_seen_edge(order, cage->face_edges[h], (a > b) != backwards);
 }
 
 // The first point inside face f: every face has one centre, and m (m - 1) points for each of its
@@ -1792,19 +1800,21 @@ static int sdv_is_ngon(const sdv_order *order, int f)
     return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
 }
 
-// The grid of the face whose first face-vertex is h.
+// The grid of the face whose first face-vertex is h. Its sides are edges; those from its last vertex
+// and, of a quad, that before are seen from their other end.
 static sdv_grid sdv_face_grid(const sdv_order *order, int h)
 {
+    const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
+    int last = order->loop ? 2 : 3;
     sdv_grid grid;
-    int sides = order->loop ? 3 : 4;
     grid.size = order->n;
     grid.triangle = order->loop;
     grid.inside = sdv_first_inside(order, sdv_face_of(&order->cage, h));
-    for (int i = 0; i < sides; i++) grid.corner[i] = order->cage.face_vertices[h + i];
-    grid.side[0] = sdv_edge_side(order, h, 0);
-    grid.side[1] = sdv_edge_side(order, h + 1, 0);
-    grid.side[2] = sdv_edge_side(order, h + 2, 1);
-    grid.side[3] = sdv_edge_side(order, h + sides - 1, 1);
+    for (int i = 0; i <= last; i++) grid.corner[i] = v[i];
+    grid.side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
+    grid.side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
+    grid.side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
+    grid.side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
     return grid;
 }
 
