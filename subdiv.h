@@ -4008,7 +4008,6 @@ static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cag
 {
     subdiv_mesh shape = *mesh;
     shape.crease_count = shape.corner_count = shape.hole_count = 0;
-    shape.boundary = SUBDIV_BOUNDARY_EDGE;
     sdv_cage_build(context, arena, cage, &shape);
 }
 

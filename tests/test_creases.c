@@ -36,11 +36,12 @@ static void find_pairs(const subdiv_mesh *m, pairs *p)
     p->count = 0;
     for (int f = 0; f < m->face_count; f++) {
         for (int i = 0; i < face_size(m, f); i++) {
+            const int *v = m->face_vertices;
             int a = at(m, f, i), b = at(m, f, i + 1), uses = 0;
             pair found = {0};
-            for (int g = 0; g < m->face_count; g++) {
+            for (int g = 0; g < m->face_count; v += face_size(m, g++)) {
                 for (int j = 0; j < face_size(m, g); j++) {
-                    int c = at(m, g, j), d = at(m, g, j + 1);
+                    int c = v[j], d = v[(j + 1) % face_size(m, g)];
                     uses += (a == c && b == d) || (a == d && b == c);
                     if (a == d && b == c && g > f)
                         found.a = a, found.b = b, found.f = f, found.i = i, found.g = g, found.j = j;
