@@ -432,16 +432,15 @@ typedef enum subdiv_oddity {
     SUBDIV_ODD_FLIPPED_FACE,             // face and other_face run the same way along this edge
     SUBDIV_ODD_NONMANIFOLD_VERTEX,       // the faces at vertex are several fans, one with face, one
                                          // with other_face; told where no edge is non-manifold
-    SUBDIV_ODD_DUPLICATE_FACE,           // face has the vertices of the earlier other_face, in any
-                                         // order
+    SUBDIV_ODD_DUPLICATE_FACE,           // face has the vertices of the earlier other_face, in
+                                         // any order
     SUBDIV_ODD_REPEATED_VERTEX,          // face has vertex, or edge vertex - other_vertex, twice
-    SUBDIV_ODD_NO_AREA,                  // the vertices of face are in one line
+    SUBDIV_ODD_NO_AREA,                  // face is as thin as rounding of its coordinates
     SUBDIV_ODD_UNUSED_VERTEX,            // no face has vertex
-    SUBDIV_ODD_SAME_PLACE,               // vertex is where the earlier other_vertex is: the mesh
-                                         // may have cracks that nobody sees
+    SUBDIV_ODD_SAME_PLACE,               // vertex is exactly where the earlier other_vertex is:
+                                         // faces that seem to touch may be apart
     SUBDIV_ODD_STRAY_CREASE,             // a crease from vertex to other_vertex: no face's edge
-    SUBDIV_ODD_LISTED_TWICE,             // an edge, vertex or face in the crease, corner or hole
-                                         // list
+    SUBDIV_ODD_LISTED_TWICE,             // a crease, corner or hole; the later entry counts
     SUBDIV_ODD_PARTIAL_UVS,              // face has UVs at some of its vertices only
     SUBDIV_ODDITY_COUNT
 } subdiv_oddity;
@@ -455,10 +454,10 @@ typedef struct subdiv_finding {
 
 typedef void (*subdiv_report)(void *user, const subdiv_finding *finding);
 
-// Reports kind by kind, in the order above, each kind from low to high places, and counts into
-// counts [SUBDIV_ODDITY_COUNT]. Either may be NULL. Time grows with the mesh, not with how odd it
-// is. What subdiv_refine would refuse is an error here, too, and nothing is reported (a Loop cage
-// may hold any faces).
+// Reports kind by kind, in the order above, and counts into counts [SUBDIV_ODDITY_COUNT]; either
+// may be NULL. Takes time in proportion to the mesh, however odd it is. What subdiv_refine would
+// refuse is an error here, too, and nothing is reported (but a Loop cage may hold any faces).
+// Errors: ARGUMENT, EMPTY, INDEX (of UVs, too), FACE, NOT_FINITE, TOO_LARGE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
                                       void *user, const subdiv_options *opt);
 

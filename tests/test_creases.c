@@ -43,8 +43,9 @@ static void find_pairs(const subdiv_mesh *m, pairs *p)
                 for (int j = 0; j < face_size(m, g); j++) {
                     int c = v[j], d = v[(j + 1) % face_size(m, g)];
                     uses += (a == c && b == d) || (a == d && b == c);
-                    if (a == d && b == c && g > f)
-                        found.a = a, found.b = b, found.f = f, found.i = i, found.g = g, found.j = j;
+                    if (a != d || b != c || g <= f) continue;
+                    found.a = a, found.f = f, found.i = i;
+                    found.b = b, found.g = g, found.j = j;
                 }
             }
             if (uses == 2 && found.g > f && a != b && p->count < MAX_EDGES)
@@ -270,7 +271,9 @@ static int crease_count_at(const test_cage *c, float degrees)
 // A cube, moved by m (three rows), scaled and shifted.
 static void build_cube(test_cage *c, const double m[9], double scale, double shift)
 {
-    static const int faces[6][4] = {{0,4,6,2}, {1,3,7,5}, {0,1,5,4}, {2,6,7,3}, {0,2,3,1}, {4,5,7,6}};
+    static const int faces[6][4] = {
+        {0,4,6,2}, {1,3,7,5}, {0,1,5,4}, {2,6,7,3}, {0,2,3,1}, {4,5,7,6}
+    };
     cage_clear(c, SUBDIV_CATMULL_CLARK);
     for (int v = 0; v < 8; v++) {
         double p[3], x = v & 1 ? 1 : -1, y = v & 2 ? 1 : -1, z = v & 4 ? 1 : -1;
@@ -531,7 +534,8 @@ static void test_existing_creases(void)
     CHECK(memcmp(mesh.crease_vertices, E, sizeof E) == 0);
     const float raised[] = {1, 4, 5, 9, 5, 1};
     CHECK(memcmp(mesh.crease_sharpness, raised, sizeof raised) == 0);
-    CHECK(memcmp(c.crease_vertices, E, sizeof E) == 0 && memcmp(c.crease_sharpness, S, sizeof S) == 0);
+    CHECK(memcmp(c.crease_vertices, E, sizeof E) == 0);
+    CHECK(memcmp(c.crease_sharpness, S, sizeof S) == 0);
 
     // Again: nothing new but the sharpness; lists may follow one another, one free does for all.
     CHECK_EQUAL(subdiv_crease_by_angle(&mesh, 30, 7, &opt), SUBDIV_OK);
