@@ -49,7 +49,8 @@
    --------
    Public:   >>config    macros you may define        >>types      mesh, options, errors
              >>refine    the one call, in two steps   >>animation  new values, same topology
-             >>inspect   what a cage is made of       >>obj        reading and writing OBJ
+             >>creases   from angles, groups, seams   >>inspect    what a cage is made of, what
+             >>obj       reading and writing OBJ                   is odd about it
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
@@ -61,7 +62,8 @@
              >>patches   regular faces: their control points
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
-             >>inspection  >>numbers  >>obj-read  >>obj-write  >>cleanup
+             >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
+             >>numbers  >>obj-read  >>obj-write  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
@@ -117,13 +119,13 @@
 
    MEMORY, THREADS, LIMITS
    -----------------------
-   A mesh made by the library is one block, freed by subdiv_mesh_free; arrays that you filled in
-   are never written nor freed. The library keeps no state: different threads may work at
-   once, and one call uses the threads that you lend it. The same input gives the same bits, on
-   any number of threads, with SIMD and without. (gcc fuses multiplications and additions where
-   the target has such instructions, in its default gnu modes: -ffp-contract=off.) Up to 2^31-1
-   vertices and faces in a result, 2^30 face-vertices in a cage; what does not fit is refused
-   before it is built. Errors leave the output zeroed.
+   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists
+   that it adds to yours; arrays that you filled in are never written nor freed. The library keeps
+   no state: different threads may work at once, and one call uses the threads that you lend it.
+   The same input gives the same bits, on any number of threads, with SIMD and without. (gcc fuses
+   multiplications and additions where the target has such instructions, in its default gnu modes:
+   -ffp-contract=off.) Up to 2^31-1 vertices and faces in a result, 2^30 face-vertices in a cage;
+   what does not fit is refused before it is built. Errors leave the output zeroed.
 
    REFERENCES
    ----------
@@ -240,6 +242,15 @@ typedef struct subdiv_mesh {
     int    hole_count;
     int   *holes;                     // [hole_count]         faces that shape the surface unseen
 
+    int    uv_count;
+    float *uvs;                       // [2 * uv_count]       u v
+    int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
+    float *colors;                    // [3 * vertex_count]   r g b, or NULL
+    float *normals;                   // [3 * vertex_count]   of length 1, or NULL
+    int    statement_count;           // OBJ's g, o, usemtl, mtllib and s, as they stand in the file
+    int   *statement_faces;           // [statement_count]    the face each stands before, rising
+    char **statements;                // [statement_count]    such as "usemtl stone"
+
     subdiv_scheme    scheme;
     subdiv_boundary  boundary;
     subdiv_creasing  creasing;
@@ -248,7 +259,7 @@ typedef struct subdiv_mesh {
 
     int  *cage_faces;                 // [face_count]         results only: the face of the cage
                                       //                      that each face is a part of
-    void *memory;                     // the library's one block, or NULL: the arrays are yours
+    void *memory;                     // the library's own, or NULL: the arrays are yours
 } subdiv_mesh;
 
 // What went wrong and where. Zero it once; every call given it writes code, place and message
@@ -280,7 +291,8 @@ typedef struct subdiv_options {
 // The text of a result, such as "index out of range". Never NULL.
 SUBDIV_DEF const char *subdiv_result_string(subdiv_result result);
 
-// Frees what the library made and zeroes the mesh. Arrays of your own are left alone.
+// Frees what the library made and zeroes the mesh. Arrays of your own are left alone. (A copy of
+// the struct has the same memory: free one of the two.)
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 
 // -------------------------------------------------------------------------------- >>refine
@@ -360,6 +372,36 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
 SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face);
 
+// ------------------------------------------------------------------------------- >>creases
+// Creases from what the mesh has already. Each function adds the edges it finds to the crease
+// list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
+// the larger sharpness. Boundary and non-manifold edges are sharp by themselves: never listed.
+//
+//     subdiv_crease_by_angle(&cage, 30, SUBDIV_INFINITE, &opt);
+//
+// A list that changes is a new one, which subdiv_mesh_free frees, also from a mesh whose other
+// arrays are yours. To try one angle after the other, do so on a copy of the struct with memory =
+// NULL, and free the copy: that frees its new list alone.
+//
+// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE (also if the
+// sharpness is not a number), TOO_LARGE, MEMORY.
+
+// Where the normals of two faces differ by more than so many degrees, 0 to 180; what is within
+// 0.001 degrees is rounding and does not count. Faces without area have no normal, so no creases.
+SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
+                                                const subdiv_options *opt);
+
+// Where two faces are not in the same smoothing group, by the mesh's statements "s 1", "s off".
+// Under "s off", "s 0", and before the first such statement, a face is in no group: all its edges
+// are sharp. A mesh without any such statement says nothing: no creases, a warning.
+SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, float sharpness,
+                                                           const subdiv_options *opt);
+
+// Where the UVs of two faces differ at an end of their edge, or one of them has none there. Equal
+// values are no difference, whatever their indices. A mesh without UVs: no creases, a warning.
+SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float sharpness,
+                                                   const subdiv_options *opt);
+
 // ------------------------------------------------------------------------------- >>inspect
 
 // What a cage is made of.
@@ -383,6 +425,41 @@ typedef struct subdiv_info {
 // Counts. Errors as subdiv_refine; a Loop cage may hold any faces.
 SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *mesh,
                                         const subdiv_options *opt);
+
+// What is odd about a mesh: allowed, but seldom meant.
+typedef enum subdiv_oddity {
+    SUBDIV_ODD_NONMANIFOLD_EDGE,         // more than two faces at edge vertex - other_vertex
+    SUBDIV_ODD_FLIPPED_FACE,             // face and other_face run the same way along this edge
+    SUBDIV_ODD_NONMANIFOLD_VERTEX,       // the faces at vertex are several fans, one with face, one
+                                         // with other_face; told where no edge is non-manifold
+    SUBDIV_ODD_DUPLICATE_FACE,           // face has the vertices of the earlier other_face, in
+                                         // any order
+    SUBDIV_ODD_REPEATED_VERTEX,          // face has vertex, or edge vertex - other_vertex, twice
+    SUBDIV_ODD_NO_AREA,                  // face is as thin as rounding of its coordinates
+    SUBDIV_ODD_UNUSED_VERTEX,            // no face has vertex
+    SUBDIV_ODD_SAME_PLACE,               // vertex is exactly where the earlier other_vertex is:
+                                         // faces that seem to touch may be apart
+    SUBDIV_ODD_STRAY_CREASE,             // a crease from vertex to other_vertex: no face's edge
+    SUBDIV_ODD_LISTED_TWICE,             // a crease, corner or hole; the later entry counts
+    SUBDIV_ODD_PARTIAL_UVS,              // face has UVs at some of its vertices only
+    SUBDIV_ODDITY_COUNT
+} subdiv_oddity;
+
+typedef struct subdiv_finding {
+    subdiv_oddity kind;
+    int face, other_face;                // from 0; -1: none
+    int vertex, other_vertex;
+    const char *text;                    // "edge 3-7 has 3 faces: 1, 5, 9"; until report returns
+} subdiv_finding;
+
+typedef void (*subdiv_report)(void *user, const subdiv_finding *finding);
+
+// Reports kind by kind, in the order above, and counts into counts [SUBDIV_ODDITY_COUNT]; either
+// may be NULL. Takes time in proportion to the mesh, however odd it is. What subdiv_refine would
+// refuse is an error here, too, and nothing is reported (but a Loop cage may hold any faces).
+// Errors: ARGUMENT, EMPTY, INDEX (of UVs, too), FACE, NOT_FINITE, TOO_LARGE, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
+                                      void *user, const subdiv_options *opt);
 
 // ----------------------------------------------------------------------------------- >>obj
 
@@ -723,10 +800,9 @@ static void sdv_array_free(sdv_array *array)
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
 {
     if (!mesh) return;
-    if (mesh->memory) {
-        sdv_block *block = (sdv_block *)mesh->memory;
-        SUBDIV_FREE(block, block->user);
-    }
+    sdv_arena owned = sdv_new_arena(0);
+    owned.blocks = (sdv_block *)mesh->memory;
+    sdv_arena_free(&owned);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -1279,20 +1355,59 @@ static void sdv_cage_edges(sdv_cage *cage)
     }
 }
 
-// The edge between a and b, the first one if there are several, or -1.
+// The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
+// met in rising order, but for the last of a face that leads to its first.
 static int sdv_find_edge(const sdv_level *level, int a, int b)
 {
-    int found = -1;
-    int k = level->vertex_first[sdv_smaller_end(level, a, b)];
+    int closing = -1, k = level->vertex_first[sdv_smaller_end(level, a, b)];
     for (; k >= 0; k = level->vertex_next[k]) {
+        int before = sdv_previous(level, k), joins = sdv_joins(level, before, a, b);
+        if (closing >= 0 && sdv_face_of(level, k) != sdv_face_of(level, closing)) break;
+        if (joins && before < k) return level->face_edges[before];
+        if (sdv_joins(level, k, a, b)) return level->face_edges[k];
+        if (joins) closing = before;
+    }
+    return closing < 0 ? -1 : level->face_edges[closing];
+}
+
+// Notes the edges at v by their other ends: the first one if there are several; or forgets them.
+static void sdv_note_edges(const sdv_level *level, int v, int *edge_to, int forget)
+{
+    for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
         int two[2] = { k, sdv_previous(level, k) };
         for (int i = 0; i < 2; i++) {
-            if (!sdv_joins(level, two[i], a, b)) continue;
+            int *edge = &edge_to[level->face_vertices[i ? two[i] : sdv_next(level, k)]];
             int e = level->face_edges[two[i]];
-            if (found < 0 || e < found) found = e;
+            if (forget) *edge = -1;
+            else if (*edge < 0 || e < *edge) *edge = e;
         }
     }
-    return found;
+}
+
+// The edges between many pairs of vertices, as sdv_find_edge finds them, but vertex by vertex: in
+// linear time however many pairs there are at a vertex with however many faces.
+static void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
+                           int count, int *found)
+{
+    sdv_arena scratch = sdv_scratch();
+    if (count == 0) return;
+    int *first = SDV_NEW(context, &scratch, int, level->vertex_count);
+    int *next = SDV_NEW(context, &scratch, int, count);
+    int *edge_to = SDV_NEW(context, &scratch, int, level->vertex_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++) first[v] = edge_to[v] = -1;
+    for (int i = 0; i < count && !context->result; i++) {
+        int v = sdv_smaller_end(level, pairs[2 * i], pairs[2 * i + 1]);
+        next[i] = first[v];
+        first[v] = i;
+    }
+    for (int v = 0; v < level->vertex_count && !context->result; v++) {
+        if (first[v] < 0) continue;
+        sdv_note_edges(level, v, edge_to, 0);
+        for (int i = first[v]; i >= 0; i = next[i])
+            found[i] = edge_to[pairs[2 * i] == v ? pairs[2 * i + 1] : pairs[2 * i]];
+        sdv_note_edges(level, v, edge_to, 1);
+    }
+    sdv_arena_free(&scratch);
 }
 
 // Do the faces at v, whose edges are all manifold, form one fan? From face to face around v, to
@@ -1340,14 +1455,18 @@ static float sdv_clamp_sharpness(float s)
 }
 
 // The user's creases and corners. A crease that is no edge is skipped.
-static void sdv_user_sharpness(sdv_context *context, sdv_cage *cage, const subdiv_mesh *mesh)
+static void sdv_user_sharpness(sdv_context *context, sdv_arena *scratch, sdv_cage *cage,
+                               const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
+    int *edges = SDV_NEW(context, scratch, int, mesh->crease_count);
+    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
+    if (context->result) return;
     memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
     memset(level->vertex_sharpness, 0, (size_t)level->vertex_count * sizeof(float));
     for (int i = 0; i < mesh->crease_count; i++) {
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
-        int e = sdv_find_edge(level, a, b);
+        int e = edges[i];
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
     }
@@ -1478,7 +1597,8 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     sdv_find_nonmanifold_vertices(cage);
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
-    sdv_user_sharpness(context, cage, mesh);
+    sdv_user_sharpness(context, scratch, cage, mesh);
+    if (context->result) return;
     if (mesh->boundary == SUBDIV_BOUNDARY_NONE && mesh->scheme != SUBDIV_BILINEAR)
         sdv_open_boundary(cage);
     sdv_implied_sharpness(cage, mesh->boundary);
@@ -4371,6 +4491,295 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     return result;
 }
 
+// ---------------------------------------------------------------------------- >>generators
+// Creases from the mesh itself: each generator asks one question of two faces that share an edge.
+// Boundary and non-manifold edges are sharp by shape, nobody asks about them.
+
+typedef struct sdv_generator {
+    const subdiv_mesh *mesh;
+    sdv_arena arena;
+    sdv_cage cage;                      // without the mesh's lists
+    double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
+    double limit;                       // radians
+    const char **groups;                // [face_count]      smoothing groups; "": none
+} sdv_generator;
+
+// Is the edge sharp along which one face runs from face-vertex h, the other back from g?
+typedef int (*sdv_question)(const sdv_generator *generator, int h, int g);
+
+// A mesh and its edges, without its lists: sharp is what is no edge of two faces.
+static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cage,
+                           const subdiv_mesh *mesh)
+{
+    subdiv_mesh shape = *mesh;
+    shape.crease_count = shape.corner_count = shape.hole_count = 0;
+    sdv_cage_build(context, arena, arena, cage, &shape);
+}
+
+static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
+                                const subdiv_mesh *mesh, float sharpness)
+{
+    memset(generator, 0, sizeof *generator);
+    generator->mesh = mesh;
+    if (sharpness != sharpness)
+        sdv_fail(context, SUBDIV_ERROR_NOT_FINITE, "the sharpness is not a number");
+    if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
+}
+
+// Which edges are found: finds[e]. Returns how many.
+static int sdv_find_creases(const sdv_generator *generator, sdv_question is_crease,
+                            unsigned char *finds)
+{
+    const sdv_level *level = &generator->cage.level;
+    int count = 0;
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e], g = sdv_across(level, h);
+        finds[e] = g >= 0 && is_crease(generator, h, g);
+        count += finds[e];
+    }
+    return count;
+}
+
+// Gives the mesh a longer list: what it had, with sharpness raised where a listed edge is found,
+// then the other edges that are found, in their order.
+static void sdv_lengthen_creases(sdv_context *context, sdv_generator *generator, subdiv_mesh *mesh,
+                                 const unsigned char *finds, float sharpness)
+{
+    const sdv_level *level = &generator->cage.level;
+    sdv_arena owned = sdv_new_arena(0);
+    owned.blocks = (sdv_block *)mesh->memory;
+    int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
+    int *listed = SDV_NEW(context, &generator->arena, int, mesh->crease_count);
+    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, listed);
+    if (context->result) return;
+    size_t old = (size_t)mesh->crease_count, count = old;
+    for (int e = 0; e < level->edge_count; e++) entry[e] = -1;
+    for (int i = 0; i < mesh->crease_count; i++)
+        if (listed[i] >= 0) entry[listed[i]] = i;   // the last one counts
+    for (int e = 0; e < level->edge_count; e++) count += finds[e] && entry[e] < 0;
+    if (count > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
+    int *vertices = (int *)sdv_new(context, &owned, count, 2 * sizeof(int) + sizeof(float));
+    if (context->result) return;
+
+    float *sharp = (float *)(void *)(vertices + 2 * count);
+    sdv_copy(vertices, mesh->crease_vertices, old, 2 * sizeof(int));
+    sdv_copy(sharp, mesh->crease_sharpness, old, sizeof(float));
+    for (int e = 0; e < level->edge_count; e++) {
+        if (finds[e] && entry[e] >= 0) {
+            float *old_one = sharp + entry[e];
+            if (*old_one < sharpness) *old_one = sharpness;
+        } else if (finds[e]) {
+            int h = level->edge_first[e];
+            vertices[2 * old] = level->face_vertices[h];
+            vertices[2 * old + 1] = level->face_vertices[sdv_next(level, h)];
+            sharp[old++] = sharpness;
+        }
+    }
+    mesh->crease_count = (int)count;
+    mesh->crease_vertices = vertices;
+    mesh->crease_sharpness = sharp;
+    mesh->memory = owned.blocks;
+}
+
+// Asks about every edge, unless is_crease is NULL.
+static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *generator,
+                                       subdiv_mesh *mesh, sdv_question is_crease, float sharpness)
+{
+    unsigned char *finds = SDV_NEW(context, &generator->arena, unsigned char,
+                                   generator->cage.level.edge_count);
+    if (!context->result && is_crease && sdv_find_creases(generator, is_crease, finds) > 0)
+        sdv_lengthen_creases(context, generator, mesh, finds, sharpness);
+    sdv_arena_free(&generator->arena);
+    return context->result;
+}
+
+// The normal of a face by Newell's method, of length 1. A face that is so thin that rounding of
+// its coordinates could have made it so has none: 0.
+//
+//     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
+static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+{
+    const float *o = positions + 3 * (size_t)vertices[0];
+    double n[3] = { 0, 0, 0 }, p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
+    for (int i = 0; i < size; i++) {
+        const float *next = positions + 3 * (size_t)vertices[i + 1 < size ? i + 1 : 0];
+        double q[3], squares = 0;
+        for (int k = 0; k < 3; k++) {
+            q[k] = (double)next[k] - (double)o[k];
+            squares += (q[k] - p[k]) * (q[k] - p[k]);
+            if (fabs((double)next[k]) > largest) largest = fabs((double)next[k]);
+        }
+        for (int k = 0; k < 3; k++)
+            n[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+        memcpy(p, q, sizeof p);
+        perimeter += sqrt(squares);
+    }
+    // Coordinates that are off by FLT_EPSILON / 2 of their size make no more than this of nothing.
+    double error = 2 * (double)FLT_EPSILON * largest * perimeter;
+    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
+}
+
+// By atan2, which is exact for all angles, where a cosine blurs the small ones.
+static int sdv_is_bent(const sdv_generator *generator, int h, int g)
+{
+    const sdv_level *level = &generator->cage.level;
+    const double *a = generator->normals + 3 * (size_t)sdv_face_of(level, h);
+    const double *b = generator->normals + 3 * (size_t)sdv_face_of(level, g);
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
+    double z = a[0] * b[1] - a[1] * b[0], cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return atan2(sqrt(x * x + y * y + z * z), cosine) > generator->limit;
+}
+
+SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
+                                                const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_generator generator;
+    sdv_check_all(&context, mesh);
+    if (!(degrees >= 0 && degrees <= 180))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "degrees has to be from 0 to 180");
+    sdv_generator_begin(&context, &generator, mesh, sharpness);
+    if (!context.result)
+        generator.normals = SDV_NEW(&context, &generator.arena, double,
+                                    3 * (size_t)mesh->face_count);
+    if (!context.result) {
+        const sdv_level *level = &generator.cage.level;
+        for (int f = 0; f < mesh->face_count; f++) {
+            int start = sdv_face_start(level, f);
+            sdv_face_normal(mesh->positions, level->face_vertices + start,
+                            sdv_face_end(level, f) - start, generator.normals + 3 * (size_t)f);
+        }
+        generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
+    }
+    return sdv_generator_end(&context, &generator, mesh, sdv_is_bent, sharpness);
+}
+
+static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
+{
+    sdv_check_array(context, "statement_faces", mesh->statement_count, mesh->statement_faces);
+    sdv_check_array(context, "statements", mesh->statement_count, mesh->statements);
+    for (int i = 0, last = 0; i < mesh->statement_count && !context->result; i++) {
+        int f = mesh->statement_faces[i];
+        if (f < 0 || f > mesh->face_count)
+            sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
+                          "statement %d stands before face %d (the mesh has %d)",
+                          i, f, mesh->face_count);
+        if (f < last)
+            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
+                          "statement %d stands before face %d, the one before it after that face",
+                          i, f);
+        if (!mesh->statements[i])
+            sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "statement %d is NULL", i);
+        last = f;
+    }
+}
+
+static int sdv_ends_word(char c)
+{
+    return c == 0 || c == ' ' || c == '\t';
+}
+
+static int sdv_same_word(const char *a, const char *b)
+{
+    while (!sdv_ends_word(*a) && *a == *b) a++, b++;
+    return sdv_ends_word(*a) && sdv_ends_word(*b);
+}
+
+// The word that names the smoothing group: "1" for "s 1", "" for "s off" and "s 0" (some programs
+// write "s null"). NULL for other statements.
+static const char *sdv_smoothing_group(const char *statement)
+{
+    if (!sdv_same_word(statement, "s")) return NULL;
+    const char *word = statement + 1;
+    while (*word == ' ' || *word == '\t') word++;
+    while (*word == '0') word++;
+    return sdv_same_word(word, "off") || sdv_same_word(word, "null") ? "" : word;
+}
+
+// The group of every face. Returns 0 if the statements name none, not even "off".
+static int sdv_smoothing_groups(const subdiv_mesh *mesh, const char **groups)
+{
+    const char *group = "";
+    int next = 0, any = 0;
+    for (int f = 0; f < mesh->face_count; f++) {
+        for (; next < mesh->statement_count && mesh->statement_faces[next] <= f; next++) {
+            const char *named = sdv_smoothing_group(mesh->statements[next]);
+            if (!named) continue;
+            group = named;
+            any = 1;
+        }
+        groups[f] = group;
+    }
+    return any;
+}
+
+static int sdv_groups_differ(const sdv_generator *generator, int h, int g)
+{
+    const sdv_level *level = &generator->cage.level;
+    const char *a = generator->groups[sdv_face_of(level, h)];
+    return sdv_ends_word(*a) || !sdv_same_word(a, generator->groups[sdv_face_of(level, g)]);
+}
+
+SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, float sharpness,
+                                                           const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_generator generator;
+    sdv_check_mesh(&context, mesh);
+    if (!context.result) sdv_check_statements(&context, mesh);
+    sdv_generator_begin(&context, &generator, mesh, sharpness);
+    if (!context.result)
+        generator.groups = SDV_NEW(&context, &generator.arena, const char *, mesh->face_count);
+    int known = !context.result && sdv_smoothing_groups(mesh, generator.groups);
+    if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no smoothing groups");
+    return sdv_generator_end(&context, &generator, mesh,
+                             known ? sdv_groups_differ : NULL, sharpness);
+}
+
+static void sdv_check_uvs(sdv_context *context, const subdiv_mesh *mesh)
+{
+    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
+    sdv_check_array(context, "face_uvs", mesh->uv_count > 0 ? mesh->face_count : 0,
+                    mesh->face_uvs);
+    const int *uv = mesh->face_uvs;
+    for (int f = 0; f < mesh->face_count && mesh->uv_count > 0 && !context->result; f++)
+        for (int i = sdv_face_size(mesh, f); i > 0; i--, uv++)
+            if (*uv < -1 || *uv >= mesh->uv_count)
+                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
+                              "face %d: UV %d does not exist (the mesh has %d)",
+                              f, *uv, mesh->uv_count);
+}
+
+static int sdv_uvs_differ(const subdiv_mesh *mesh, int h, int g)
+{
+    int i = mesh->face_uvs[h], j = mesh->face_uvs[g];
+    if (i < 0 || j < 0 || i == j) return i != j;
+    const float *a = mesh->uvs + 2 * (size_t)i, *b = mesh->uvs + 2 * (size_t)j;
+    return a[0] != b[0] || a[1] != b[1];
+}
+
+static int sdv_is_seam(const sdv_generator *generator, int h, int g)
+{
+    const sdv_level *level = &generator->cage.level;
+    return sdv_uvs_differ(generator->mesh, h, sdv_next(level, g)) ||
+           sdv_uvs_differ(generator->mesh, sdv_next(level, h), g);
+}
+
+SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float sharpness,
+                                                   const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_generator generator;
+    sdv_check_mesh(&context, mesh);
+    if (!context.result) sdv_check_uvs(&context, mesh);
+    sdv_generator_begin(&context, &generator, mesh, sharpness);
+    int known = !context.result && mesh->uv_count > 0;
+    if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no UVs");
+    return sdv_generator_end(&context, &generator, mesh,
+                             known ? sdv_is_seam : NULL, sharpness);
+}
+
 // ---------------------------------------------------------------------------- >>inspection
 
 static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
@@ -4457,6 +4866,371 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
         sdv_count_topology(info, &cage, mesh->scheme);
         sdv_count_sharp(info, &cage.level);
         sdv_count_components(info, &cage.level, parent);
+    }
+    sdv_arena_free(&arena);
+    return context.result;
+}
+
+// ------------------------------------------------------------------------------ >>oddities
+// What subdiv_check finds, kind by kind. Each kind looks at every face, edge, vertex or entry once.
+
+typedef struct sdv_checker {
+    const subdiv_mesh *mesh;
+    sdv_cage cage;                      // without the mesh's lists
+    int *counts;
+    subdiv_report report;
+    void *user;
+    int *last;                          // [max of vertices, edges, faces]  to mark them with
+    int *crease_edges;                  // [crease_count]  -1: no edge
+    unsigned char *marks;               // [face_vertex_count]
+    uint64_t *hashes;                   // [max of vertices, faces]
+    int *slots;                         // [mask + 1]  a hash table of vertices or faces; -1: free
+    size_t mask;
+} sdv_checker;
+
+static void sdv_found(const sdv_checker *checker, subdiv_oddity kind, int face, int other_face,
+                      int vertex, int other_vertex, const char *format, ...)
+{
+    char text[256];
+    subdiv_finding finding = { kind, face, other_face, vertex, other_vertex, text };
+    if (checker->counts && checker->counts[kind] < INT_MAX) checker->counts[kind]++;
+    if (!checker->report) return;
+    va_list args;
+    va_start(args, format);
+    sdv_text out = { text, 0, sizeof text };
+    sdv_format(&out, format, args);
+    va_end(args);
+    checker->report(checker->user, &finding);
+}
+
+// The ends of an edge, the lower first.
+static void sdv_edge_ends(const sdv_level *level, int e, int *low, int *high)
+{
+    int h = level->edge_first[e], a = level->face_vertices[h];
+    int b = level->face_vertices[sdv_next(level, h)];
+    *low = a < b ? a : b;
+    *high = a < b ? b : a;
+}
+
+// Edges with more than two faces. (An edge that a face has twice counts once for it.)
+static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (int e = 0; e < level->edge_count; e++) {
+        int first = level->edge_first[e], count = sdv_edge_faces(level, first), h = first, a, b;
+        if (count < 3) continue;
+        char text[128];
+        sdv_text faces = { text, 0, sizeof text };
+        for (int i = 0; i < count && i < 8; i++, h = level->across[h]) {
+            sdv_put(&faces, ", ", i ? 2 : 0);
+            sdv_put_int(&faces, sdv_face_of(level, h));
+        }
+        sdv_put(&faces, ", ...", count > 8 ? 5 : 0);
+        sdv_edge_ends(level, e, &a, &b);
+        sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_EDGE, sdv_face_of(level, first),
+                  sdv_face_of(level, level->across[first]), a, b, "edge %d-%d has %d faces: %s",
+                  a, b, count, text);
+    }
+}
+
+// Two faces that run the same way along an edge, unless one of them has it twice.
+static void sdv_report_flipped_faces(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    int *twice = checker->last, a, b;
+    for (int e = 0; e < level->edge_count; e++) {
+        sdv_edge_ends(level, e, &a, &b);
+        int first = sdv_find_edge(level, a, b);
+        twice[e] = 0;
+        if (first != e) twice[first] = 1;           // first < e
+    }
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e], k = level->across[h];
+        if (k == h || level->across[k] != h || twice[e]) continue;
+        if (level->face_vertices[h] != level->face_vertices[k]) continue;
+        int f = sdv_face_of(level, h), g = sdv_face_of(level, k);
+        sdv_edge_ends(level, e, &a, &b);
+        sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, a, b,
+                  "faces %d and %d run along edge %d-%d in the same direction", f, g, a, b);
+    }
+}
+
+// Marks the face-vertices of one fan around a vertex.
+static void sdv_mark_fan(const sdv_level *level, int h, unsigned char *marks)
+{
+    for (int at = h; at >= 0 && !marks[at]; at = sdv_clockwise(level, at)) marks[at] = 1;
+    int at = sdv_counter_clockwise(level, h);
+    for (; at >= 0 && !marks[at]; at = sdv_counter_clockwise(level, at)) marks[at] = 1;
+}
+
+static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
+{
+    const sdv_cage *cage = &checker->cage;
+    const sdv_level *level = &cage->level;
+    memset(checker->marks, 0, (size_t)level->face_vertex_count);
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (!cage->vertex_nonmanifold[v] || sdv_count_edges_at(cage, v).nonmanifold) continue;
+        int fans = 0, face[2] = { -1, -1 };
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+            if (checker->marks[h]) continue;
+            if (fans < 2) face[fans] = sdv_face_of(level, h);
+            fans++;
+            sdv_mark_fan(level, h, checker->marks);
+        }
+        if (fans > 1)
+            sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_VERTEX, face[0], face[1], v, -1,
+                      "the faces at vertex %d form %d fans, one with face %d, one with face %d",
+                      v, fans, face[0], face[1]);
+    }
+}
+
+// Bits that have nothing to do with each other for numbers that have.
+static uint64_t sdv_mix(uint64_t x)
+{
+    x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
+    x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
+    return x ^ (x >> 32);
+}
+
+// The first of the items 0 to i that is the same as i: i itself where there is none before.
+static int sdv_first_same(const sdv_checker *checker, int i,
+                          int (*same)(const sdv_checker *checker, int i, int j))
+{
+    size_t slot = (size_t)checker->hashes[i] & checker->mask;
+    for (; checker->slots[slot] >= 0; slot = (slot + 1) & checker->mask) {
+        int first = checker->slots[slot];
+        if (checker->hashes[first] == checker->hashes[i] && same(checker, first, i)) return first;
+    }
+    return checker->slots[slot] = i;
+}
+
+// Do two faces have the same vertices, as often each? checker->last is 0, before and after.
+static int sdv_same_vertices(const sdv_checker *checker, int f, int g)
+{
+    const sdv_level *level = &checker->cage.level;
+    int size = sdv_face_end(level, f) - sdv_face_start(level, f), same = 1;
+    if (sdv_face_end(level, g) - sdv_face_start(level, g) != size) return 0;
+    const int *a = level->face_vertices + sdv_face_start(level, f);
+    const int *b = level->face_vertices + sdv_face_start(level, g);
+    for (int i = 0; i < size; i++) {
+        checker->last[a[i]]++;
+        checker->last[b[i]]--;
+    }
+    for (int i = 0; i < size; i++) {
+        if (checker->last[a[i]] || checker->last[b[i]]) same = 0;
+        checker->last[a[i]] = checker->last[b[i]] = 0;
+    }
+    return same;
+}
+
+static void sdv_report_duplicate_faces(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (int v = 0; v < level->vertex_count; v++) checker->last[v] = 0;
+    for (size_t i = 0; i <= checker->mask; i++) checker->slots[i] = -1;
+    for (int f = 0; f < level->face_count; f++) {
+        uint64_t sum = 0;                           // whatever the order
+        for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
+            sum += sdv_mix((uint64_t)level->face_vertices[h] + 1);
+        checker->hashes[f] = sdv_mix(sum);
+        int first = sdv_first_same(checker, f, sdv_same_vertices);
+        if (first != f)
+            sdv_found(checker, SUBDIV_ODD_DUPLICATE_FACE, f, first, -1, -1,
+                      "face %d has the same vertices as face %d", f, first);
+    }
+}
+
+// Says what a face repeats: a vertex twice in a row, an edge, or just a vertex, which is given.
+static void sdv_report_repeated(const sdv_checker *checker, int f, int vertex)
+{
+    const sdv_level *level = &checker->cage.level;
+    int edge = -1;
+    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
+        int v = level->face_vertices[h], next = level->face_vertices[sdv_next(level, h)];
+        if (v == next) {
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, v, -1,
+                      "face %d has vertex %d twice in a row", f, v);
+            return;
+        }
+        if (edge < 0 && sdv_find_edge(level, v, next) != level->face_edges[h])
+            edge = level->face_edges[h];
+    }
+    if (edge >= 0) {
+        int a, b;
+        sdv_edge_ends(level, edge, &a, &b);
+        sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, a, b,
+                  "face %d has edge %d-%d more than once", f, a, b);
+    } else {
+        sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, vertex, -1,
+                  "face %d has vertex %d more than once", f, vertex);
+    }
+}
+
+static void sdv_report_repeated_vertices(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (int v = 0; v < level->vertex_count; v++) checker->last[v] = -1;
+    for (int f = 0; f < level->face_count; f++) {
+        int repeated = -1;
+        for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
+            int v = level->face_vertices[h];
+            if (checker->last[v] == f && repeated < 0) repeated = v;
+            checker->last[v] = f;
+        }
+        if (repeated >= 0) sdv_report_repeated(checker, f, repeated);
+    }
+}
+
+static void sdv_report_no_area(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (int f = 0; f < level->face_count; f++) {
+        int start = sdv_face_start(level, f);
+        double n[3];
+        sdv_face_normal(checker->mesh->positions, level->face_vertices + start,
+                        sdv_face_end(level, f) - start, n);
+        if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+            sdv_found(checker, SUBDIV_ODD_NO_AREA, f, -1, -1, -1, "face %d has no area", f);
+    }
+}
+
+static void sdv_report_unused_vertices(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (int v = 0; v < level->vertex_count; v++)
+        if (level->vertex_faces[v] == 0)
+            sdv_found(checker, SUBDIV_ODD_UNUSED_VERTEX, -1, -1, v, -1,
+                      "no face has vertex %d", v);
+}
+
+static int sdv_same_place(const sdv_checker *checker, int v, int w)
+{
+    const float *a = checker->mesh->positions + 3 * (size_t)v;
+    const float *b = checker->mesh->positions + 3 * (size_t)w;
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static void sdv_report_same_places(const sdv_checker *checker)
+{
+    for (size_t i = 0; i <= checker->mask; i++) checker->slots[i] = -1;
+    for (int v = 0; v < checker->mesh->vertex_count; v++) {
+        uint64_t hash = 0;
+        for (int k = 0; k < 3; k++) {
+            float x = checker->mesh->positions[3 * (size_t)v + (size_t)k] + 0.0f;    // no -0
+            uint32_t bits;
+            memcpy(&bits, &x, sizeof bits);
+            hash = sdv_mix(hash + bits + 1);
+        }
+        checker->hashes[v] = hash;
+        int first = sdv_first_same(checker, v, sdv_same_place);
+        if (first != v)
+            sdv_found(checker, SUBDIV_ODD_SAME_PLACE, -1, -1, v, first,
+                      "vertex %d is at the same place as vertex %d", v, first);
+    }
+}
+
+static void sdv_report_stray_creases(const sdv_checker *checker)
+{
+    const subdiv_mesh *mesh = checker->mesh;
+    for (int i = 0; i < mesh->crease_count; i++) {
+        const int *ends = mesh->crease_vertices + 2 * (size_t)i;
+        if (checker->crease_edges[i] < 0)
+            sdv_found(checker, SUBDIV_ODD_STRAY_CREASE, -1, -1, ends[0], ends[1],
+                      "crease %d: no edge joins vertices %d and %d", i, ends[0], ends[1]);
+    }
+}
+
+static void sdv_report_listed_twice(const sdv_checker *checker)
+{
+    const subdiv_mesh *mesh = checker->mesh;
+    const sdv_level *level = &checker->cage.level;
+    int *last = checker->last, a, b;
+    for (int e = 0; e < level->edge_count; e++) last[e] = -1;
+    for (int i = 0; i < mesh->crease_count; i++) {
+        int e = checker->crease_edges[i];
+        if (e < 0) continue;
+        sdv_edge_ends(level, e, &a, &b);
+        if (last[e] >= 0)
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, -1, -1, a, b,
+                      "creases %d and %d are both edge %d-%d", last[e], i, a, b);
+        last[e] = i;
+    }
+    for (int v = 0; v < mesh->vertex_count; v++) last[v] = -1;
+    for (int i = 0; i < mesh->corner_count; i++) {
+        int v = mesh->corner_vertices[i];
+        if (last[v] >= 0)
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, -1, -1, v, -1,
+                      "corners %d and %d are both vertex %d", last[v], i, v);
+        last[v] = i;
+    }
+    for (int f = 0; f < mesh->face_count; f++) last[f] = -1;
+    for (int i = 0; i < mesh->hole_count; i++) {
+        int f = mesh->holes[i];
+        if (last[f] >= 0)
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, f, -1, -1, -1,
+                      "holes %d and %d are both face %d", last[f], i, f);
+        last[f] = i;
+    }
+}
+
+static void sdv_report_partial_uvs(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (int f = 0; f < level->face_count && checker->mesh->uv_count > 0; f++) {
+        int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start, count = 0;
+        for (int i = 0; i < size; i++) count += checker->mesh->face_uvs[start + i] >= 0;
+        if (count > 0 && count < size)
+            sdv_found(checker, SUBDIV_ODD_PARTIAL_UVS, f, -1, -1, -1,
+                      "face %d has UVs at %d of its %d vertices", f, count, size);
+    }
+}
+
+static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checker *checker,
+                              const subdiv_mesh *mesh)
+{
+    checker->mesh = mesh;
+    sdv_plain_cage(context, arena, &checker->cage, mesh);
+    if (context->result) return;
+    int edges = checker->cage.level.edge_count;
+    int items = mesh->vertex_count > mesh->face_count ? mesh->vertex_count : mesh->face_count;
+    checker->mask = 1;
+    while (checker->mask < 2 * (size_t)items) checker->mask = 2 * checker->mask + 1;
+    checker->last = SDV_NEW(context, arena, int, items > edges ? items : edges);
+    checker->marks = SDV_NEW(context, arena, unsigned char,
+                             checker->cage.level.face_vertex_count);
+    checker->hashes = SDV_NEW(context, arena, uint64_t, items);
+    checker->slots = SDV_NEW(context, arena, int, checker->mask + 1);
+    checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
+    sdv_find_edges(context, &checker->cage.level, mesh->crease_vertices, mesh->crease_count,
+                   checker->crease_edges);
+}
+
+SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
+                                      void *user, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    sdv_checker checker;
+    memset(&checker, 0, sizeof checker);
+    checker.counts = counts;
+    checker.report = report;
+    checker.user = user;
+    for (int i = 0; counts && i < SUBDIV_ODDITY_COUNT; i++) counts[i] = 0;
+    sdv_check_all(&context, mesh);
+    if (!context.result) sdv_check_uvs(&context, mesh);
+    if (!context.result) sdv_checker_begin(&context, &arena, &checker, mesh);
+    if (!context.result) {
+        sdv_report_nonmanifold_edges(&checker);
+        sdv_report_flipped_faces(&checker);
+        sdv_report_nonmanifold_vertices(&checker);
+        sdv_report_duplicate_faces(&checker);
+        sdv_report_repeated_vertices(&checker);
+        sdv_report_no_area(&checker);
+        sdv_report_unused_vertices(&checker);
+        sdv_report_same_places(&checker);
+        sdv_report_stray_creases(&checker);
+        sdv_report_listed_twice(&checker);
+        sdv_report_partial_uvs(&checker);
     }
     sdv_arena_free(&arena);
     return context.result;

@@ -34,6 +34,7 @@ enum { MAX_THREADS = 256 };
 
 enum {
     SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, THREADS,
+    CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
     STREAM, TRIANGULATE, KEEP_HOLES, INFO, TIME, HELP, VERSION, OPTION_COUNT
 };
 
@@ -42,7 +43,8 @@ enum {
 typedef struct option {
     char        letter;               // 0: none
     const char *name;
-    const char *values;               // NULL: a switch; "N": a number; else names between bars
+    const char *values;               // NULL: a switch; "N": a whole number; "DEG", "S": a
+                                      // number; else names between bars
     const char *help;
 } option;
 
@@ -56,10 +58,14 @@ static const option options[OPTION_COUNT] = {
      "not in this release"},
     {'L', "limit", NULL, "not in this release"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
+    {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
+    {0, "crease-smoothing-groups", NULL, "make the borders of smoothing groups sharp"},
+    {0, "crease-seams", NULL, "make UV seams sharp"},
+    {0, "crease-sharpness", "S", "of these three: for S levels, forever when not given"},
     {0, "stream", NULL, "refine and save piece by piece, in little memory; large results always"},
     {0, "triangulate", NULL, "Loop: cut larger faces into triangles first"},
     {0, "keep-holes", NULL, "keep the faces of holes, tagged as holes"},
-    {0, "info", NULL, "print what the cage is made of"},
+    {0, "info", NULL, "print what the cage is made of, and what is odd about it"},
     {0, "time", NULL, "print how long each step takes"},
     {'h', "help", NULL, "print this"},
     {0, "version", NULL, "print the version"},
@@ -67,6 +73,7 @@ static const option options[OPTION_COUNT] = {
 
 typedef struct command {
     int         given[OPTION_COUNT];  // the value of each option; -1: not given
+    float       numbers[OPTION_COUNT];    // of those with any number
     const char *input, *output;       // NULL: not given
 } command;
 
@@ -107,6 +114,22 @@ static int read_number(const char *text)
     return value;
 }
 
+// Stores a number from 0 to 180 degrees, or a sharpness above 0: from 10 on all are forever.
+static int set_number(command *cmd, int id, const char *text)
+{
+    char *end;
+    double x = strtod(text, &end);
+    int is_number = end != text && *end == 0 && strspn(text, "+-.0123456789eE") == strlen(text);
+    if (id == CREASE_ANGLE && !(is_number && x >= 0 && x <= 180))
+        return misused("--%s needs a number from 0 to 180, not '%s'", options[id].name, text);
+    if (id == CREASE_SHARPNESS && !(is_number && x > 0))
+        return misused("--%s needs a number above 0, not '%s'", options[id].name, text);
+    if (id == CREASE_SHARPNESS && x > (double)SUBDIV_INFINITE) x = (double)SUBDIV_INFINITE;
+    cmd->numbers[id] = (float)x;
+    cmd->given[id] = 1;
+    return DONE;
+}
+
 // Stores the value of an option. value is NULL when the command line holds none.
 static int set_option(command *cmd, int id, const char *value)
 {
@@ -117,6 +140,7 @@ static int set_option(command *cmd, int id, const char *value)
         return DONE;
     }
     if (value == NULL) return misused("--%s needs a value", o->name);
+    if (id == CREASE_ANGLE || id == CREASE_SHARPNESS) return set_number(cmd, id, value);
     int number = strcmp(o->values, "N") == 0;
     int read = number ? read_number(value) : find_name(o->values, value);
     if (number && (read < 0 || (id == THREADS && read < 1)))
@@ -167,6 +191,9 @@ static int read_command(command *cmd, int argc, char **argv)
     for (int id = UV; id <= LIMIT; id++)
         if (cmd->given[id] >= 0) return misused("--%s is not in this release", options[id].name);
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
+    if (cmd->given[CREASE_SHARPNESS] == 1 && cmd->given[CREASE_ANGLE] < 0 &&
+        cmd->given[CREASE_GROUPS] < 0 && cmd->given[CREASE_SEAMS] < 0)
+        return misused("--crease-sharpness needs one of the other crease options");
     if (cmd->given[INFO] == 1 && cmd->output && strcmp(cmd->output, "-") == 0)
         return misused("--info and OUTPUT - would share standard output");
     return DONE;
@@ -246,7 +273,35 @@ static void print_bounding_box(const subdiv_mesh *mesh)
     printf("\n");
 }
 
-static int print_info(const subdiv_mesh *mesh, const subdiv_info *info)
+enum { SHOWN = 10 };                  // findings of each kind
+
+typedef struct findings {
+    int  counts[SUBDIV_ODDITY_COUNT];
+    int  line_counts[SUBDIV_ODDITY_COUNT];
+    char lines[SUBDIV_ODDITY_COUNT][SHOWN][256];
+} findings;
+
+static void keep_finding(void *user, const subdiv_finding *finding)
+{
+    findings *all = (findings *)user;
+    int *count = &all->line_counts[finding->kind];
+    if (*count == SHOWN) return;
+    snprintf(all->lines[finding->kind][(*count)++], sizeof **all->lines, "%s", finding->text);
+}
+
+static void print_findings(const findings *all)
+{
+    int total = 0;
+    for (int kind = 0; kind < SUBDIV_ODDITY_COUNT; kind++) total += all->counts[kind];
+    printf("%-26s%d\n", "oddities", total);
+    if (total) printf("  (faces, vertices and tags are counted from 0)\n");
+    for (int kind = 0; kind < SUBDIV_ODDITY_COUNT; kind++) {
+        for (int i = 0; i < all->line_counts[kind]; i++) printf("  %s\n", all->lines[kind][i]);
+        if (all->counts[kind] > SHOWN) printf("  and %d more\n", all->counts[kind] - SHOWN);
+    }
+}
+
+static int print_info(const subdiv_mesh *mesh, const subdiv_info *info, const findings *odd)
 {
     const struct { const char *name; int value; } rows[] = {
         {"boundary edges", info->boundary_edge_count},
@@ -267,6 +322,7 @@ static int print_info(const subdiv_mesh *mesh, const subdiv_info *info)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         printf("%-26s%d\n", rows[i].name, rows[i].value);
     print_bounding_box(mesh);
+    print_findings(odd);
     return flush_output();
 }
 
@@ -427,14 +483,29 @@ static int report_cage(const command *cmd, const subdiv_options *opt)
     return FAILED;
 }
 
+// Adds the creases that the options ask for.
+static int add_creases(subdiv_mesh *cage, const command *cmd, const subdiv_options *opt)
+{
+    const int *given = cmd->given;
+    float degrees = cmd->numbers[CREASE_ANGLE], sharpness = cmd->numbers[CREASE_SHARPNESS];
+    if (given[CREASE_SHARPNESS] < 0) sharpness = SUBDIV_INFINITE;
+    if ((given[CREASE_ANGLE] == 1 && subdiv_crease_by_angle(cage, degrees, sharpness, opt)) ||
+        (given[CREASE_GROUPS] == 1 && subdiv_crease_by_smoothing_groups(cage, sharpness, opt)) ||
+        (given[CREASE_SEAMS] == 1 && subdiv_crease_by_uv_seams(cage, sharpness, opt)))
+        return report_cage(cmd, opt);
+    return DONE;
+}
+
 // Inspects the cage; its warnings count only if no refinement is going to repeat them.
 static int inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt)
 {
     subdiv_info info;
+    findings odd = {{0}, {0}, {{{0}}}};
     subdiv_error before = *opt->error;
-    if (subdiv_inspect(&info, cage, opt)) return report_cage(cmd, opt);
+    if (subdiv_inspect(&info, cage, opt) ||
+        subdiv_check(odd.counts, cage, keep_finding, &odd, opt)) return report_cage(cmd, opt);
     if (cmd->output) *opt->error = before;
-    return print_info(cage, &info);
+    return print_info(cage, &info, &odd);
 }
 
 static int writes_stdout(const command *cmd)
@@ -515,6 +586,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     int info = cmd->given[INFO] == 1, timed = cmd->given[TIME] == 1;
     w->start = milliseconds();
     if (load(&w->cage, cmd, opt)) return report(opt);
+    if (add_creases(&w->cage, cmd, opt)) return FAILED;
     end_step(w, "load");
     if (info && inspect(&w->cage, cmd, opt)) return FAILED;
     if (info && cmd->output == NULL) {
@@ -544,7 +616,7 @@ static void print_warnings(const command *cmd, const subdiv_error *error)
 
 int main(int argc, char **argv)
 {
-    command cmd = {{0}, NULL, NULL};
+    command cmd = {{0}, {0}, NULL, NULL};
     int result = read_command(&cmd, argc, argv);
     if (result) return result;
 #ifdef SIGPIPE

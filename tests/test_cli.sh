@@ -130,6 +130,7 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
+              --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
               --stream --triangulate --info --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
@@ -236,6 +237,63 @@ ends 0 tetrahedron.obj form.obj
 same form.obj rough.obj
 differ smooth.obj rough.obj
 ends 2 --triangles round tetrahedron.obj
+
+# ---------------------------------------------------------------------------------------- creases
+
+# tags FILE COUNT SHARPNESS: so many creases with this sharpness, and no others.
+tags() {
+    fine "$1 has $2 creases of $3: $(grep -c '^t crease ' $1)" \
+        awk -v n="$2" -v s="$3" '/^t crease / { all++; if ($6 == s) with++ }
+            END { exit !(all + 0 == n && with + 0 == n) }' $1
+}
+
+# Eight edges of the box have two faces, all at right angles; four are at its open bottom.
+grep -v '^t' box.obj > bare.obj
+ends 0 -l 0 bare.obj plain.obj
+for form in '--crease-angle 30' '--crease-angle=89.9' '--crease-angle 0 --crease-sharpness 10' \
+            '--crease-angle 1e1 --crease-sharpness=1e30'; do
+    ends 0 -l 0 $form bare.obj form.obj
+    tags form.obj 8 10
+done
+ends 0 -l 0 --crease-angle 90 bare.obj form.obj
+same form.obj plain.obj
+ends 0 -l 0 --crease-angle 91 bare.obj form.obj
+same form.obj plain.obj
+ends 0 -l 0 --crease-angle 30 --crease-sharpness 2.5 bare.obj form.obj
+tags form.obj 8 2.5
+ends 0 -l 2 form.obj semisharp.obj
+ends 0 -l 2 --crease-angle 30 --crease-sharpness 2.5 bare.obj form.obj
+same form.obj semisharp.obj
+ends 0 -l 2 --stream --crease-angle 30 --crease-sharpness 2.5 - form.obj < bare.obj
+same form.obj semisharp.obj
+differ semisharp.obj two.obj
+# The tags of the file stay, unless these are sharper: 1.5 becomes 2, 2.5 and 10 stay.
+ends 0 -l 0 --crease-angle 30 --crease-sharpness 2 box.obj form.obj
+fine "raised" test "$(grep '^t crease' form.obj | head -n 3 | cut -d ' ' -f 6 | tr '\n' ' ')" = '2 2.5 10 '
+fine "added" test "$(grep -c '^t crease .* 2$' form.obj)" = 6
+ends 0 -l 0 --crease-seams bare.obj form.obj
+same form.obj plain.obj
+fine "no UVs: a warning" grep -qx 'subdiv: warning: bare.obj: the mesh has no UVs' err
+ends 0 -l 0 --crease-smoothing-groups bare.obj form.obj
+same form.obj plain.obj
+fine "no groups: a warning" grep -qx 'subdiv: warning: bare.obj: the mesh has no smoothing groups' err
+ends 0 -l 0 --crease-seams --crease-angle 30 --crease-smoothing-groups bare.obj form.obj
+tags form.obj 8 10
+fine "two warnings" grep -q 'no smoothing groups (and 1 more)' err
+for form in '-1' 181 x '' nan inf 0x10 '1 2' 30deg; do
+    ends 2 --crease-angle "$form" bare.obj
+    says "from 0 to 180, not '$form'"
+done
+for form in 0 -1 x '' nan inf; do
+    ends 2 --crease-angle 1 --crease-sharpness "$form" bare.obj
+    says "above 0, not '$form'"
+done
+ends 2 --crease-sharpness 2 bare.obj
+says "needs one of the other crease options"
+ends 2 --crease-seams=1 bare.obj
+says "takes no value"
+ends 2 bare.obj --crease-angle
+says "needs a value"
 
 # ------------------------------------------------------------------------------------ not yet there
 
@@ -510,12 +568,32 @@ row corners 1
 row holes 1
 row components 2
 row 'bounding box' '0 -1 -0.1 to 9 9 9'
+row oddities 2
+fine "--info: counted from 0" grep -qx '  (faces, vertices and tags are counted from 0)' out
+fine "--info: an edge" grep -qx '  edge 0-1 has 3 faces: 0, 2, 3' out
+fine "--info: a vertex" grep -qx '  no face has vertex 7' out
 fine "--info prints no mesh" sh -c '! grep -q "^[vf] " out'
 ends 0 --info box.obj info.obj
 same info.obj one.obj
 row vertices 8
 row 'boundary edges' 4
 row 'extraordinary vertices' 4
+row creases 3
+row oddities 0
+fine "--info: nothing counted" sh -c '! grep -q counted out'
+ends 0 --info --crease-angle 30 bare.obj
+row creases 8
+# Ten of a kind are shown: twelve vertices in one place, three without a face.
+{ for i in 1 2 3 4 5 6 7 8 9 10 11 12; do echo v 1 2 3; done
+  printf 'v 1 0 0\nv 2 0 0\nv 3 0 0\n'
+  echo f 1 2 3 4 5 6 7 8 9 10 11 12; } > many.obj
+ends 0 --info many.obj
+row oddities 15
+fine "--info: the last that is shown" grep -qx '  vertex 10 is at the same place as vertex 0' out
+fine "--info: no more are shown" sh -c '! grep -q "vertex 11 is" out'
+fine "--info: and the others" grep -qx '  and 1 more' out
+fine "--info: the other kinds are shown" test "$(grep -c '  no face has vertex 1[234]$' out)" = 3
+fine "--info: no area" grep -qx '  face 0 has no area' out
 ends 0 -s loop --info tetrahedron.obj
 row 'extraordinary vertices' 4
 ends 0 --info -s loop box.obj

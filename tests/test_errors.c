@@ -191,6 +191,16 @@ static void check_broken(const broken *b, int topology)
     CHECK_EQUAL(subdiv_inspect(&info, &cage, &opt), b->code);
     CHECK(memcmp(&info, &zero_info, sizeof info) == 0);
     check_error(&error, b);
+
+    error = stale_error();
+    CHECK_EQUAL(subdiv_check(NULL, &cage, NULL, NULL, &opt), b->code);
+    check_error(&error, b);
+
+    subdiv_mesh before = cage;
+    error = stale_error();
+    CHECK_EQUAL(subdiv_crease_by_angle(&cage, 30, 1, &opt), b->code);
+    CHECK(memcmp(&cage, &before, sizeof cage) == 0);
+    check_error(&error, b);
 }
 
 static void test_broken_meshes(void)

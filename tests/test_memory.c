@@ -206,6 +206,45 @@ static subdiv_result call_inspect(const subdiv_mesh *cage, const subdiv_options 
     return result;
 }
 
+// Adds to a copy of the cage, twice; a failure has to leave it as it was, with what it owns.
+static subdiv_result call_creases(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    static char smooth[] = "s 1";
+    static int face_uvs[sizeof obj_text / 2];
+    char *statements[1] = {smooth};
+    int statement_faces[1] = {9};
+    float uv[2] = {0, 0};
+    subdiv_mesh mesh = *cage, before;
+    mesh.memory = NULL;
+    mesh.crease_count = 0;
+    mesh.uv_count = mesh.statement_count = 1;
+    mesh.uvs = uv;
+    mesh.face_uvs = face_uvs;
+    mesh.statements = statements;
+    mesh.statement_faces = statement_faces;
+    face_uvs[100] = -1;
+
+    subdiv_result result = subdiv_crease_by_angle(&mesh, 1, 2, opt);
+    before = mesh;
+    if (!result) CHECK(mesh.crease_count > 1000);
+    if (!result) result = subdiv_crease_by_smoothing_groups(&mesh, 3, opt);
+    if (!result) CHECK(mesh.memory != before.memory);
+    if (!result) before = mesh;
+    if (!result) result = subdiv_crease_by_uv_seams(&mesh, 4, opt);
+    if (!result) CHECK(mesh.memory != before.memory);
+    if (result) CHECK(memcmp(&mesh, &before, sizeof mesh) == 0);
+    subdiv_mesh_free(&mesh);
+    return result;
+}
+
+static subdiv_result call_check(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    int counts[SUBDIV_ODDITY_COUNT];
+    subdiv_result result = subdiv_check(counts, cage, NULL, NULL, opt);
+    for (int i = 0; i < SUBDIV_ODDITY_COUNT && result; i++) CHECK_EQUAL(counts[i], 0);
+    return result;
+}
+
 static subdiv_result call_save_memory(const subdiv_mesh *cage, const subdiv_options *opt)
 {
     size_t size = 0;
@@ -293,6 +332,16 @@ static void test_inspect(void)
     CHECK(check_call(call_inspect) > 0);
 }
 
+static void test_creases(void)
+{
+    CHECK(check_call(call_creases) > 3);
+}
+
+static void test_check(void)
+{
+    CHECK(check_call(call_check) > 0);
+}
+
 static void test_save(void)
 {
     check_call(call_save_memory);
@@ -328,6 +377,8 @@ int main(void)
     RUN(test_refine);
     RUN(test_prepare);
     RUN(test_inspect);
+    RUN(test_creases);
+    RUN(test_check);
     RUN(test_save);
     RUN(test_errors_do_not_leak);
     return test_end("test_memory");
