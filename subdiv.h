@@ -213,13 +213,15 @@ typedef enum subdiv_triangles {
     SUBDIV_TRIANGLES_SMOOTH           // rounder where a Catmull-Clark cage has triangles [OSD]
 } subdiv_triangles;
 
-typedef enum subdiv_uv_rule {         // kept for OBJ tags; UVs themselves are not refined yet
-    SUBDIV_UV_CORNERS_ONLY,
-    SUBDIV_UV_CORNERS_PLUS1,
-    SUBDIV_UV_CORNERS_PLUS2,
-    SUBDIV_UV_BOUNDARIES,
-    SUBDIV_UV_ALL,
-    SUBDIV_UV_NONE
+// UVs and other face-varying values: how they go along seams and boundaries, where a seam is an edge
+// whose faces have different values at one of its ends.
+typedef enum subdiv_uv_rule {
+    SUBDIV_UV_CORNERS_ONLY,           // smooth; sharp where one face alone has a value
+    SUBDIV_UV_CORNERS_PLUS1,          // and where three or more values meet, or two and a crease
+    SUBDIV_UV_CORNERS_PLUS2,          // and at ends of seams, and both of two values if one is
+    SUBDIV_UV_BOUNDARIES,             // seams and boundaries straight, all else smooth
+    SUBDIV_UV_ALL,                    // everything linear
+    SUBDIV_UV_NONE                    // smooth everywhere
 } subdiv_uv_rule;
 
 // A mesh: the cage that goes in and the result that comes out. Zero it, fill what you have. The
@@ -337,6 +339,18 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 // cage_faces [face_count]. Error ARGUMENT on level 0 if the faces are of several sizes.
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
+
+// Face-varying values: as UVs, each vertex of each face has one of value_count values, indices
+// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They are
+// a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces gives
+// the indices of the fine faces (-1 where there are none). Value i stays value i at the first vertex
+// that has it; vertices of the cage that share it have values of their own from level 1 on, after all
+// others. Faces whose vertices do not all have values are none of its cage faces. rule says what
+// happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
+SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
+                                                     const subdiv_mesh *cage, int value_count,
+                                                     const int *indices, subdiv_uv_rule rule,
+                                                     int levels, const subdiv_options *opt);
 
 // Bytes of scratch memory that an evaluation of so many channels needs.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
@@ -786,6 +800,11 @@ static void *sdv_room(sdv_context *context, sdv_array *array, size_t more, size_
     return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
 }
 
+static void sdv_copy(void *to, const void *from, size_t count, size_t item)
+{
+    if (count) memcpy(to, from, count * item);
+}
+
 static const void *sdv_items(const sdv_array *array)
 {
     return array->block ? array->block + 1 : NULL;
@@ -1064,6 +1083,30 @@ static void sdv_check_positions(sdv_context *context, const float *positions, in
     }
 }
 
+// Values at the vertices of faces, called so in messages.
+static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const char *name,
+                              int count, const int *index)
+{
+    for (int f = 0; f < mesh->face_count && !context->result; f++)
+        for (int i = sdv_face_size(mesh, f); i > 0; i--, index++)
+            if (*index < -1 || *index >= count)
+                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
+                              "face %d: %s %d does not exist (the mesh has %d)",
+                              f, name, *index, count);
+}
+
+static void sdv_check_uvs(sdv_context *context, const subdiv_mesh *mesh)
+{
+    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
+    sdv_check_array(context, "face_uvs", mesh->uv_count > 0 ? mesh->face_count : 0,
+                    mesh->face_uvs);
+    if (mesh->uv_count > 0 && !context->result)
+        sdv_check_indices(context, mesh, "UV", mesh->uv_count, mesh->face_uvs);
+    for (int i = 0; i < 2 * mesh->uv_count && !context->result; i++)
+        if (!(fabs((double)mesh->uvs[i]) <= FLT_MAX))
+            sdv_fail(context, SUBDIV_ERROR_NOT_FINITE, "UV %d is not finite", i / 2);
+}
+
 // Everything but the positions.
 static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 {
@@ -1124,6 +1167,7 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 typedef struct sdv_rules {
     int loop;                           // faces split into 4 triangles, else into quads
     int linear;                         // nothing is smoothed
+    int straight;                       // boundaries stay straight
     subdiv_creasing creasing;
     subdiv_triangles triangles;
 } sdv_rules;
@@ -1152,6 +1196,10 @@ typedef struct sdv_level {
                                         //                      edge here; NULL: sdv_fade
     float *vertex_sharpness;            // [vertex_count]
     unsigned char *creased;             // [vertex_count]       has a sharp edge
+    int *partner;                       // [vertex_count]       fades as that vertex does; -1: by
+                                        //                      itself; NULL: all do
+    int *origin, origin_count;          // [vertex_count]       vertex of the cage, or -1; NULL:
+    float *sums;                        // [2 * origin_count]   not needed (see >>face-varying)
 
     int    first_point;                 // vertex v is work point first_point + v
     int   *face_point;                  // [face_count]         work points of the face points
@@ -1630,12 +1678,16 @@ static float sdv_fade_chaikin(float s, float sum, int count)
 static void sdv_fade_halves(sdv_level *level, int v)
 {
     float sum = 0;
-    int count = 0;
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+    int count = 0, origin = level->origin ? level->origin[v] : -1;
+    for (int h = level->vertex_first[v]; h >= 0 && origin < 0; h = level->vertex_next[h]) {
         float s = level->sharpness[h];
         if (s <= 0 || s >= SUBDIV_INFINITE) continue;
         sum += s;
         count++;
+    }
+    if (origin >= 0) {
+        sum = level->sums[2 * origin];
+        count = (int)level->sums[2 * origin + 1];
     }
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
         level->half_sharpness[h] = sdv_fade_chaikin(level->sharpness[h], sum, count);
@@ -1685,6 +1737,7 @@ typedef struct sdv_fading {
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
     sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    if (level->partner && level->partner[v] >= 0) v = level->partner[v];
     float sharpness = level->vertex_sharpness[v], left = sdv_fade(sharpness), sum = 0;
     int now = 0, next = 0, count = 0;
     if (!level->creased[v] && sharpness <= 0) return fading;
@@ -2428,7 +2481,7 @@ static void sdv_number_points(const sdv_level *level, sdv_split *split)
 
 // What vertex, edge and face points inherit; each child has 2 (Loop: 3) faces at an edge point.
 static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
-                             int loop)
+                             const sdv_rules *rules)
 {
     for (int v = 0; v < level->vertex_count; v++) {
         int point = split->vertex[v];
@@ -2447,9 +2500,32 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
     for (int h = 0; h < level->face_vertex_count; h++) {
         int point = split->edge[h];
         if (point < 0 || !sdv_is_edge(level, h)) continue;
-        next->vertex_sharpness[point] = 0;
+        int straight = rules->straight && level->across[h] == h;
+        next->vertex_sharpness[point] = straight ? level->sharpness[h] : 0;
         next->vertex_done[point] = level->edge_done[h];
-        next->vertex_faces[point] = (loop ? 3 : 2) * sdv_edge_faces(level, h);
+        next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
+    }
+}
+
+// What only surfaces of values have: partners and origins, of vertex points alone.
+static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                               const sdv_split *split, sdv_level *next)
+{
+    if (level->partner) next->partner = SDV_NEW(context, arena, int, next->vertex_count);
+    if (level->origin) next->origin = SDV_NEW(context, arena, int, next->vertex_count);
+    if (context->result) return;
+    next->origin_count = level->origin_count;
+    next->sums = level->sums ? level->sums + 2 * (size_t)level->origin_count : NULL;
+    for (int i = 0; i < next->vertex_count; i++) {
+        if (next->partner) next->partner[i] = -1;
+        if (next->origin) next->origin[i] = -1;
+    }
+    for (int v = 0; v < level->vertex_count; v++) {
+        int point = split->vertex[v];
+        if (point < 0) continue;
+        if (next->origin) next->origin[point] = level->origin[v];
+        if (next->partner && level->partner[v] >= 0)
+            next->partner[point] = split->vertex[level->partner[v]];
     }
 }
 
@@ -2568,8 +2644,9 @@ static void sdv_split_triangles(const sdv_level *level, const sdv_split *split, 
 }
 
 static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                            const sdv_split *split, sdv_level *next, int loop)
+                            const sdv_split *split, sdv_level *next, const sdv_rules *rules)
 {
+    int loop = rules->loop;
     memset(next, 0, sizeof *next);
     next->face_size = loop ? 3 : 4;
     next->face_count = split->faces;
@@ -2579,8 +2656,9 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
+    sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
-    sdv_split_points(level, split, next, loop);
+    sdv_split_points(level, split, next, rules);
     if (loop) sdv_split_triangles(level, split, next);
     else sdv_split_quads(level, split, next);
     sdv_level_lists(next);
@@ -2661,8 +2739,9 @@ static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, 
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
     int sharp = 0, stay = 0, last = 0;
-    float s = level->vertex_sharpness[v];
     if (rules->linear) return SDV_FREE;
+    if (level->partner && level->partner[v] >= 0) v = level->partner[v];
+    float s = level->vertex_sharpness[v];
     if (s <= 0 && !level->creased[v]) return sdv_smooth_kind(level, rules, v);
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
@@ -2917,6 +2996,290 @@ static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *
     sdv_arena_free(&scratch);
 }
 
+// ----------------------------------------------------------------------------- >>face-varying
+// UVs and other values at the vertices of faces, which may have another one in each face around a
+// vertex. They are a surface over a topology of their own: the faces of the cage, cut open along
+// seams. Its vertices are the pairs of a vertex and a value there; an edge is a seam if its faces
+// have different values at one of its ends.
+//
+//      A | B        a seam with values A and B at its lower end: two vertices of this topology,
+//      --+--        both on its boundary
+//
+// Seams are boundaries: smooth curves, or sharp where the rule says corner [OSD]. Everything else
+// is as on the cage, creases, corners and all masks; so prepare and evaluate work as they are.
+
+typedef struct sdv_seams {
+    const sdv_cage *cage;
+    const int *values;                  // [face-vertices of the cage] -1: none
+    int value_count;
+    subdiv_uv_rule rule;
+    unsigned char *seam;                // [edges of the cage]
+    int *own;                           // [face-vertices of the cage] here, or -1
+    int *home;                          // [face-vertices here] on the cage
+    sdv_level level;
+    int *source;                        // [level.vertex_count] its value
+} sdv_seams;
+
+// The value at vertex v of the face that leads on from h along an edge at v.
+static int sdv_value_at(const sdv_seams *seams, int h, int v)
+{
+    const sdv_level *cage = &seams->cage->level;
+    return seams->values[cage->face_vertices[h] == v ? h : sdv_next(cage, h)];
+}
+
+static void sdv_find_seams(sdv_seams *seams)
+{
+    const sdv_level *cage = &seams->cage->level;
+    for (int e = 0; e < cage->edge_count; e++) {
+        int first = cage->edge_first[e], h = first, differ = 0;
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        while ((h = cage->across[h]) != first)
+            differ |= sdv_value_at(seams, h, a) != sdv_value_at(seams, first, a) ||
+                      sdv_value_at(seams, h, b) != sdv_value_at(seams, first, b);
+        seams->seam[e] = (unsigned char)differ;
+    }
+}
+
+// Faces with a value at each vertex; own_face [faces of the cage] are their numbers here, or -1.
+static void sdv_seam_faces(sdv_context *context, sdv_arena *keep, sdv_seams *seams, int *own_face)
+{
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    for (int f = 0; f < cage->face_count; f++) {
+        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f), has = 1;
+        for (int h = start; h < end; h++) has &= seams->values[h] >= 0;
+        own_face[f] = has ? level->face_count++ : -1;
+        for (int h = start; h < end; h++) {
+            seams->own[h] = has ? level->face_vertex_count : -1;
+            if (has) seams->home[level->face_vertex_count++] = h;
+        }
+    }
+    level->face_size = cage->face_size;
+    level->face_vertices = SDV_NEW(context, keep, int, level->face_vertex_count);
+    level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
+    if (level->face_size) return;
+    level->face_starts = SDV_NEW(context, keep, int, (size_t)level->face_count + 1);
+    level->face_of = SDV_NEW(context, keep, int, level->face_vertex_count);
+    for (int f = 0, h = 0; f < cage->face_count && !context->result; f++) {
+        if (own_face[f] < 0) continue;
+        level->face_starts[own_face[f]] = h;
+        int end = h + sdv_face_end(cage, f) - sdv_face_start(cage, f);
+        while (h < end) level->face_of[h++] = own_face[f];
+        level->face_starts[own_face[f] + 1] = h;
+    }
+}
+
+// The first vertex with a value has the value's number; others that share it come after all.
+static void sdv_seam_vertices(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                              sdv_seams *seams)
+{
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    int *at = SDV_NEW(context, scratch, int, seams->value_count);       // the last vertex with it,
+    int *own = SDV_NEW(context, scratch, int, seams->value_count);      // and what it is there
+    size_t most = (size_t)seams->value_count + (size_t)level->face_vertex_count;
+    seams->source = SDV_NEW(context, keep, int, most);
+    if (context->result) return;
+    level->vertex_count = seams->value_count;
+    for (int i = 0; i < seams->value_count; i++) {
+        at[i] = -1;
+        seams->source[i] = i;
+    }
+    for (int v = 0; v < cage->vertex_count; v++) {
+        for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
+            if (seams->own[h] < 0) continue;
+            int value = seams->values[h];
+            if (at[value] != v) {
+                own[value] = at[value] < 0 ? value : level->vertex_count++;
+                seams->source[own[value]] = value;
+                at[value] = v;
+            }
+            level->face_vertices[seams->own[h]] = own[value];
+        }
+    }
+}
+
+// Edges in the order in which the faces meet them. Those of the cage that are no seam stay.
+static void sdv_seam_edges(sdv_seams *seams)
+{
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    for (int h = 0; h < level->face_vertex_count; h++) level->face_edges[h] = -1;
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        int at = seams->home[h], seam = seams->seam[cage->face_edges[at]];
+        level->across[h] = seam ? h : seams->own[cage->across[at]];
+        level->sharpness[h] = seam ? SDV_IMPLIED : cage->sharpness[at];
+        if (level->face_edges[h] >= 0) continue;
+        int e = level->edge_count++, k = at;
+        level->edge_first[e] = h;
+        do level->face_edges[seams->own[k]] = e;
+        while (!seam && (k = cage->across[k]) != at);
+    }
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (level->sharpness[h] > 0)
+            level->creased[level->face_vertices[h]] =
+                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
+}
+
+// What the rule looks at, around a vertex of the cage.
+typedef struct sdv_around {
+    int values;                         // how many different ones
+    int faces;                          // with values
+    int seam, boundary, nonmanifold;    // is it on one?
+    int own[2];                         // the first two vertices of this topology
+} sdv_around;
+
+static sdv_around sdv_look_around(const sdv_seams *seams, int v)
+{
+    const sdv_level *cage = &seams->cage->level, *level = &seams->level;
+    sdv_around around = { 0, 0, 0, 0, 0, { -1, -1 } };
+    around.nonmanifold = seams->cage->vertex_nonmanifold[v];
+    for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
+        int before = sdv_previous(cage, h), own = seams->own[h];
+        around.seam |= seams->seam[cage->face_edges[h]] | seams->seam[cage->face_edges[before]];
+        around.boundary |= sdv_is_boundary(cage, h) | sdv_is_boundary(cage, before);
+        if (own < 0) continue;
+        around.faces++;
+        int vertex = level->face_vertices[own];
+        if (level->vertex_first[vertex] != own) continue;           // seen before
+        if (around.values < 2) around.own[around.values] = vertex;
+        around.values++;
+    }
+    around.seam |= around.nonmanifold && around.values > 1;
+    return around;
+}
+
+// Is an edge inside the fan at a vertex sharp forever; or semi-sharp, -1?
+static int sdv_inner_crease(const sdv_level *level, int vertex)
+{
+    int semi = 0;
+    for (int h = level->vertex_first[vertex]; h >= 0; h = level->vertex_next[h]) {
+        if (sdv_is_boundary(level, h) || level->sharpness[h] <= 0) continue;
+        if (level->sharpness[h] >= SUBDIV_INFINITE) return 1;
+        semi = -1;
+    }
+    return semi;
+}
+
+// Corner by the rules "plus 1" and "plus 2": where more than two values meet; where two meet and one
+// has a corner for another reason than its number of faces; by "plus 2" also for that reason.
+static int sdv_is_shared_corner(const sdv_seams *seams, const sdv_around *around)
+{
+    const sdv_level *level = &seams->level;
+    if (around->values != 2) return around->values > 2;
+    for (int i = 0; i < 2; i++) {
+        int vertex = around->own[i];
+        if (sdv_inner_crease(level, vertex) > 0 || !sdv_is_fan(level, vertex)) return 1;
+        if (seams->rule == SUBDIV_UV_CORNERS_PLUS2 && level->vertex_faces[vertex] == 1) return 1;
+    }
+    return 0;
+}
+
+// Is a value on a seam or boundary a corner, where around knows the others?
+static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_around *around, int vertex)
+{
+    const sdv_level *level = &seams->level;
+    subdiv_uv_rule rule = seams->rule;
+    int both = rule == SUBDIV_UV_CORNERS_PLUS1 || rule == SUBDIV_UV_CORNERS_PLUS2;
+    int dart = around->values == 1 && !around->boundary;
+    if (rule == SUBDIV_UV_BOUNDARIES && (around->seam || around->boundary)) return 1;
+    if (rule != SUBDIV_UV_NONE && around->faces == 1 && around->boundary) return 1;
+    if (!around->seam) return 0;
+    if (around->nonmanifold || !sdv_is_fan(level, vertex)) return 1;
+    if (rule != SUBDIV_UV_NONE && level->vertex_faces[vertex] == 1) return 1;
+    if (rule == SUBDIV_UV_CORNERS_PLUS2 && dart) return 1;
+    return both && sdv_is_shared_corner(seams, around);
+}
+
+static void sdv_seam_sharpness(sdv_seams *seams)
+{
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    int plus = seams->rule == SUBDIV_UV_CORNERS_PLUS1 || seams->rule == SUBDIV_UV_CORNERS_PLUS2;
+    for (int i = 0; i < level->vertex_count; i++) level->vertex_sharpness[i] = 0;
+    for (int v = 0; v < cage->vertex_count; v++) {
+        sdv_around around = sdv_look_around(seams, v);
+        for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
+            int own = seams->own[h], vertex = own < 0 ? -1 : level->face_vertices[own];
+            if (own < 0 || level->vertex_first[vertex] != own) continue;
+            level->vertex_sharpness[vertex] = sdv_is_uv_corner(seams, &around, vertex)
+                ? SDV_IMPLIED : cage->vertex_sharpness[v];
+        }
+        if (!plus || !around.seam || around.values != 2) continue;
+        // Two values at a seam are semi-sharp together.
+        int a = around.own[0], b = around.own[1];
+        int of_a = sdv_inner_crease(level, a) < 0, of_b = sdv_inner_crease(level, b) < 0;
+        if (level->vertex_sharpness[a] < SUBDIV_INFINITE && of_a != of_b)
+            level->partner[of_a ? b : a] = of_a ? a : b;
+    }
+}
+
+// Chaikin's averages reach across seams: the sums of sdv_fade_halves at the vertices of the cage, on
+// each level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
+static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv_level *cage,
+                             int levels, float *sums)
+{
+    float *s = SDV_NEW(context, scratch, float, cage->face_vertex_count);
+    if (context->result) return;
+    sdv_copy(s, cage->sharpness, (size_t)cage->face_vertex_count, sizeof(float));
+    for (int i = 0; i < levels; i++) {
+        for (int v = 0; v < cage->vertex_count; v++, sums += 2) {
+            sums[0] = sums[1] = 0;
+            for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
+                if (s[h] <= 0 || s[h] >= SUBDIV_INFINITE) continue;
+                sums[0] += s[h];
+                sums[1] += 1;
+            }
+            for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h])
+                s[h] = sdv_fade_chaikin(s[h], sums[0], (int)sums[1]);
+        }
+    }
+}
+
+static void sdv_seam_origins(sdv_context *context, sdv_arena *scratch, sdv_seams *seams, int levels)
+{
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->origin_count = cage->vertex_count;
+    level->sums = SDV_NEW(context, scratch, float,
+                          2 * (size_t)cage->vertex_count * (size_t)levels);
+    if (context->result) return;
+    for (int i = 0; i < level->vertex_count; i++) level->origin[i] = -1;
+    for (int h = 0; h < level->face_vertex_count; h++)
+        level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
+    sdv_chaikin_sums(context, scratch, cage, levels, level->sums);
+}
+
+// Level 0 of the values. What outlives it goes to keep, with own_face and source.
+static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                            sdv_seams *seams, int *own_face, int levels)
+{
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    int chaikin = cage->half_sharpness != NULL;
+    seams->seam = SDV_NEW(context, scratch, unsigned char, cage->edge_count);
+    seams->own = SDV_NEW(context, scratch, int, cage->face_vertex_count);
+    seams->home = SDV_NEW(context, scratch, int, cage->face_vertex_count);
+    if (context->result) return;
+    sdv_find_seams(seams);
+    sdv_seam_faces(context, keep, seams, own_face);
+    if (context->result) return;
+    sdv_seam_vertices(context, keep, scratch, seams);
+    level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
+    sdv_level_new(context, scratch, level, chaikin);
+    if (chaikin) sdv_seam_origins(context, scratch, seams, levels);
+    if (context->result) return;
+    memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
+    for (int h = 0; h < level->face_vertex_count; h++)
+        level->vertex_faces[level->face_vertices[h]]++;
+    for (int i = 0; i < level->vertex_count; i++) level->partner[i] = -1;
+    sdv_level_lists(level);
+    sdv_seam_edges(seams);
+    sdv_seam_sharpness(seams);
+}
+
 // ------------------------------------------------------------------------------- >>prepare
 
 // From a level to the next: face points first, as the others are made from them.
@@ -2935,15 +3298,32 @@ struct subdiv_surface {
     sdv_masks masks;                    // of all rows
     int       work_count;               // work points
     sdv_order order;
-    unsigned char *hole;                // [cage face_count]
-    int      *first_face;               // [cage face_count + 1] of each one's fine faces
-    int      *cage_face;                // [cage face_count] the user's face; NULL: the same
+    int       face_count;               // all faces, also those without values
+    unsigned char *hole;                // [face_count]
+    int      *first_face;               // [face_count + 1] of each one's fine faces
+    int      *cage_face;                // [face_count] the user's face; NULL: the same
     subdiv_mesh fine;                   // the result without positions; without faces if levels > 0
-};
 
-static void sdv_copy(void *to, const void *from, size_t count, size_t item)
+    subdiv_surface *uv;                 // what the result carries along: UVs, a surface of
+    float    *uvs, *colors;             // their own, and colours, both of the cage
+    int       is_values;                // made by subdiv_prepare_face_varying
+    int      *source;                   // values: [cage_vertex_count] which of the user's each
+                                        // vertex takes; NULL: the same
+    int      *own_face;                 // values: [face_count] the face of order, -1: without
+};                                      // values; NULL: the same
+
+// Cuts faces into fans around vertex 0: what each face-vertex has.
+static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
 {
-    if (count) memcpy(to, from, count * item);
+    for (int f = 0; f < cage->face_count; f++) {
+        int size = sdv_face_size(cage, f);
+        for (int i = 2; i < size; i++) {
+            *out++ = v[0];
+            *out++ = v[i - 1];
+            *out++ = v[i];
+        }
+        v += size;
+    }
 }
 
 // The faces of the cage, copied; under Loop cut into triangles when the options ask for it: fans
@@ -2973,19 +3353,11 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
         sdv_copy(work->face_vertices, cage->face_vertices, count, sizeof(int));
         return;
     }
-    const int *v = cage->face_vertices;
-    int *out = work->face_vertices;
+    sdv_cut(cage, cage->face_vertices, work->face_vertices);
     work->face_count = 0;
-    for (int f = 0; f < cage->face_count; f++) {
-        int size = sdv_face_size(cage, f);
-        for (int i = 2; i < size; i++) {
-            *out++ = v[0];
-            *out++ = v[i - 1];
-            *out++ = v[i];
+    for (int f = 0; f < cage->face_count; f++)
+        for (int i = sdv_face_size(cage, f); i > 2; i--)
             surface->cage_face[work->face_count++] = f;
-        }
-        v += size;
-    }
 }
 
 // Holes of faces that were cut: all their triangles.
@@ -3382,7 +3754,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
         else sdv_step_points(surface, level, &split, writer, step);
     }
     if (!last && !context->result)
-        sdv_split_level(context, next_arena, level, &split, next, rules->loop);
+        sdv_split_level(context, next_arena, level, &split, next, rules);
     if (!last && !context->result) surface->work_count = next->first_point + next->vertex_count;
     sdv_arena_free(&scratch);
 }
@@ -3421,28 +3793,34 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     sdv_arena_free(arena);
 }
 
-// What the result will be: counts and rules.
-static void sdv_prepare_result(subdiv_surface *surface, const subdiv_mesh *work, int keep_holes)
+// Where the points stand, for a cage that is known.
+static void sdv_set_order(subdiv_surface *surface)
 {
-    subdiv_mesh *fine = &surface->fine;
     sdv_order *order = &surface->order;
-    int n = 1 << surface->levels;
-    order->loop = work->scheme == SUBDIV_LOOP;
+    int n = 1 << surface->levels, vertices = surface->cage_vertex_count;
+    order->loop = surface->rules.loop;
     order->n = n;
     order->m = n / 2;
-    order->first_edge_point = work->vertex_count;
-    order->first_face_point = work->vertex_count + order->cage.edge_count * (n - 1);
-    fine->vertex_count = order->cage.face_count ? sdv_first_inside(order, order->cage.face_count)
-                                                : work->vertex_count;
+    order->first_edge_point = vertices;
+    order->first_face_point = vertices + order->cage.edge_count * (n - 1);
+    surface->fine.vertex_count =
+        order->cage.face_count ? sdv_first_inside(order, order->cage.face_count) : vertices;
+}
+
+// The faces of the result.
+static void sdv_count_fine_faces(subdiv_surface *surface, int keep_holes)
+{
+    subdiv_mesh *fine = &surface->fine;
+    const sdv_order *order = &surface->order;
     fine->face_size = order->loop ? 3 : 4;
-    for (int f = 0; f < order->cage.face_count; f++) {
+    for (int f = 0; f < surface->face_count; f++) {
         int size = sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f);
-        int parts = order->loop ? n * n : size * (order->m * order->m);
+        int parts = order->loop ? order->n * order->n : size * (order->m * order->m);
         surface->first_face[f] = fine->face_count;
         if (!surface->hole[f] || keep_holes) fine->face_count += parts;
         if (surface->hole[f] && keep_holes) fine->hole_count += parts;
     }
-    surface->first_face[order->cage.face_count] = fine->face_count;
+    surface->first_face[surface->face_count] = fine->face_count;
 }
 
 // Level 0: everything as it is.
@@ -3467,38 +3845,145 @@ static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, cons
     sdv_copy(fine->holes, work->holes, (size_t)work->hole_count, sizeof(int));
 }
 
-static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage,
-                        const subdiv_options *opt)
-{
-    subdiv_mesh work = *cage;
-    surface->cage_vertex_count = cage->vertex_count;
-    sdv_copy_faces(context, surface, &work, cage);
-    if (context->result) return;
-    sdv_cut_holes(context, surface, &work, cage);
-    sdv_check_size(context, &work, surface->levels, -1);
-    if (context->result) return;
-    surface->cage_face_count = work.face_count;
-    if (surface->levels == 0) {
-        sdv_prepare_copy(context, surface, &work);
-        return;
-    }
+// Values at the vertices of faces that are to be refined along.
+typedef struct sdv_values {
+    int        count;
+    const int *indices;                 // [face-vertices] -1: none
+    subdiv_uv_rule rule;
+} sdv_values;
 
-    sdv_cage built;
-    sdv_arena scratch = sdv_scratch();
-    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
-    sdv_check_size(context, &work, surface->levels, built.level.edge_count);
+static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
+{
+    sdv_arena arena = sdv_new_arena(0);
+    subdiv_surface *surface = SDV_NEW(context, &arena, subdiv_surface, 1);
+    if (!surface) return NULL;
+    memset(surface, 0, sizeof *surface);
+    surface->arena = arena;
+    surface->levels = levels;
+    return surface;
+}
+
+// Steps and patches of every level, still empty.
+static void sdv_new_levels(sdv_context *context, subdiv_surface *surface)
+{
     size_t levels = (size_t)surface->levels;
     surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
     surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
-    surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
+    if (context->result) return;
+    memset(surface->steps, 0, levels * sizeof *surface->steps);
+    memset(surface->patches, 0, levels * sizeof *surface->patches);
+}
+
+// The rules that all values share with the positions, and the faces that they are seen on.
+static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_surface *surface)
+{
+    made->rules = surface->rules;
+    made->order = surface->order;
+    made->fine = surface->fine;
+    made->fine.crease_count = made->fine.corner_count = made->fine.hole_count = 0;
+    made->face_count = surface->face_count;
+    made->first_face = SDV_NEW(context, &made->arena, int, (size_t)surface->face_count + 1);
+    made->own_face = SDV_NEW(context, &made->arena, int, surface->face_count);
+    if (context->result) return;
+    sdv_copy(made->first_face, surface->first_face, (size_t)surface->face_count + 1, sizeof(int));
+}
+
+// A surface of values over a surface that is being prepared from a cage.
+static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
+                               const subdiv_surface *surface, const subdiv_mesh *work,
+                               const sdv_cage *cage, const sdv_values *values)
+{
+    sdv_arena scratch = sdv_scratch();
+    sdv_seams seams;
+    subdiv_mesh shape = *work;
+    memset(&seams, 0, sizeof seams);
+    seams.cage = cage;
+    seams.values = values->indices;
+    seams.value_count = values->count;
+    seams.rule = values->rule;
+    sdv_like(context, made, surface);
+    sdv_new_levels(context, made);
+    if (!context->result)
+        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
+    shape.vertex_count = seams.level.vertex_count;
+    sdv_check_size(context, &shape, made->levels, seams.level.edge_count);
     if (context->result) {
         sdv_arena_free(&scratch);
         return;
     }
-    memset(surface->steps, 0, levels * sizeof *surface->steps);
-    memset(surface->patches, 0, levels * sizeof *surface->patches);
-    surface->order.cage = built.level;
-    surface->hole = built.hole;
+    made->source = seams.source;
+    made->cage_vertex_count = seams.level.vertex_count;
+    made->cage_face_count = seams.level.face_count;
+    made->order.cage = seams.level;
+    made->rules.linear |= values->rule == SUBDIV_UV_ALL;
+    made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES;
+    sdv_set_order(made);
+    sdv_prepare_levels(context, made, &seams.level, &scratch);
+}
+
+// Level 0 of values: as they are.
+static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const subdiv_mesh *work,
+                            const sdv_values *values)
+{
+    size_t count = sdv_face_vertex_count(work);
+    made->fine = *work;
+    made->fine.memory = NULL;
+    made->fine.vertex_count = made->cage_vertex_count = made->work_count = values->count;
+    made->cage_face_count = made->face_count = work->face_count;
+    made->fine.face_vertices = SDV_NEW(context, &made->arena, int, count);
+    if (!work->face_size) {
+        made->fine.face_sizes = SDV_NEW(context, &made->arena, int, work->face_count);
+        if (!context->result)
+            sdv_copy(made->fine.face_sizes, work->face_sizes, (size_t)work->face_count, sizeof(int));
+    }
+    if (!context->result)
+        sdv_copy(made->fine.face_vertices, values->indices, count, sizeof(int));
+}
+
+// Statements stand before the first fine face of their face, or of the next one that has any.
+static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
+                                const subdiv_mesh *cage)
+{
+    subdiv_mesh *fine = &surface->fine;
+    size_t count = (size_t)cage->statement_count, size = 0;
+    for (size_t i = 0; i < count; i++) size += strlen(cage->statements[i]) + 1;
+    char *text = SDV_NEW(context, &surface->arena, char, size);
+    fine->statement_count = cage->statement_count;
+    fine->statement_faces = SDV_NEW(context, &surface->arena, int, count);
+    fine->statements = SDV_NEW(context, &surface->arena, char *, count);
+    for (size_t i = 0, f = 0; i < count && !context->result; i++) {
+        int face = cage->statement_faces[i];
+        size_t faces = (size_t)surface->face_count;
+        while (f < faces && (surface->cage_face ? surface->cage_face[f] : (int)f) < face) f++;
+        fine->statement_faces[i] = surface->first_face ? surface->first_face[f] : (int)f;
+        fine->statements[i] = strcpy(text, cage->statements[i]);
+        text += strlen(text) + 1;
+    }
+}
+
+// UVs, colours and statements go with the surface.
+static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage)
+{
+    size_t uvs = 2 * (size_t)cage->uv_count;
+    size_t colors = cage->colors ? 3 * (size_t)cage->vertex_count : 0;
+    surface->uvs = SDV_NEW(context, &surface->arena, float, uvs);
+    if (colors) surface->colors = SDV_NEW(context, &surface->arena, float, colors);
+    if (context->result) return;
+    sdv_copy(surface->uvs, cage->uvs, uvs, sizeof(float));
+    sdv_copy(surface->colors, cage->colors, colors, sizeof(float));
+    surface->fine.uv_count = surface->uv ? surface->uv->fine.vertex_count : 0;
+    surface->fine.uvs = surface->fine.normals = NULL;
+    surface->fine.face_uvs = NULL;
+    surface->fine.colors = surface->colors;
+    sdv_keep_statements(context, surface, cage);
+}
+
+// The cage's rules, and what the result will be.
+static void sdv_set_rules(subdiv_surface *surface, const subdiv_mesh *cage, const sdv_cage *built,
+                          const subdiv_options *opt)
+{
+    surface->order.cage = built->level;
+    surface->hole = built->hole;
     surface->fine.scheme = cage->scheme;
     surface->fine.boundary = cage->boundary;
     surface->fine.creasing = cage->creasing;
@@ -3508,30 +3993,99 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     surface->rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     surface->rules.creasing = cage->creasing;
     surface->rules.triangles = cage->triangles;
-    sdv_prepare_result(surface, &work, opt && opt->keep_holes);
-    sdv_surviving_sharpness(context, surface, &built.level);
-    sdv_prepare_levels(context, surface, &built.level, &scratch);
+    sdv_set_order(surface);
+    sdv_count_fine_faces(surface, opt && opt->keep_holes);
+}
+
+// Prepares a surface for the positions and, in made, for values, if there are any; or, if
+// alone, just for the values.
+static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage,
+                        subdiv_surface *made, sdv_values values, int alone,
+                        const subdiv_options *opt)
+{
+    subdiv_mesh work = *cage;
+    sdv_cage built;
+    sdv_arena scratch = sdv_scratch();
+    surface->cage_vertex_count = cage->vertex_count;
+    sdv_copy_faces(context, surface, &work, cage);
+    if (context->result) return;
+    sdv_cut_holes(context, surface, &work, cage);
+    sdv_check_size(context, &work, surface->levels, -1);
+    surface->cage_face_count = surface->face_count = work.face_count;
+    if (made && surface->cage_face) {
+        int *indices = SDV_NEW(context, &surface->arena, int, sdv_face_vertex_count(&work));
+        if (!context->result) sdv_cut(cage, values.indices, indices);
+        values.indices = indices;
+    }
+    if (context->result) return;
+    if (surface->levels == 0) {
+        sdv_prepare_copy(context, surface, &work);
+        if (made && !context->result) sdv_copy_values(context, made, &work, &values);
+        return;
+    }
+
+    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
+    sdv_check_size(context, &work, surface->levels, built.level.edge_count);
+    sdv_new_levels(context, surface);
+    surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
+    if (!context->result) {
+        sdv_set_rules(surface, cage, &built, opt);
+        if (made) sdv_prepare_values(context, made, surface, &work, &built, &values);
+    }
+    if (!context->result && !alone) {
+        sdv_surviving_sharpness(context, surface, &built.level);
+        sdv_prepare_levels(context, surface, &built.level, &scratch);
+    }
+    sdv_arena_free(&scratch);
+}
+
+static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
+                              const subdiv_mesh *cage, int levels, const subdiv_options *opt)
+{
+    if (surface) *surface = NULL;
+    else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
+    if (levels < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
+    if (!context->result) sdv_check_mesh(context, cage);
+    if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
+        sdv_check_triangles(context, cage);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
                                         int levels, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    if (surface) *surface = NULL;
-    else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < 0) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
-    if (!context.result) sdv_check_mesh(&context, cage);
-    if (!context.result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
-        sdv_check_triangles(&context, cage);
-    if (context.result) return context.result;
-
-    sdv_arena arena = sdv_new_arena(0);
-    subdiv_surface *made = SDV_NEW(&context, &arena, subdiv_surface, 1);
+    sdv_check_request(&context, surface, cage, levels, opt);
+    if (!context.result) sdv_check_uvs(&context, cage);
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
-    memset(made, 0, sizeof *made);
-    made->arena = arena;
-    made->levels = levels;
-    sdv_prepare(&context, made, cage, opt);
+    sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
+    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
+    if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
+    if (!context.result) sdv_keep_data(&context, made, cage);
+    if (context.result) subdiv_surface_free(made);
+    else *surface = made;
+    return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
+                                                     const subdiv_mesh *cage, int value_count,
+                                                     const int *indices, subdiv_uv_rule rule,
+                                                     int levels, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_request(&context, surface, cage, levels, opt);
+    if (!context.result && (value_count < 1 || !indices))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT,
+                 indices ? "value_count is %d" : "indices is NULL", value_count);
+    if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
+    if (!context.result) sdv_check_indices(&context, cage, "value", value_count, indices);
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
+    subdiv_surface *shape = made ? sdv_new_surface(&context, levels) : NULL;
+    sdv_values values = { value_count, indices, rule };
+    if (made) made->is_values = 1;
+    if (shape) sdv_prepare(&context, shape, cage, made, values, 1, opt);
+    subdiv_surface_free(shape);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
@@ -3541,6 +4095,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
     if (!surface) return;
+    subdiv_surface_free(surface->uv);
     sdv_arena arena = surface->arena;
     sdv_arena_free(&arena);
 }
@@ -4098,7 +4653,8 @@ static void sdv_input_job(void *context, int job)
     int v = sdv_share(e->surface->cage_vertex_count, job, e->jobs);
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
     for (; v < end; v++) {
-        const float *in = e->in + e->in_stride * (size_t)v;
+        int from = e->surface->source ? e->surface->source[v] : v;
+        const float *in = e->in + e->in_stride * (size_t)from;
         for (int c = 0; c < (e->channels + 3) / 4 * 4; c++) {
             float *group = e->work + (size_t)(c / 4) * 4 * (size_t)e->surface->work_count;
             group[4 * (size_t)v + (size_t)(c & 3)] = c < e->channels ? in[c] : 0;
@@ -4304,49 +4860,67 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
-static size_t sdv_carve_mesh(subdiv_mesh *mesh, char *base, int result)
+static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base, int result)
 {
-    size_t size = 0, vertices = (size_t)mesh->vertex_count, faces = (size_t)mesh->face_count;
-    size_t creases = (size_t)mesh->crease_count, corners = (size_t)mesh->corner_count;
-    size_t face_vertices = sdv_face_vertex_count(mesh);
-    size_t sizes = mesh->face_size ? 0 : faces;
+    size_t size = 0, vertices = (size_t)model->vertex_count, faces = (size_t)model->face_count;
+    size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
+    size_t face_vertices = sdv_face_vertex_count(model), uvs = (size_t)model->uv_count, text = 0;
+    size_t statements = (size_t)model->statement_count;
+    for (size_t i = 0; i < statements; i++) text += strlen(model->statements[i]) + 1;
     mesh->positions = (float *)sdv_carve(base, &size, vertices, 3 * sizeof(float));
     mesh->face_vertices = (int *)sdv_carve(base, &size, face_vertices, sizeof(int));
+    mesh->face_sizes = (int *)sdv_carve(base, &size, model->face_size ? 0 : faces, sizeof(int));
     mesh->cage_faces = (int *)sdv_carve(base, &size, result ? faces : 0, sizeof(int));
     mesh->crease_vertices = (int *)sdv_carve(base, &size, creases, 2 * sizeof(int));
     mesh->crease_sharpness = (float *)sdv_carve(base, &size, creases, sizeof(float));
     mesh->corner_vertices = (int *)sdv_carve(base, &size, corners, sizeof(int));
     mesh->corner_sharpness = (float *)sdv_carve(base, &size, corners, sizeof(float));
-    mesh->holes = (int *)sdv_carve(base, &size, (size_t)mesh->hole_count, sizeof(int));
-    int *face_sizes = (int *)sdv_carve(base, &size, sizes, sizeof(int));
-    if (base) mesh->face_sizes = face_sizes;
+    mesh->holes = (int *)sdv_carve(base, &size, (size_t)model->hole_count, sizeof(int));
+    mesh->uvs = (float *)sdv_carve(base, &size, uvs, 2 * sizeof(float));
+    mesh->face_uvs = (int *)sdv_carve(base, &size, uvs ? face_vertices : 0, sizeof(int));
+    mesh->colors = (float *)sdv_carve(base, &size, model->colors ? vertices : 0, 3 * sizeof(float));
+    mesh->normals = (float *)sdv_carve(base, &size, model->normals ? vertices : 0,
+                                       3 * sizeof(float));
+    mesh->statement_faces = (int *)sdv_carve(base, &size, statements, sizeof(int));
+    mesh->statements = (char **)sdv_carve(base, &size, statements, sizeof(char *));
+    char *texts = (char *)sdv_carve(base, &size, text, 1);
+    for (size_t i = 0; texts && i < statements; i++) {
+        mesh->statements[i] = strcpy(texts, model->statements[i]);
+        texts += strlen(texts) + 1;
+    }
     return size;
 }
 
-// A mesh like the model, with room for positions and faces, of a result also for cage_faces; the
-// lists that the model has are copied.
+// A mesh like the model, with room for positions and faces, of a result also for cage_faces; what
+// else the model has is copied.
 static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
                          int result)
 {
     *mesh = *model;
-    sdv_block *block = sdv_allocate(context, sdv_carve_mesh(mesh, NULL, result));
+    sdv_block *block = sdv_allocate(context, sdv_carve_mesh(mesh, model, NULL, result));
     if (!block) {
         memset(mesh, 0, sizeof *mesh);
         return;
     }
     mesh->memory = block;
-    sdv_carve_mesh(mesh, (char *)(block + 1), result);
+    sdv_carve_mesh(mesh, model, (char *)(block + 1), result);
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
-    if (model->crease_vertices) {
-        sdv_copy(mesh->crease_vertices, model->crease_vertices, creases, 2 * sizeof(int));
-        sdv_copy(mesh->crease_sharpness, model->crease_sharpness, creases, sizeof(float));
-    }
-    if (model->corner_vertices) {
-        sdv_copy(mesh->corner_vertices, model->corner_vertices, corners, sizeof(int));
-        sdv_copy(mesh->corner_sharpness, model->corner_sharpness, corners, sizeof(float));
-    }
-    if (mesh->face_sizes)
-        sdv_copy(mesh->face_sizes, model->face_sizes, (size_t)model->face_count, sizeof(int));
+    size_t vertices = (size_t)model->vertex_count, uvs = (size_t)model->uv_count;
+    const struct { void *to; const void *from; size_t count, item; } lists[] = {
+        { mesh->face_sizes, model->face_sizes, (size_t)model->face_count, sizeof(int) },
+        { mesh->crease_vertices, model->crease_vertices, creases, 2 * sizeof(int) },
+        { mesh->crease_sharpness, model->crease_sharpness, creases, sizeof(float) },
+        { mesh->corner_vertices, model->corner_vertices, corners, sizeof(int) },
+        { mesh->corner_sharpness, model->corner_sharpness, corners, sizeof(float) },
+        { mesh->uvs, model->uvs, uvs, 2 * sizeof(float) },
+        { mesh->face_uvs, model->face_uvs, sdv_face_vertex_count(model), sizeof(int) },
+        { mesh->colors, result ? NULL : model->colors, vertices, 3 * sizeof(float) },
+        { mesh->normals, result ? NULL : model->normals, vertices, 3 * sizeof(float) },
+        { mesh->statement_faces, model->statement_faces, (size_t)model->statement_count,
+          sizeof(int) } };
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        if (lists[i].to && lists[i].from)
+            sdv_copy(lists[i].to, lists[i].from, lists[i].count, lists[i].item);
 }
 
 // Jobs that write faces: the vertices of each and, unless NULL, the cage face it belongs to.
@@ -4360,12 +4934,15 @@ static void sdv_fine_faces_job(void *context, int job)
 {
     const sdv_faces_out *out = (const sdv_faces_out *)context;
     const subdiv_surface *surface = out->surface;
-    int end = sdv_share(surface->cage_face_count, job + 1, out->jobs);
-    for (int f = sdv_share(surface->cage_face_count, job, out->jobs); f < end; f++) {
+    int end = sdv_share(surface->face_count, job + 1, out->jobs);
+    for (int f = sdv_share(surface->face_count, job, out->jobs); f < end; f++) {
         int first = surface->first_face[f], last = surface->first_face[f + 1];
+        int own = surface->own_face ? surface->own_face[f] : f;
+        size_t size = (size_t)surface->fine.face_size;
+        int *vertices = out->face_vertices + (size_t)first * size;
         if (first == last) continue;
-        sdv_fine_faces(&surface->order, f,
-                       out->face_vertices + (size_t)first * (size_t)surface->fine.face_size);
+        if (own >= 0) sdv_fine_faces(&surface->order, own, vertices);
+        for (size_t i = 0; own < 0 && i < (size_t)(last - first) * size; i++) vertices[i] = -1;
         int cage_face = surface->cage_face ? surface->cage_face[f] : f;
         for (int i = first; i < last && out->cage_faces; i++) out->cage_faces[i] = cage_face;
     }
@@ -4387,7 +4964,7 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertice
         sdv_copy_faces_out(surface, face_vertices, cage_faces);
         return;
     }
-    out.jobs = sdv_jobs(surface->cage_face_count, 1);
+    out.jobs = sdv_jobs(surface->face_count, 1);
     sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
 }
 
@@ -4444,12 +5021,28 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     return 4096;
 }
 
+// UVs and colours of the result.
+static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surface,
+                                   const subdiv_options *opt)
+{
+    subdiv_result result = SUBDIV_OK;
+    if (surface->uv) {
+        sdv_make_fine_faces(surface->uv, made->face_uvs, NULL, opt);
+        result = subdiv_evaluate(surface->uv, 2, surface->uvs, 2, made->uvs, 2, NULL, opt);
+    }
+    if (surface->colors && !result)
+        result = subdiv_evaluate(surface, 3, surface->colors, 3, made->colors, 3, NULL, opt);
+    return result;
+}
+
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
                                              const float *positions, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (surface->is_values)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
     if (context.result) return context.result;
 
     subdiv_mesh made;
@@ -4462,6 +5055,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
         sdv_fill_holes(surface, made.holes);
         context.result = subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
+    if (!context.result) context.result = sdv_make_data(&made, surface, opt);
     if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
     sdv_arena_free(&arena);
     if (context.result) subdiv_mesh_free(&made);
@@ -4735,20 +5329,6 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, fl
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no smoothing groups");
     return sdv_generator_end(&context, &generator, mesh,
                              known ? sdv_groups_differ : NULL, sharpness);
-}
-
-static void sdv_check_uvs(sdv_context *context, const subdiv_mesh *mesh)
-{
-    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
-    sdv_check_array(context, "face_uvs", mesh->uv_count > 0 ? mesh->face_count : 0,
-                    mesh->face_uvs);
-    const int *uv = mesh->face_uvs;
-    for (int f = 0; f < mesh->face_count && mesh->uv_count > 0 && !context->result; f++)
-        for (int i = sdv_face_size(mesh, f); i > 0; i--, uv++)
-            if (*uv < -1 || *uv >= mesh->uv_count)
-                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                              "face %d: UV %d does not exist (the mesh has %d)",
-                              f, *uv, mesh->uv_count);
 }
 
 static int sdv_uvs_differ(const subdiv_mesh *mesh, int h, int g)
