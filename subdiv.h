@@ -3206,11 +3206,12 @@ static void sdv_seam_sharpness(sdv_seams *seams)
                 ? SDV_IMPLIED : cage->vertex_sharpness[v];
         }
         if (!plus || !around.seam || around.values != 2) continue;
-        // Two values at a seam are semi-sharp together.
+        // Two values at a seam are semi-sharp together, unless the vertex itself is sharp.
         int a = around.own[0], b = around.own[1];
         int of_a = sdv_inner_crease(level, a) < 0, of_b = sdv_inner_crease(level, b) < 0;
-        if (level->vertex_sharpness[a] < SUBDIV_INFINITE && of_a != of_b)
-            level->partner[of_a ? b : a] = of_a ? a : b;
+        int without = of_a ? b : a;
+        if (of_a != of_b && level->vertex_sharpness[without] <= 0)
+            level->partner[without] = of_a ? a : b;
     }
 }
 

@@ -1,5 +1,5 @@
 // Compares subdiv_refine with OpenSubdiv, level by level: the faces and their order, the holes, the
-// map to the cage, the sharpness that is left, and the positions. Needs libosd (-losdCPU).
+// map to the cage, the sharpness that is left, the positions, and UVs. Needs libosd (-losdCPU).
 //
 //     opensubdiv [--random N] [--seed S] [--levels a-b] [--scheme catmull-clark|loop|bilinear]
 //                [file.obj ...]
@@ -54,6 +54,7 @@ typedef std::map<int, float> Corners;
 // One level of OpenSubdiv's result and how it lies in the order of ours.
 struct Level {
     std::vector<Point> points;             // by vertex
+    std::vector<Point> uvs;                // by face-varying value
     std::vector<order_place> places;       // by face
     std::vector<char> edges_merely;        // by edge: infinite merely as it is a boundary or
     std::vector<char> vertices_merely;     // by vertex            non-manifold, not by the lists
@@ -67,7 +68,7 @@ struct Reference {
 };
 
 struct Totals {
-    long long vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0, put_right = 0;
+    long long uvs = 0, vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0, put_right = 0;
     double largest_error = 0;
     std::map<std::string, long> skips;
 };
@@ -90,6 +91,11 @@ static Sdc::Options sdc_options(const subdiv_mesh &cage)
                                                 Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
     options.SetCreasingMethod(cage.creasing == SUBDIV_CREASING_CHAIKIN
                               ? Sdc::Options::CREASE_CHAIKIN : Sdc::Options::CREASE_UNIFORM);
+    const Sdc::Options::FVarLinearInterpolation uv_rules[] = {
+        Sdc::Options::FVAR_LINEAR_CORNERS_ONLY, Sdc::Options::FVAR_LINEAR_CORNERS_PLUS1,
+        Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2, Sdc::Options::FVAR_LINEAR_BOUNDARIES,
+        Sdc::Options::FVAR_LINEAR_ALL, Sdc::Options::FVAR_LINEAR_NONE };
+    options.SetFVarLinearInterpolation(uv_rules[cage.uv_rule]);
     options.SetTriangleSubdivision(cage.triangles == SUBDIV_TRIANGLES_SMOOTH
                                    ? Sdc::Options::TRI_SUB_SMOOTH : Sdc::Options::TRI_SUB_CATMARK);
     return options;
@@ -113,6 +119,11 @@ static Far::TopologyRefiner *make_refiner(const subdiv_mesh &cage, int levels)
     d.cornerWeights = cage.corner_sharpness;
     d.numHoles = cage.hole_count;
     d.holeIndices = cage.holes;
+    Far::TopologyDescriptor::FVarChannel uvs;
+    uvs.numValues = cage.uv_count;
+    uvs.valueIndices = cage.face_uvs;
+    d.numFVarChannels = cage.uv_count > 0;
+    d.fvarChannels = &uvs;
 
     const Sdc::SchemeType scheme = cage.scheme == SUBDIV_LOOP ? Sdc::SCHEME_LOOP :
                                    cage.scheme == SUBDIV_BILINEAR ? Sdc::SCHEME_BILINEAR :
@@ -248,6 +259,39 @@ static void find_points(Reference &ref, const subdiv_mesh &cage, int l)
                                                ref.refiner->GetLevel(l), parents, points);
 }
 
+static void find_uvs(Reference &ref, const subdiv_mesh &cage, int l)
+{
+    std::vector<Point> &uvs = ref.levels[(size_t)l].uvs;
+    if (cage.uv_count == 0) return;
+    uvs.resize((size_t)ref.refiner->GetLevel(l).GetNumFVarValues(0));
+    if (l == 0) {
+        for (int i = 0; i < 2 * cage.uv_count; i++)
+            uvs[(size_t)i / 2].p[i % 2] = (double)cage.uvs[i];
+        return;
+    }
+    const Far::PrimvarRefinerReal<double> primvars(*ref.refiner);
+    Point *to = uvs.data();
+    primvars.InterpolateFaceVarying(l, ref.levels[(size_t)l - 1].uvs, to, 0);
+}
+
+// Where the values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
+static bool has_alternating_values(const Far::TopologyLevel &level)
+{
+    for (int v = 0; v < level.GetNumVertices() && level.GetNumFVarChannels(); v++) {
+        const Far::ConstIndexArray faces = level.GetVertexFaces(v);
+        const Far::ConstLocalIndexArray at = level.GetVertexFaceLocalIndices(v);
+        std::vector<int> seen;
+        for (int i = 0, last = -1; i < faces.size(); i++) {
+            const int value = level.GetFaceFVarValues(faces[i], 0)[at[i]];
+            const auto found = std::find(seen.begin(), seen.end(), value);
+            if (found == seen.end()) seen.push_back(value);
+            else if (value != last && seen.size() == 2 && value == seen[1]) return true;
+            last = value;
+        }
+    }
+    return false;
+}
+
 // Around a vertex that a face uses twice, OpenSubdiv's walk can pass an edge twice and miss
 // another. It then takes the vertex for manifold, with masks that fail an assertion or read past
 // the ring.
@@ -270,11 +314,14 @@ static const char *make_reference(Reference &ref, const subdiv_mesh &cage, int l
     if (!ref.refiner) return "cages that OpenSubdiv refuses";
     if (has_broken_ring(ref.refiner->GetLevel(0)))
         return "cages where OpenSubdiv takes a vertex that a face repeats for manifold";
+    if (has_alternating_values(ref.refiner->GetLevel(0)))
+        return "cages where OpenSubdiv takes alternating UVs for more than there are";
     ref.levels.resize((size_t)levels + 1);
     for (int l = 0; l <= levels; l++) {
         find_places(ref, cage.scheme, l);
         find_merely_infinite(ref, cage, l);
         find_points(ref, cage, l);
+        find_uvs(ref, cage, l);
     }
     return nullptr;
 }
@@ -373,6 +420,52 @@ static void compare_positions(const Level &level, const std::vector<int> &ours,
 
 // The sharpness that OpenSubdiv has left, under our numbers; without the edges of hidden faces
 // alone when these are left out.
+// The same values at each vertex of each face; equal indices where OpenSubdiv's are.
+static void compare_uvs(const Reference &ref, const order &o, int l, const subdiv_mesh &fine,
+                        bool keep_holes)
+{
+    const Level &here = ref.levels[(size_t)l];
+    const Far::TopologyLevel &level = ref.refiner->GetLevel(l);
+    const int size = o.cage->scheme == SUBDIV_LOOP ? 3 : 4;
+    std::vector<int> ours(here.uvs.size(), -1), theirs((size_t)fine.uv_count, -1);
+    double extent = 0;
+    for (int k = 0; k < 2; k++) {
+        float low = o.cage->uvs[k], high = low;
+        for (int i = 0; i < o.cage->uv_count; i++) {
+            low = std::min(low, o.cage->uvs[2 * i + k]);
+            high = std::max(high, o.cage->uvs[2 * i + k]);
+        }
+        extent = std::max(extent, (double)high - (double)low);
+    }
+    for (int i = 0; i < level.GetNumFaces(); i++) {
+        const order_place p = here.places[(size_t)i];
+        if (ref.hidden[(size_t)p.face] && !keep_holes) continue;
+        const int *own = fine.face_uvs + size * order_face(&o, p);
+        const Far::ConstIndexArray their = level.GetFaceFVarValues(i, 0);
+        for (int j = 0; j < size; j++) {
+            const int a = own[j], b = their[j];
+            if (a < 0 || a >= fine.uv_count) {
+                TEST_REPORT("fine face %d has UV %d of %d", order_face(&o, p), a, fine.uv_count);
+                return;
+            }
+            if (l > 0 && ours[(size_t)b] < 0 && theirs[(size_t)a] < 0) {
+                ours[(size_t)b] = a;
+                theirs[(size_t)a] = b;
+                totals.uvs++;
+            }
+            if (l > 0 && (ours[(size_t)b] != a || theirs[(size_t)a] != b))
+                TEST_REPORT("a vertex of face %d has UV %d, OpenSubdiv's %d is UV %d",
+                            p.face, a, b, ours[(size_t)b]);
+            for (int k = 0; k < 2; k++) {
+                const double error = fabs((double)fine.uvs[2 * a + k] - here.uvs[(size_t)b].p[k]);
+                if (!(error <= position_tolerance * extent))
+                    TEST_REPORT("face %d: a UV is %.7g, OpenSubdiv's %.7g", p.face,
+                                (double)fine.uvs[2 * a + k], here.uvs[(size_t)b].p[k]);
+            }
+        }
+    }
+}
+
 static Creases their_creases(const Reference &ref, int l, const std::vector<int> &ours,
                              bool keep_holes)
 {
@@ -441,6 +534,8 @@ static void compare_result(const Reference &ref, const order &o, int l, const su
     compare_faces(ref, o, l, fine, keep_holes);
     compare_sharpness(their_creases(ref, l, ours, keep_holes), their_corners(ref, l, ours), fine);
     compare_positions(ref.levels[(size_t)l], ours, *o.cage, fine);
+    if (o.cage->uv_count && !ref.put_right)      // UVs would have to be put right, too
+        compare_uvs(ref, o, l, fine, keep_holes);
     totals.vertices += fine.vertex_count;
     totals.faces += fine.face_count;
 }
@@ -547,6 +642,10 @@ static void compare_file(const std::string &path, int scheme, int first, int las
     if (cage.scheme == SUBDIV_CATMULL_CLARK)
         compare_cage(cage, first, last, path + ", triangles " + std::to_string(cage.triangles));
     cage.triangles = original.triangles;
+    for (int r = SUBDIV_UV_CORNERS_ONLY; r <= SUBDIV_UV_NONE && cage.uv_count; r++) {
+        cage.uv_rule = (subdiv_uv_rule)r;
+        compare_cage(cage, first, last, path + ", UV rule " + std::to_string(r));
+    }
     subdiv_mesh_free(&cage);
 }
 

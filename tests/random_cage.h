@@ -23,7 +23,8 @@ enum {
     RANDOM_MANIFOLD    = 255,         // all of the above: every edge and vertex is manifold
     RANDOM_NONMANIFOLD = 256,         // fins, shared vertices, flipped and duplicate faces
     RANDOM_DEGENERATE  = 512,         // repeated vertices, isolated ones, creases without an edge
-    RANDOM_ALL         = 1023
+    RANDOM_UVS         = 1024,        // UVs with seams, any rule
+    RANDOM_ALL         = 2047
 };
 
 enum {
@@ -34,7 +35,8 @@ enum {
     RANDOM_MAX_EDGES    = 2048,
     RANDOM_MAX_CREASES  = 512,
     RANDOM_MAX_CORNERS  = 32,
-    RANDOM_MAX_HOLES    = 16
+    RANDOM_MAX_HOLES    = 16,
+    RANDOM_MAX_UVS      = RANDOM_MAX_FACES * RANDOM_MAX_SIZE
 };
 
 typedef struct random_edge {
@@ -51,6 +53,8 @@ typedef struct random_cage {
     int   corner_vertices[RANDOM_MAX_CORNERS];
     float corner_sharpness[RANDOM_MAX_CORNERS];
     int   holes[RANDOM_MAX_HOLES];
+    float uvs[2 * RANDOM_MAX_UVS];
+    int   face_uvs[RANDOM_MAX_FACES * RANDOM_MAX_SIZE];
 
     unsigned long long state;         // of the generator; the rest is the cage while it is made
     int features;
@@ -732,13 +736,47 @@ static inline void random_fill_mesh(random_cage *c)
     c->mesh.holes = c->holes;
 }
 
+// ---------------------------------------------------------------------------------------- UVs
+
+// Cuts the UVs open along random walks, around random faces and at random vertices: gives some of the
+// faces at a vertex a value of their own. Sometimes vertices share a value.
+static inline void random_add_uvs(random_cage *c)
+{
+    subdiv_mesh *m = &c->mesh;
+    const int total = c->vertex_count, cuts = random_below(c, 2 + c->face_count);
+    int count = total, start[RANDOM_MAX_FACES + 1] = {0};
+    for (int f = 0; f < c->face_count; f++) start[f + 1] = start[f] + c->face_sizes[f];
+    for (int h = 0; h < start[c->face_count]; h++) c->face_uvs[h] = c->face_vertices[h];
+    for (int i = 0; i < cuts && count + RANDOM_MAX_SIZE < RANDOM_MAX_UVS; i++) {
+        const int f = random_below(c, c->face_count), size = c->face_sizes[f];
+        const int h = start[f] + random_below(c, size), kind = random_below(c, 4);
+        if (kind == 0) {                              // an island
+            for (int j = 0; j < size; j++) c->face_uvs[start[f] + j] = count++;
+        } else if (kind == 1) {                       // some faces at a vertex
+            const int value = c->face_uvs[h];
+            for (int g = 0; g < start[c->face_count]; g++)
+                if (c->face_uvs[g] == value && random_chance(c, 50)) c->face_uvs[g] = count;
+            count++;
+        } else if (kind == 2) {                       // one face
+            c->face_uvs[h] = count++;
+        } else if (random_chance(c, 20)) {            // shared by vertices
+            c->face_uvs[h] = c->face_uvs[random_below(c, start[c->face_count])];
+        }
+    }
+    for (int i = 0; i < 2 * count; i++) c->uvs[i] = random_real(c, 0, 1);
+    m->uv_count = count;
+    m->uvs = c->uvs;
+    m->face_uvs = c->face_uvs;
+    m->uv_rule = (subdiv_uv_rule)random_below(c, 6);
+}
+
 // ------------------------------------------------------------------------------------- Making
 
 // Drops some of the allowed features, the odder ones more often.
 static inline void random_choose_features(random_cage *c)
 {
-    const int keep[] = { 70, 70, 75, 50, 25, 75, 30, 10, 30, 15 };
-    for (int i = 0; i < 10; i++)
+    const int keep[] = { 70, 70, 75, 50, 25, 75, 30, 10, 30, 15, 60 };
+    for (int i = 0; i < 11; i++)
         if (!random_chance(c, keep[i])) c->features &= ~(1 << i);
     if (c->features & RANDOM_LOOP) c->mesh.scheme = SUBDIV_LOOP;
     else if (c->features & RANDOM_BILINEAR) c->mesh.scheme = SUBDIV_BILINEAR;
@@ -799,6 +837,7 @@ static inline random_cage *random_cage_new(unsigned seed, int features)
     if (c->features & RANDOM_CORNERS) random_add_corners(c);
     if (c->features & RANDOM_HOLES) random_add_holes(c);
     random_fill_mesh(c);
+    if (c->features & RANDOM_UVS) random_add_uvs(c);
     free(before);
     return c;
 }
