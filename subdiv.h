@@ -3237,14 +3237,14 @@ static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv
     }
 }
 
-static void sdv_seam_origins(sdv_context *context, sdv_arena *scratch, sdv_seams *seams, int levels)
+static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                             sdv_seams *seams, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
     level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
     level->origin_count = cage->vertex_count;
-    level->sums = SDV_NEW(context, scratch, float,
-                          2 * (size_t)cage->vertex_count * (size_t)levels);
+    level->sums = SDV_NEW(context, keep, float, 2 * (size_t)cage->vertex_count * (size_t)levels);
     if (context->result) return;
     for (int i = 0; i < level->vertex_count; i++) level->origin[i] = -1;
     for (int h = 0; h < level->face_vertex_count; h++)
@@ -3270,7 +3270,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
-    if (chaikin) sdv_seam_origins(context, scratch, seams, levels);
+    if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
     memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
     for (int h = 0; h < level->face_vertex_count; h++)
