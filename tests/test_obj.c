@@ -73,6 +73,8 @@ static subdiv_result load(subdiv_mesh *mesh, const char *text, subdiv_error *err
 #define V4 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 #define QUAD V4 "f 1 2 3 4\n"
 #define TWO QUAD "f 1 2 3\n"
+#define VT4 "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+#define UVS V4 VT4 "f 1/1 2/2 3/3 4/4\n"
 
 // Each text is another way to write the same mesh, without a warning.
 typedef struct same_text {
@@ -120,17 +122,23 @@ static void test_plain_quad(void)
 static void test_face_forms(void)
 {
     static const same_text pairs[] = {
-        {V4 "f 1/1 2/2 3/3 4/4\n", QUAD},
         {V4 "f 1//1 2//2 3//3 4//4\n", QUAD},
-        {V4 "f 1/1/1 2/2/2 3/3/3 4/4/4\n", QUAD},
         {V4 "f 1/ 2/ 3/ 4/\n", QUAD},
         {V4 "f 1// 2// 3// 4//\n", QUAD},
-        {V4 "f 1/1/ 2/2/ 3/3/ 4/4/\n", QUAD},
-        {V4 "f 1 2/2 3//3 4/4/4\n", QUAD},
-        {V4 "f 1/9/9 2/-9/-9 3/0/0 4\n", QUAD},
-        {V4 "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\n", QUAD},
+        {V4 "f 1 2/ 3// 4//4\n", QUAD},
+        {V4 "f 1//9 2//-9 3//0 4\n", QUAD},
+        {V4 "f 1//99999999999999999999 2//-2147483648 3 4\n", QUAD},
+        {V4 "vt 0 0\nvn 0 0 1\nf 1 2 3 4\n", QUAD},
         {V4 "f -4 -3 -2 -1\n", QUAD},
-        {V4 "f -4/-1 -3/-1 -2//-1 -1/-1/-1\n", QUAD},
+        {V4 "f -4// -3//-1 -2/ -1\n", QUAD},
+        {V4 VT4 "f 1/1/1 2/2/2 3/3/3 4/4/4\n", UVS},
+        {V4 VT4 "f 1/1/ 2/2/ 3/3/ 4/4/\n", UVS},
+        {V4 VT4 "f 1/1 2/2/ 3/3/3 4/4/-7\n", UVS},
+        {V4 VT4 "f -4/-4 -3/-3/0 -2/3 4/-1\n", UVS},
+        {V4 VT4 "f\t1/+1   2/02 3/3\\\n4/4\n", UVS},
+        {"f 1/1 2/2 3/3 4/4\n" VT4 V4, UVS},
+        {"vt 0 0\n" V4 "f 1/-1 2/2 3/3 4/4\nvt 1 0\nvt 1 1\nvt 0 1\n", UVS},
+        {VT4 "vt 7 7\n" V4 "f 1/1 2/2 3/3 4/4\n", V4 VT4 "vt 7 7\nf 1/1 2/2 3/3 4/4\n"},
         {V4 "f +1 +2 +3 +4\n", QUAD},
         {V4 "f 01 0002 3 4\n", QUAD},
         {V4 "f 1 -3 3 -1\n", QUAD},
@@ -148,15 +156,28 @@ static void test_face_forms(void)
     CHECK_SAME_TEXTS(pairs);
 }
 
+#define RED "v 0 0 0 1 0 0\nv 1 0 0 .5 .25 1e-3\nv 1 1 0 1 1 1\nv 0 1 0 0 0 0\nf 1 2 3 4\n"
+
 static void test_vertex_forms(void)
 {
     static const same_text pairs[] = {
         {"v 0 0 0 1\nv 1 0 0 0.5\nv 1 1 0 2\nv 0 1 0 1\nf 1 2 3 4\n", QUAD},
-        {"v 0 0 0 .1 .2 .3\nv 1 0 0 1 1 1\nv 1 1 0 0 0 0\nv 0 1 0 1 0 1\nf 1 2 3 4\n", QUAD},
-        {"v 0 0 0 1 1 1 1\nv 1 0 0 1 1 1 1\nv 1 1 0 1 1 1 1\nv 0 1 0 1 1 1 1\nf 1 2 3 4\n", QUAD},
+        {"v 0 0 0 .1 .2 .3 .4 .5\nv 1 0 0 1 1\nv 1 1 0 0\nv 0 1 0 1 1 1 1 1 1 1 1\nf 1 2 3 4\n",
+         QUAD},
         {"v .0 0. +0\nv 1e0 0e5 0E-5\nv 1.000 10e-1 0.0\nv 000 .1e+1 0\nf 1 2 3 4\n", QUAD},
         {"v 0 0 0e999999999999\nv 1 0 0\nv 1 1 0\nv 0 1 1e-99999999999\nf 1 2 3 4\n", QUAD},
         {"v\t0\t0\t0\n  v 1 0 0\n\tv 1 1 0\n \t v 0 1 0\n f 1 2 3 4\n", QUAD},
+        {"v  0  0 0 \nv   1 0   0\nv 1 1 0  \r\nv 0 1 0\t\nf  1  2 3   4  \r\n", QUAD},
+        {"v 0 0 0 1 0 0 1\nv 1 0 0 .5 .25 1e-3 0.5\nv 1 1 0 1 1 1 0\nv 0 1 0 0 0 0 7\nf 1 2 3 4\n",
+         RED},
+        {"v 0 0 0 1 0 0\nv 1 0 0 .5 .25 .001\nv 1 1 0\nv 0 1 0 0 0 0\nf 1 2 3 4\n", RED},
+        {"v 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0 1 1 1\nf 1 2 3 4\n",
+         "v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3 4\n"},
+        {"v 0 0 0 1 0 0#red\nv 1 0 0 .5 .25 \\\n1e-3\nv 1 1 0 1 1 1 # white\n"
+         "v 0 1 0 0 0 0\nf 1 2 3 4\n", RED},
+        {V4 "vt\t0 0\nvt 1\nvt 1 1 0.5 # w\nvt 0 1 1 2 3\nf 1/1 2/2 3/3 4/4\n", UVS},
+        {V4 "vt 0\nvt +1e0 .0\n  vt 1 1 -1e30\\\n0\nvt -0e9 1.\nf 1/1 2/2 3/3 4/4\n",
+         V4 "vt 0 0\nvt 1 0\nvt 1 1\nvt -0 1\nf 1/1 2/2 3/3 4/4\n"},
     };
     CHECK_SAME_TEXTS(pairs);
 }
@@ -194,18 +215,129 @@ static void test_lines(void)
     CHECK_SAME_TEXTS(pairs);
 }
 
+// What is not kept: one warning for each kind, which names the first line and the count.
+typedef struct other {
+    const char *text;
+    int warning_count;
+    const char *warning;
+} other;
+
 static void test_other_keywords(void)
 {
-    static const same_text pairs[] = {
-        {"mtllib a b.mtl\no name of it\ng\ng a b\ns off\ns 1\nusemtl red\n" QUAD "l 1 2\np 1\n",
-         QUAD},
-        {"vt 0\nvt 0 0\nvt 0 0 0\nvn 0 0 1\nvp 1 2\nvertex 1 2 3\n" QUAD, QUAD},
-        {V4 "vn nan x\nvt\nl 1/1 2/2\np 99\nf 1 2 3 4\nfoo bar\nface 1 2\nlod 3\nbevel on\n", QUAD},
-        {"cstype bspline\ndeg 3 3\n" V4 "curv 0 1 1 2\nsurf 0 1 0 1 9 9\nparm u 0 1\nend\n"
-         "call x.obj\nf 1 2 3 4\n", QUAD},
-        {QUAD "V 1 2 3\nF 1 2 3\nT crease 2/1/0 0 1 2\ntrace_obj x\n", QUAD},
+    static const other cases[] = {
+        {QUAD "vn 0 0 1\nvn nan x\nvn\n", 0, ""},
+        {QUAD "l 1 2\np 1\nl 1/1 2/2\np 99\n", 1, "line 6: 4 points and lines"},
+        {"vp 1 2\ncstype bspline\ndeg 3 3\n" V4 "curv 0 1 1 2\nsurf 0 1 0 1 9 9\nparm u 0 1\nend\n"
+         "f 1 2 3 4\n", 1, "line 1: 7 free-form"},
+        {V4 "vertex 1 2 3\ncall x.obj\nf 1 2 3 4\nfoo bar\nface 1 2\nlod 3\nbevel on\n", 1,
+         "line 5: 6 statements with unknown"},
+        {QUAD "V 1 2 3\nF 1 2 3\nT crease 2/1/0 0 1 2\ntrace_obj x\n", 1, "line 6: 4 statements"},
+        {"foo \\\nv 9 9 9\n" QUAD "l 1 2\nend\nfoo # \\\nend", 3, "line 8: 1 points"},
+        {"vt 0 0\nvt 0\n" QUAD, 0, ""},
     };
-    CHECK_SAME_TEXTS(pairs);
+    subdiv_mesh plain;
+    subdiv_error error;
+    CHECK_EQUAL(load(&plain, QUAD, &error), SUBDIV_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        CHECK_EQUAL(error.warning_count, cases[i].warning_count);
+        if (strncmp(error.warning, cases[i].warning, strlen(cases[i].warning)) != 0)
+            TEST_REPORT("\"%s\" does not begin with \"%s\"", error.warning, cases[i].warning);
+        CHECK(same_mesh(&mesh, &plain));
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
+    subdiv_mesh_free(&plain);
+}
+
+// ----------------------------------------------------------------------------- UVs and statements
+
+// The UV indices of the faces that a text gives, a face each: "0 1 2;3 4 -1;".
+typedef struct uv_case {
+    const char *text;
+    int uv_count;
+    const char *face_uvs;
+    int warning_count;
+    const char *warning;
+} uv_case;
+
+static void list_uvs(const subdiv_mesh *m, char *text)
+{
+    const int *uv = m->face_uvs;
+    *text = 0;
+    for (int f = 0; f < m->face_count && uv; f++)
+        for (int i = 0; i < size_of_face(m, f); i++, uv++)
+            sprintf(text + strlen(text), "%d%c", *uv, i + 1 < size_of_face(m, f) ? ' ' : ';');
+}
+
+static void test_faces_without_uvs(void)
+{
+    static const uv_case cases[] = {
+        {QUAD, 0, "", 0, ""},
+        {VT4 QUAD, 0, "", 0, ""},
+        {UVS, 4, "0 1 2 3;", 0, ""},
+        {UVS "f 1 2 3\n", 4, "0 1 2 3;-1 -1 -1;", 1, "line 10: 1 of 2 faces"},
+        {V4 VT4 "f 1 2 3\nf 2 3 4\nf 1/4 2/3 3/2\nf 1 3 4\n", 4,
+         "-1 -1 -1;-1 -1 -1;3 2 1;-1 -1 -1;", 1, "line 9: 3 of 4 faces"},
+        {V4 VT4 "f 1/1 2/2 3\nf 1 2/1 3/1\nf 1/1 2 3/4 4/2\nf 4/4 3/3 1/1\n", 4,
+         "-1 -1 -1;-1 -1 -1;-1 -1 -1 -1;3 2 0;", 1, "line 9: 3 of 4 faces"},
+        {V4 VT4 "f 1/1 2/2 3//\n", 0, "", 1, "line 9: no face has a vt"},
+        {V4 "vt 0 0\nvn 0 0 1\nf 1 2/1 3//1 4/1/1\n", 0, "", 1, "line 7: no face has a vt"},
+        {V4 VT4 "f 1/1 2/2\nf 1/3 2/2 3/1\nf 4/1\n", 4, "2 1 0;", 2, "line 9: a face with 2"},
+        {"f 1/1 2/2 3\nf 3/3 2/2 1/1\n" V4 VT4, 4, "-1 -1 -1;2 1 0;", 1, "line 1: 1 of 2 faces"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        subdiv_error error;
+        char text[256];
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        CHECK_EQUAL(mesh.uv_count, cases[i].uv_count);
+        CHECK_EQUAL(mesh.uvs != NULL, cases[i].uv_count > 0);
+        list_uvs(&mesh, text);
+        CHECK_TEXT(text, cases[i].face_uvs);
+        CHECK_EQUAL(error.warning_count, cases[i].warning_count);
+        if (strncmp(error.warning, cases[i].warning, strlen(cases[i].warning)) != 0)
+            TEST_REPORT("\"%s\" does not begin with \"%s\"", error.warning, cases[i].warning);
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
+}
+
+// The statements of a mesh with their faces, a line each: "0 g a\n2 s 1\n".
+static void list_statements(const subdiv_mesh *m, char *text)
+{
+    *text = 0;
+    for (int i = 0; i < m->statement_count; i++)
+        sprintf(text + strlen(text), "%d %s\n", m->statement_faces[i], m->statements[i]);
+}
+
+static void test_statements(void)
+{
+    static const same_text cases[] = {
+        {QUAD, ""},
+        {"mtllib a.mtl b.mtl\no thing\n" V4 "g a b\ns off\nusemtl red\nf 1 2 3\ng\ns 1\nf 1 2 3 4\ns 0\n",
+         "0 mtllib a.mtl b.mtl\n0 o thing\n0 g a b\n0 s off\n0 usemtl red\n1 g\n1 s 1\n2 s 0\n"},
+        {V4 "usemtl\tMaterial #25 \t\r\n  g   left  side \nf 1 2 3\no \xc3\xa9t\xc3\xa9 \xe2\x98\x83\n",
+         "0 usemtl Material #25\n0 g left  side\n1 o \xc3\xa9t\xc3\xa9 \xe2\x98\x83\n"},
+        {V4 "g a \\\n b\\\r\nc\nf 1 2 3\ns \\\n\nf 1 2 3\nmtllib C:\\dir\\ \no x # y \\\nf 1 2 4\ng z\\",
+         "0 g a   b c\n1 s\n2 mtllib C:\\dir\\\n2 o x # y\n3 g z\n"},
+        {V4 "f 1 2 3\nf 1 2\ng a\nf 1\nf 1 2 3\ns 1", "1 g a\n2 s 1\n"},
+        {V4 "group a\nusemtls b\nf 1 2 3\nusemtl", "1 usemtl\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        subdiv_error error;
+        char text[512];
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        list_statements(&mesh, text);
+        CHECK_TEXT(text, cases[i].plain);
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
 }
 
 // Appends to a text that is large enough.
@@ -515,6 +647,32 @@ static const refusal refusals[] = {
     {"v 0 0 -1e99999999999999999999\n", SUBDIV_ERROR_NOT_FINITE, 1, {"-1e9999999999999999", ""}},
     {"v 0 0 1e18446744073709551617\n", SUBDIV_ERROR_NOT_FINITE, 1, {"1e18446744073709551617", ""}},
     {"v 0 0 3.4028236e38\n", SUBDIV_ERROR_NOT_FINITE, 1, {"3.4028236e38", ""}},
+    {"v 0 0 0 x\n", SUBDIV_ERROR_SYNTAX, 1, {"x", ""}},
+    {"v 0 0 0 1 0 nan\n", SUBDIV_ERROR_SYNTAX, 1, {"nan", ""}},
+    {"v 0 0 0 1 0 1e39\n", SUBDIV_ERROR_NOT_FINITE, 1, {"1e39", ""}},
+    {V4 "vt\n", SUBDIV_ERROR_SYNTAX, 5, {"vt", ""}},
+    {V4 "vt # 0 0\n", SUBDIV_ERROR_SYNTAX, 5, {"vt", ""}},
+    {V4 "vt 0 x\n", SUBDIV_ERROR_SYNTAX, 5, {"x", ""}},
+    {V4 "vt 0,5 0,25\n", SUBDIV_ERROR_SYNTAX, 5, {"0,5", ""}},
+    {V4 "vt 0 1 -inf\n", SUBDIV_ERROR_SYNTAX, 5, {"-inf", ""}},
+    {V4 "vt 0 1e40\n", SUBDIV_ERROR_NOT_FINITE, 5, {"1e40", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1 3/7\n", SUBDIV_ERROR_INDEX, 6, {"vt 7", "1"}},
+    {"f 1/1 2/1 3/7\nvt 0 0\n" V4, SUBDIV_ERROR_INDEX, 1, {"vt 7", "1"}},
+    {V4 "vt 0 0\nf 1/0 2/1 3/1\n", SUBDIV_ERROR_INDEX, 6, {"vt 0", ""}},
+    {V4 "vt 0 0\nf 1/1 2/-2 3/1\n", SUBDIV_ERROR_INDEX, 6, {"vt -2", "1"}},
+    {V4 "f 1/-1 2/-1 3/-1\nvt 0 0\n", SUBDIV_ERROR_INDEX, 5, {"vt -1", "0"}},
+    {V4 "f 1/1 2/2 3/3 4/4\n", SUBDIV_ERROR_INDEX, 5, {"vt 1", "0"}},
+    {V4 "vt 0 0\nf 1/1/1 2/1/1 3/2147483648/1\n", SUBDIV_ERROR_INDEX, 6, {"2147483648", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1 3/4294967297\n", SUBDIV_ERROR_INDEX, 6, {"4294967297", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1 3/99999999999999999999\n", SUBDIV_ERROR_INDEX, 6,
+     {"99999999999999999999", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1\nf 1/2 3\n", SUBDIV_ERROR_INDEX, 7, {"vt 2", "1"}},
+    {V4 "vt 0 0\nf 1/1.0 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1.0", ""}},
+    {V4 "vt 0 0\nf 1/x 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/x", ""}},
+    {V4 "vt 0 0\nf 1/1/x 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1/x", ""}},
+    {V4 "vt 0 0\nf 1/1/1/1 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1/1/1", ""}},
+    {V4 "vt 0 0\nf 1/- 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/-", ""}},
+    {V4 "vt 0 0\nf 1/1\\ 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1\\", ""}},
     {"", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
     {"\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
     {"# nothing\n# here\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
@@ -522,7 +680,8 @@ static const refusal refusals[] = {
     {"<!DOCTYPE html>\n<html><body>404</body></html>\n", SUBDIV_ERROR_EMPTY, 0,
      {"no vertices", ""}},
     {"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n", SUBDIV_ERROR_SYNTAX, 1,
-     {"Git LFS", ""}},    {"V 0 0 0\nV 1 0 0\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
+     {"Git LFS", ""}},
+    {"V 0 0 0\nV 1 0 0\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
 };
 
 static const char *scratch = "build/test_obj.scratch.obj";
@@ -1258,6 +1417,8 @@ int main(void)
     RUN(test_vertex_forms);
     RUN(test_lines);
     RUN(test_other_keywords);
+    RUN(test_faces_without_uvs);
+    RUN(test_statements);
     RUN(test_long_lines);
     RUN(test_crease_corner_hole_tags);
     RUN(test_rule_tags);
