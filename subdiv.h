@@ -4244,7 +4244,7 @@ static const char *sdv_read_integer(const char *p, int64_t *out)
     return p > first ? p : NULL;
 }
 
-// Reads [+-]digits[.digits][e[+-]digits] with any number of digits. Returns where it ends, NULL if it
+// Reads [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it
 // is anything else.
 static const char *sdv_read_any_number(const char *p, float *out)
 {
@@ -4347,7 +4347,8 @@ static void sdv_make_figures(sdv_figures *figures)
     for (int exponent = 2; exponent < 255; exponent++) {
         int binary = exponent - 150;                            // 1233/4096 is log10(2)
         int ten = (binary * 1233 + 256 * 4096) / 4096 - 256;
-        figures->gaps[exponent] = (uint64_t)(sdv_scale(ldexp(1, binary), -ten) * ldexp(1, 36) + 0.5);
+        double gap = sdv_scale(ldexp(1, binary), -ten);
+        figures->gaps[exponent] = (uint64_t)(ldexp(gap, 36) + 0.5);
         figures->tens[exponent] = ten;
     }
     for (uint32_t i = 0; i < 10000; i++)
@@ -5178,7 +5179,8 @@ static inline const char *sdv_plain_end(sdv_obj *obj, const char *p)
     return p + 1;
 }
 
-static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_series *series, int count)
+static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_series *series,
+                                            int count)
 {
     float *numbers = (float *)sdv_series_room(obj->context, series, 3);
     if (!numbers) return NULL;

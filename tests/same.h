@@ -10,7 +10,8 @@ static int mesh_is_zero(const subdiv_mesh *m)
            !m->face_vertices && !m->crease_count && !m->crease_vertices && !m->crease_sharpness &&
            !m->corner_count && !m->corner_vertices && !m->corner_sharpness && !m->hole_count &&
            !m->holes && !m->uv_count && !m->uvs && !m->face_uvs && !m->colors && !m->normals &&
-           !m->statement_count && !m->statement_faces && !m->statements && m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
+           !m->statement_count && !m->statement_faces && !m->statements &&
+           m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
            m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
            m->uv_rule == (subdiv_uv_rule)0 && !m->cage_faces && !m->memory;
 }
