@@ -60,6 +60,7 @@
              >>rows      masks written out as rows of weights
              >>split     the faces, edges and sharpness of the next level, where needed
              >>patches   regular faces: their control points
+             >>face-varying  UVs: a topology of their own
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
@@ -108,8 +109,8 @@
 
    WHAT IT DOES NOT DO (yet)
    -------------------------
-   UVs and other face-varying data, limit positions and normals, evaluation at (u, v). Never: GPU
-   code, hierarchical edits, threads of its own, global state, printing, exit().
+   Limit positions and normals, evaluation at (u, v). Never: GPU code, hierarchical edits, threads
+   of its own, global state, printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    --------------------------------
@@ -213,7 +214,7 @@ typedef enum subdiv_triangles {
     SUBDIV_TRIANGLES_SMOOTH           // rounder where a Catmull-Clark cage has triangles [OSD]
 } subdiv_triangles;
 
-// UVs and other face-varying values: how they go along seams and boundaries, where a seam is an edge
+// UVs and other face-varying values: how they go along seams and boundaries. A seam is an edge
 // whose faces have different values at one of its ends.
 typedef enum subdiv_uv_rule {
     SUBDIV_UV_CORNERS_ONLY,           // smooth; sharp where one face alone has a value
@@ -340,13 +341,13 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// Face-varying values: as UVs, each vertex of each face has one of value_count values, indices
-// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They are
-// a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces gives
-// the indices of the fine faces (-1 where there are none). Value i stays value i at the first vertex
-// that has it; vertices of the cage that share it have values of their own from level 1 on, after all
-// others. Faces whose vertices do not all have values are none of its cage faces. rule says what
-// happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
+// Face-varying values: as with UVs, each vertex of each face has one of value_count values, indices
+// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They
+// are a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces
+// gives the indices of the fine faces (-1 where there are none). Value i stays value i at the
+// first vertex that has it; vertices of the cage that share it have values of their own from
+// level 1 on, behind all others. Faces whose vertices do not all have values are none of its cage
+// faces. rule says what happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -793,7 +794,7 @@ static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, si
 }
 
 // A place behind the items, with room for so many more. NULL when out of memory.
-static void *sdv_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
+static void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
 {
     if (array->capacity - array->count < more)
         sdv_grow(context, array, 2 * (array->count + more), item);
@@ -805,7 +806,7 @@ static void sdv_copy(void *to, const void *from, size_t count, size_t item)
     if (count) memcpy(to, from, count * item);
 }
 
-static const void *sdv_items(const sdv_array *array)
+static void *sdv_items(const sdv_array *array)
 {
     return array->block ? array->block + 1 : NULL;
 }
@@ -979,11 +980,18 @@ static void sdv_warn(sdv_context *context, int line, const char *format, ...)
     va_end(args);
 }
 
-// Reading or writing failed; for files the system knows why.
+// Reading or writing failed; often the system knows why.
+static void sdv_forget_errno(void)
+{
+#ifndef SUBDIV_NO_STDIO
+    errno = 0;
+#endif
+}
+
 static void sdv_fail_io(sdv_context *context, const char *what)
 {
 #ifndef SUBDIV_NO_STDIO
-    if (context->name && errno) {
+    if (errno) {
         sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
         return;
     }
@@ -1031,20 +1039,47 @@ static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
                      rules[i].name, rules[i].value);
 }
 
+// The face that a face-vertex belongs to.
+static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
+{
+    int f = 0;
+    for (size_t size; face_vertex >= (size = (size_t)sdv_face_size(mesh, f)); f++)
+        face_vertex -= size;
+    return f;
+}
+
+// The first number that is not at least low and below high; count if there is none.
+static size_t sdv_find_outside(const int *numbers, size_t count, int low, int high)
+{
+    unsigned span = (unsigned)high - (unsigned)low;
+    size_t i = 0;
+    while (i < count && (unsigned)numbers[i] - (unsigned)low < span) i++;
+    return i;
+}
+
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
 {
-    const int *v = mesh->face_vertices;
-    for (int f = 0; f < mesh->face_count && !context->result; f++) {
+    for (int f = 0; f < mesh->face_count; f++) {
         int size = sdv_face_size(mesh, f);
         if (size < 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_FACE, f, -1, "face %d has %d vertices", f, size);
             return;
         }
-        for (int i = 0; i < size; i++, v++)
-            if (*v < 0 || *v >= mesh->vertex_count)
-                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, *v,
-                              "face %d: vertex %d does not exist (the mesh has %d)",
-                              f, *v, mesh->vertex_count);
+    }
+    size_t count = sdv_face_vertex_count(mesh), i;
+    i = sdv_find_outside(mesh->face_vertices, count, 0, mesh->vertex_count);
+    if (i < count) {
+        int f = sdv_find_face(mesh, i), v = mesh->face_vertices[i];
+        sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, v,
+                      "face %d: vertex %d does not exist (the mesh has %d)", f, v,
+                      mesh->vertex_count);
+    }
+    i = mesh->uv_count ? sdv_find_outside(mesh->face_uvs, count, -1, mesh->uv_count) : count;
+    if (i < count) {
+        int f = sdv_find_face(mesh, i);
+        sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
+                      "face %d: UV %d does not exist (the mesh has %d)", f, mesh->face_uvs[i],
+                      mesh->uv_count);
     }
 }
 
@@ -1066,48 +1101,65 @@ static void sdv_check_sharp(sdv_context *context, const subdiv_mesh *mesh, const
     }
 }
 
+// One line each, of the kinds that are kept: anything else would change the file that is written.
+static int sdv_ends_word(char c)
+{
+    return c == 0 || c == ' ' || c == '\t';
+}
+
+static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
+{
+    static const char *const words[] = { "g", "o", "s", "usemtl", "mtllib" };
+    for (int i = 0, last = 0; i < mesh->statement_count && !context->result; i++) {
+        const char *text = mesh->statements[i];
+        int face = mesh->statement_faces[i], known = 0;
+        if (face < last || face > mesh->face_count)
+            sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, face, -1,
+                          face < last ? "statement %d: face %d is not in order"
+                                      : "statement %d: face %d does not exist", i, face);
+        for (int k = 0; k < 5 && text; k++) {
+            size_t size = strlen(words[k]);
+            known |= strncmp(text, words[k], size) == 0 && sdv_ends_word(text[size]);
+        }
+        if (!known || strpbrk(text, "\r\n"))
+            sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
+                     "statement %d is not a line with g, o, s, usemtl or mtllib", i);
+        last = face;
+    }
+}
+
+// Values at the vertices of faces.
+static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, int value_count,
+                              const int *indices)
+{
+    size_t count = sdv_face_vertex_count(mesh);
+    size_t i = sdv_find_outside(indices, count, -1, value_count);
+    if (i == count) return;
+    int f = sdv_find_face(mesh, i);
+    sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
+                  "face %d: value %d does not exist (there are %d)", f, indices[i], value_count);
+}
+
+// So many numbers each of count things.
+static void sdv_check_finite(sdv_context *context, const char *what, int width,
+                             const float *values, int count)
+{
+    for (size_t i = 0, n = (size_t)width * (size_t)count; i < n; i++)
+        if (!(values[i] - values[i] == 0)) {
+            int v = (int)(i / (size_t)width);
+            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, width == 3 ? v : -1,
+                          "%s %d: number %d is not finite", what, v, (int)(i % (size_t)width));
+            return;
+        }
+}
+
 static void sdv_check_positions(sdv_context *context, const float *positions, int count)
 {
-    if (count > 0 && !positions) {
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "positions is NULL");
-        return;
-    }
-    for (int v = 0; v < count; v++) {
-        const float *p = positions + 3 * (size_t)v;
-        for (int i = 0; i < 3; i++)
-            if (!(p[i] >= -FLT_MAX && p[i] <= FLT_MAX)) {
-                sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, v,
-                              "vertex %d: coordinate %d is not finite", v, i);
-                return;
-            }
-    }
+    if (count > 0 && !positions) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "positions is NULL");
+    else sdv_check_finite(context, "vertex", 3, positions, count);
 }
 
-// Values at the vertices of faces, called so in messages.
-static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const char *name,
-                              int count, const int *index)
-{
-    for (int f = 0; f < mesh->face_count && !context->result; f++)
-        for (int i = sdv_face_size(mesh, f); i > 0; i--, index++)
-            if (*index < -1 || *index >= count)
-                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                              "face %d: %s %d does not exist (the mesh has %d)",
-                              f, name, *index, count);
-}
-
-static void sdv_check_uvs(sdv_context *context, const subdiv_mesh *mesh)
-{
-    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
-    sdv_check_array(context, "face_uvs", mesh->uv_count > 0 ? mesh->face_count : 0,
-                    mesh->face_uvs);
-    if (mesh->uv_count > 0 && !context->result)
-        sdv_check_indices(context, mesh, "UV", mesh->uv_count, mesh->face_uvs);
-    for (int i = 0; i < 2 * mesh->uv_count && !context->result; i++)
-        if (!(fabs((double)mesh->uvs[i]) <= FLT_MAX))
-            sdv_fail(context, SUBDIV_ERROR_NOT_FINITE, "UV %d is not finite", i / 2);
-}
-
-// Everything but the positions.
+// Everything but the positions, UVs, colours and normals themselves.
 static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 {
     if (!mesh) {
@@ -1125,6 +1177,10 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     sdv_check_array(context, "corner_vertices", mesh->corner_count, mesh->corner_vertices);
     sdv_check_array(context, "corner_sharpness", mesh->corner_count, mesh->corner_sharpness);
     sdv_check_array(context, "holes", mesh->hole_count, mesh->holes);
+    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
+    if (mesh->uv_count) sdv_check_array(context, "face_uvs", mesh->face_count, mesh->face_uvs);
+    sdv_check_array(context, "statement_faces", mesh->statement_count, mesh->statement_faces);
+    sdv_check_array(context, "statements", mesh->statement_count, mesh->statements);
     sdv_check_rules(context, mesh);
     uint64_t size = mesh->face_size > 0 ? (uint64_t)mesh->face_size : 0;
     if (size * (uint64_t)mesh->face_count > PTRDIFF_MAX / sizeof(int))
@@ -1132,6 +1188,7 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     if (context->result) return;
 
     sdv_check_faces(context, mesh);
+    sdv_check_statements(context, mesh);
     sdv_check_sharp(context, mesh, "crease", mesh->crease_count, 2, mesh->crease_vertices,
                     mesh->crease_sharpness);
     sdv_check_sharp(context, mesh, "corner", mesh->corner_count, 1, mesh->corner_vertices,
@@ -1146,8 +1203,11 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 {
     sdv_check_mesh(context, mesh);
-    if (!context->result)
-        sdv_check_positions(context, mesh->positions, mesh->vertex_count);
+    if (context->result) return;
+    sdv_check_positions(context, mesh->positions, mesh->vertex_count);
+    sdv_check_finite(context, "UV", 2, mesh->uvs, mesh->uv_count);
+    sdv_check_finite(context, "color", 3, mesh->colors, mesh->colors ? mesh->vertex_count : 0);
+    sdv_check_finite(context, "normal", 3, mesh->normals, mesh->normals ? mesh->vertex_count : 0);
 }
 
 // --------------------------------------------------------------------------------- >>level
@@ -1973,8 +2033,8 @@ static int sdv_is_ngon(const sdv_order *order, int f)
     return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
 }
 
-// The grid of the face whose first face-vertex is h. Its sides are edges; those from its last vertex
-// and, of a quad, that before are seen from their other end.
+// The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
+// vertex and, of a quad, the one before are seen from their other ends.
 static sdv_grid sdv_face_grid(const sdv_order *order, int h)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
@@ -2230,9 +2290,10 @@ static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
 static int sdv_new_mask(sdv_writer *writer, const sdv_runs *runs)
 {
     int count = runs->count[0] + runs->count[1] + runs->count[2], even = 1, n = 0;
-    sdv_weights *mask = (sdv_weights *)sdv_room(writer->context, &writer->masks, 1, sizeof *mask);
-    float *weights = (float *)sdv_room(writer->context, &writer->weights, (size_t)count,
-                                       sizeof(float));
+    sdv_weights *mask = (sdv_weights *)sdv_array_room(writer->context, &writer->masks, 1,
+                                                      sizeof *mask);
+    float *weights = (float *)sdv_array_room(writer->context, &writer->weights, (size_t)count,
+                                             sizeof(float));
     if (!mask || !weights) return 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < runs->count[i]; j++) weights[n++] = runs->weight[i];
@@ -2312,8 +2373,8 @@ static void sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
     rows->count++;
 }
 
-// The most ints of a vertex's row: itself, its neighbours, its faces. Without a crease, there are as
-// many neighbours as faces.
+// The most ints of a vertex's row: itself, its neighbours, its faces. Without a crease, there are
+// as many neighbours as faces.
 static size_t sdv_vertex_row_size(const sdv_level *level, int v, int loop)
 {
     return 3 + (size_t)level->vertex_faces[v] * (size_t)((loop ? 1 : 2) + level->creased[v]);
@@ -3161,8 +3222,8 @@ static int sdv_inner_crease(const sdv_level *level, int vertex)
     return semi;
 }
 
-// Corner by the rules "plus 1" and "plus 2": where more than two values meet; where two meet and one
-// has a corner for another reason than its number of faces; by "plus 2" also for that reason.
+// Corner by the rules "plus 1" and "plus 2": where more than two values meet; where two meet and
+// one is a corner for another reason than its number of faces; by "plus 2" also for that reason.
 static int sdv_is_shared_corner(const sdv_seams *seams, const sdv_around *around)
 {
     const sdv_level *level = &seams->level;
@@ -3215,8 +3276,8 @@ static void sdv_seam_sharpness(sdv_seams *seams)
     }
 }
 
-// Chaikin's averages reach across seams: the sums of sdv_fade_halves at the vertices of the cage, on
-// each level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
+// Chaikin's averages reach across seams: the sums of sdv_fade_halves at the vertices of the cage,
+// on each level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
 static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv_level *cage,
                              int levels, float *sums)
 {
@@ -3935,7 +3996,8 @@ static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const su
     if (!work->face_size) {
         made->fine.face_sizes = SDV_NEW(context, &made->arena, int, work->face_count);
         if (!context->result)
-            sdv_copy(made->fine.face_sizes, work->face_sizes, (size_t)work->face_count, sizeof(int));
+            sdv_copy(made->fine.face_sizes, work->face_sizes, (size_t)work->face_count,
+                     sizeof(int));
     }
     if (!context->result)
         sdv_copy(made->fine.face_vertices, values->indices, count, sizeof(int));
@@ -4056,7 +4118,9 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_request(&context, surface, cage, levels, opt);
-    if (!context.result) sdv_check_uvs(&context, cage);
+    if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
+    if (!context.result && cage->colors)
+        sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
@@ -4080,7 +4144,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                  indices ? "value_count is %d" : "indices is NULL", value_count);
     if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
-    if (!context.result) sdv_check_indices(&context, cage, "value", value_count, indices);
+    if (!context.result) sdv_check_indices(&context, cage, value_count, indices);
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     subdiv_surface *shape = made ? sdv_new_surface(&context, levels) : NULL;
     sdv_values values = { value_count, indices, rule };
@@ -4472,9 +4536,9 @@ static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n
     }
 }
 
-// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise, stand
-// r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across
-// the edge after.
+// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise,
+// stand r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4];
+// r[5] across the edge after.
 static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
 {
     for (int i = 0; i < 3; i++) {
@@ -5250,31 +5314,6 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     return sdv_generator_end(&context, &generator, mesh, sdv_is_bent, sharpness);
 }
 
-static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
-{
-    sdv_check_array(context, "statement_faces", mesh->statement_count, mesh->statement_faces);
-    sdv_check_array(context, "statements", mesh->statement_count, mesh->statements);
-    for (int i = 0, last = 0; i < mesh->statement_count && !context->result; i++) {
-        int f = mesh->statement_faces[i];
-        if (f < 0 || f > mesh->face_count)
-            sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                          "statement %d stands before face %d (the mesh has %d)",
-                          i, f, mesh->face_count);
-        if (f < last)
-            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
-                          "statement %d stands before face %d, the one before it after that face",
-                          i, f);
-        if (!mesh->statements[i])
-            sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "statement %d is NULL", i);
-        last = f;
-    }
-}
-
-static int sdv_ends_word(char c)
-{
-    return c == 0 || c == ' ' || c == '\t';
-}
-
 static int sdv_same_word(const char *a, const char *b)
 {
     while (!sdv_ends_word(*a) && *a == *b) a++, b++;
@@ -5322,7 +5361,6 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, fl
     sdv_context context = sdv_begin(opt);
     sdv_generator generator;
     sdv_check_mesh(&context, mesh);
-    if (!context.result) sdv_check_statements(&context, mesh);
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     if (!context.result)
         generator.groups = SDV_NEW(&context, &generator.arena, const char *, mesh->face_count);
@@ -5353,7 +5391,6 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
     sdv_context context = sdv_begin(opt);
     sdv_generator generator;
     sdv_check_mesh(&context, mesh);
-    if (!context.result) sdv_check_uvs(&context, mesh);
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     int known = !context.result && mesh->uv_count > 0;
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no UVs");
@@ -5798,7 +5835,6 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
     checker.user = user;
     for (int i = 0; counts && i < SUBDIV_ODDITY_COUNT; i++) counts[i] = 0;
     sdv_check_all(&context, mesh);
-    if (!context.result) sdv_check_uvs(&context, mesh);
     if (!context.result) sdv_checker_begin(&context, &arena, &checker, mesh);
     if (!context.result) {
         sdv_report_nonmanifold_edges(&checker);
@@ -5818,17 +5854,18 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 }
 
 // ------------------------------------------------------------------------------- >>numbers
-// Text to the nearest float and back, independent of the locale. A double is close enough to the
-// decimal to tell which float is nearest, unless it is so close to the middle between two floats
-// that its own error could matter; then the decimal is compared with that middle exactly.
+// Text to the nearest float, and a float to its shortest text, independent of the locale. 53 or 64
+// bits do for both, unless a number comes so close to where the answer changes that their error
+// could matter. Then integers of any size decide.
+
+static const double sdv_tens[] = { 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
+    1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
 
 static double sdv_scale(double number, int64_t ten)     // number * 10^ten, to about 4 ulp
 {
-    static const double powers[] = { 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
-        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     for (; ten > 22; ten -= 22) number *= 1e22;
     for (; ten < -22; ten += 22) number /= 1e22;
-    return ten < 0 ? number / powers[-ten] : number * powers[ten];
+    return ten < 0 ? number / sdv_tens[-ten] : number * sdv_tens[ten];
 }
 
 typedef struct sdv_decimal {
@@ -5911,9 +5948,9 @@ static float sdv_nearest_float(const sdv_decimal *decimal)
     if (d >= FLT_MIN) {
         uint64_t bits;
         memcpy(&bits, &d, sizeof bits);
-        int64_t low = (int64_t)(bits & 0x1fffffff) - 0x10000000;    // distance in ulp of the double
-        if (low < -16 || low > 16) return (float)d;
-        bits = (bits & ~(uint64_t)0x1fffffff) | 0x10000000;
+        int64_t above = (int64_t)(bits & 0x1fffffff) - 0x10000000;  // the middle, in ulp of d
+        if (above < -16 || above > 16) return (float)d;
+        bits -= (uint64_t)above;
         memcpy(&middle, &bits, sizeof middle);
     } else {
         double step = ldexp(1, -149), units = floor(d / step);      // denormals have even steps
@@ -5923,20 +5960,15 @@ static float sdv_nearest_float(const sdv_decimal *decimal)
     return (float)(middle * (1 + sdv_compare_decimal(decimal, middle) * ldexp(1, -50)));
 }
 
-// Reads [+-]digits[.digits][e[+-]digits], the whole token. Returns 0 if it is anything else.
-static int sdv_read_number(const char *p, const char *end, float *out)
+// The digits and the point from p to end, times 10^power: any number of digits, any power.
+static float sdv_read_exactly(const char *p, const char *end, int64_t power)
 {
-    sdv_decimal decimal = { 0, 0, 0, 0, NULL, NULL };
-    int negative = p < end && *p == '-', any = 0, point = 0;
-    if (p < end && (*p == '-' || *p == '+')) p++;
-    decimal.digits = p;
-    for (; p < end && ((*p >= '0' && *p <= '9') || (*p == '.' && !point)); p++) {
+    sdv_decimal decimal = { 0, 0, power, 0, p, end };
+    int point = 0;
+    for (; p < end; p++) {
         if (*p == '.') {
             point = 1;
-            continue;
-        }
-        any = 1;
-        if (decimal.head_count < 19) {
+        } else if (decimal.head_count < 19) {
             decimal.head = decimal.head * 10 + (uint64_t)(*p - '0');
             decimal.head_count += decimal.head != 0;
             decimal.exponent -= point;
@@ -5945,25 +5977,77 @@ static int sdv_read_number(const char *p, const char *end, float *out)
             decimal.exponent += !point;
         }
     }
-    decimal.end = p;
-    if (any && p < end && (*p == 'e' || *p == 'E')) {
-        int64_t power = 0;
-        int down = ++p < end && *p == '-';
-        if (p < end && (*p == '-' || *p == '+')) p++;
-        for (any = 0; p < end && *p >= '0' && *p <= '9'; p++, any = 1)
-            if (power < INT64_MAX / 100) power = power * 10 + (*p - '0');
-        decimal.exponent += down ? -power : power;
-    }
-    if (!any || p < end) return 0;
-    *out = sdv_nearest_float(&decimal);
-    if (negative) *out = -*out;
-    return 1;
+    return sdv_nearest_float(&decimal);
 }
 
-// The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten.
-static uint64_t sdv_shortest(float number, int *ten)
+static int sdv_is_digit(char c)
 {
-    double size = fabs((double)number);
+    return c >= '0' && c <= '9';
+}
+
+// [+-]digits, saturating far outside of every range. Returns where it ends, NULL without digits.
+static const char *sdv_read_integer(const char *p, int64_t *out)
+{
+    int negative = *p == '-';
+    int64_t number = 0;
+    if (*p == '-' || *p == '+') p++;
+    const char *first = p;
+    for (; sdv_is_digit(*p); p++)
+        if (number < INT64_MAX / 100) number = number * 10 + (*p - '0');
+    *out = negative ? -number : number;
+    return p > first ? p : NULL;
+}
+
+// Reads [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it
+// is anything else.
+static const char *sdv_read_any_number(const char *p, float *out)
+{
+    int negative = *p == '-', digits = 0;
+    int64_t power = 0;
+    if (*p == '-' || *p == '+') p++;
+    const char *first = p, *end;
+    for (; sdv_is_digit(*p); p++) digits = 1;
+    if (*p == '.')
+        for (p++; sdv_is_digit(*p); p++) digits = 1;
+    end = p;
+    if (*p == 'e' || *p == 'E') p = sdv_read_integer(p + 1, &power);
+    if (!digits || !p) return NULL;
+    *out = sdv_read_exactly(first, end, power);
+    if (negative) *out = -*out;
+    return p;
+}
+
+// The same, mostly at once: up to 17 digits, no exponent, and the same float a little below and a
+// little above the double.
+static inline const char *sdv_read_number(const char *p, float *out)
+{
+    static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
+                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17 };
+    static const double signs[] = { 1, -1 };
+    const double error = 2e-15;
+    int negative = *p == '-';
+    const char *first = p + negative, *end = first;
+    uint64_t head = 0, digit;
+    for (; (digit = (unsigned char)*end - (uint64_t)'0') < 10; end++) head = head * 10 + digit;
+    ptrdiff_t count = end - first, decimals = 0;
+    if (*end == '.') {
+        const char *point = ++end;
+        for (; (digit = (unsigned char)*end - (uint64_t)'0') < 10; end++) head = head * 10 + digit;
+        decimals = end - point;
+        count += decimals;
+    }
+    if (count > 0 && count <= 17 && (*end | 32) != 'e') {
+        double d = (double)(int64_t)head * units[decimals] * signs[negative];
+        *out = (float)(d * (1 - error));
+        if (*out == (float)(d * (1 + error))) return end;
+    }
+    return sdv_read_any_number(p, out);
+}
+
+// The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
+static uint32_t sdv_shortest(float number, int *ten)
+{
+    double size = (double)number;
     int e = (int)floor(log10(size)), binary;
     int twice_above = frexp(size, &binary) == 0.5;  // the next float is farther above than below
     if (sdv_scale(size, -e) < 1) e--;
@@ -5975,70 +6059,265 @@ static uint64_t sdv_shortest(float number, int *ten)
         decimal.head = (uint64_t)(sdv_scale(size, -*ten) + 0.5);
         decimal.exponent = *ten;
         decimal.head_count = count;
-        if (sdv_nearest_float(&decimal) == (float)size) break;
+        if (sdv_nearest_float(&decimal) == number) break;
         decimal.head += (uint64_t)twice_above;
-        if (twice_above && sdv_nearest_float(&decimal) == (float)size) break;
+        if (twice_above && sdv_nearest_float(&decimal) == number) break;
     }
     for (; decimal.head % 10 == 0; decimal.head /= 10) ++*ten;
-    return decimal.head;
+    return (uint32_t)decimal.head;
 }
 
-// Writes a float, at most 16 characters; returns how many.
-static size_t sdv_write_number(char *out, float number)
+// digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
+static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
-    char buffer[24], *end = buffer + sizeof buffer, *p = out;
-    if (number < 0 || (number == 0 && 1 / number < 0)) *p++ = '-';
-    if (number == 0) {
-        *p++ = '0';
-        return (size_t)(p - out);
+    char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
+    int count = (int)(end - first), point = count + ten;    // digits before the point
+    if (point > 9 || point < -4) {
+        ten = point - 1;
+        point = 1;
+    } else {
+        ten = 0;
     }
-    int ten;
-    char *digits = sdv_digits(end, sdv_shortest(number, &ten));
-    int count = (int)(end - digits), point = count + ten;   // digits before the point
-    if (point < -4 || point > 9) {
-        *p++ = *digits++;
-        if (digits < end) *p++ = '.';
-        while (digits < end) *p++ = *digits++;
-        *p++ = 'e';
-        if (point < 1) *p++ = '-';
-        char *power = sdv_digits(end, (uint64_t)(point < 1 ? 1 - point : point - 1));
-        while (power < end) *p++ = *power++;
-        return (size_t)(p - out);
+    for (int i = point < 1 ? point - 1 : 0; i < count || i < point; i++) {
+        if (i == point) *p++ = '.';
+        *p++ = i < 0 || i >= count ? '0' : first[i];
     }
-    if (point <= 0) {
-        *p++ = '0';
+    if (ten == 0) return p;
+    *p++ = 'e';
+    if (ten < 0) *p++ = '-';
+    for (first = sdv_digits(end, (uint64_t)(ten < 0 ? -ten : ten)); first < end;) *p++ = *first++;
+    return p;
+}
+
+typedef struct sdv_figures {            // what writing many numbers needs
+    uint64_t gaps[256];                 // [exponent of a float] to the next one, in units of
+    int      tens[256];                 // 10^tens / 2^36: 1 to 10 of 10^tens. 0: by trial
+    uint32_t quads[10000];              // 0000 to 9999, the first digit in the lowest byte
+} sdv_figures;
+
+static void sdv_make_figures(sdv_figures *figures)
+{
+    memset(figures->gaps, 0, sizeof figures->gaps);
+    for (int exponent = 2; exponent < 255; exponent++) {
+        int binary = exponent - 150;                            // 1233/4096 is log10(2)
+        int ten = (binary * 1233 + 256 * 4096) / 4096 - 256;
+        double gap = sdv_scale(ldexp(1, binary), -ten);
+        figures->gaps[exponent] = (uint64_t)(ldexp(gap, 36) + 0.5);
+        figures->tens[exponent] = ten;
+    }
+    for (uint32_t i = 0; i < 10000; i++)
+        figures->quads[i] = 0x30303030 + (i / 1000 | i / 100 % 10 << 8 | i / 10 % 10 << 16 |
+                                          i % 10 << 24);
+}
+
+// A number below 10^8 as text with all 8 digits, the first one in the lowest byte.
+static inline uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number)
+{
+    uint32_t high = number / 10000;
+    return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
+}
+
+// How many of them are 0 before the first other; of 8 zeros 7.
+static inline int sdv_zeros_before(uint64_t text)
+{
+    uint64_t others = ((text + 0x4f4f4f4f4f4f4f4fu) & 0x8080808080808080u) | (uint64_t)1 << 63;
+#if defined(__GNUC__)
+    return __builtin_ctzll(others) / 8;
+#else
+    int zeros = 0;
+    while (!(others >> 8 * zeros & 128)) zeros++;
+    return zeros;
+#endif
+}
+
+static inline void sdv_store_eight(char *p, uint64_t text)
+{
+    const uint16_t one = 1;
+    if (*(const unsigned char *)&one)                           // the lowest byte first
+        memcpy(p, &text, sizeof text);
+    else
+        for (int i = 0; i < 8; i++) p[i] = (char)(text >> 8 * i & 255);
+}
+
+// The shortest text of any float, by trial.
+static char *sdv_write_exactly(char *p, float number)
+{
+    float size = (float)fabs((double)number);
+    uint32_t bits, digits = 0;
+    int ten = 0;
+    memcpy(&bits, &number, sizeof bits);
+    if (bits >> 31) *p++ = '-';
+    if (size > 0) digits = sdv_shortest(size, &ten);
+    return sdv_write_decimal(p, digits, ten);
+}
+
+// A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
+// Returns where they end.
+//
+// All numbers between low and high read back as this float, and they are 1 to 10 units of 10^ten
+// apart. So at most one multiple of 10 lies between them. It has fewer digits than all others;
+// without it, the nearest multiple of 1 is the answer.
+static inline char *sdv_write_float(const sdv_figures *figures, char *p, float number)
+{
+    const uint64_t one = (uint64_t)1 << 36, doubt = one >> 11;
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    uint32_t exponent = bits >> 23 & 255, mantissa = bits & 0x7fffff;
+    uint64_t gap = figures->gaps[exponent], size = (mantissa | 0x800000) * gap;
+    uint64_t low = size - (mantissa ? gap / 2 : gap / 4), high = size + gap / 2;    // 2^n is nearer
+    uint32_t tens = (uint32_t)(low >> 36) / 10 + 1, ones = (uint32_t)((size + one / 2) >> 36);
+    uint64_t above_low = 10 * tens * one - low, below_high = high - 10 * tens * one;
+    uint32_t inside = (int64_t)below_high > 0;
+    *p++ = ' ';
+    if (above_low - doubt > 10 * one - 2 * doubt || below_high + doubt < 2 * doubt ||
+        inside < (mantissa == 0)) return sdv_write_exactly(p, number);      // also if gap is 0
+    uint32_t digits = ones ^ ((ones ^ tens) & (0 - inside));
+    int ten = figures->tens[exponent] + (int)inside;
+    for (; digits % 10 == 0; digits /= 10) ten++;
+
+    *p = '-';
+    p += bits >> 31;
+    if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
+    uint64_t text = sdv_eight_digits(figures, digits);
+    int zeros = sdv_zeros_before(text), count = 8 - zeros, point = count + ten;
+    text >>= 8 * zeros;
+    if (point >= 0 && point < count) {
+        *p = '0';
+        sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
+        p += point + (point == 0);
         *p++ = '.';
-        for (int i = point; i < 0; i++) *p++ = '0';
+        sdv_store_eight(p, text >> 8 * point);
+        return p + count - point;
     }
-    for (int i = 0; i < count; i++) {
-        if (i == point && i > 0) *p++ = '.';
-        *p++ = digits[i];
+    if (point < 0 && point >= -4) {
+        memcpy(p, "0.0000", 6);
+        p += 2 - point;
+        sdv_store_eight(p, text);
+        return p + count;
     }
-    for (int i = count; i < point; i++) *p++ = '0';
-    return (size_t)(p - out);
+    return sdv_write_decimal(p, digits, ten);
+}
+
+// A number from 0 on, of at most 10 digits; may spoil as many characters. Returns where it ends.
+static inline char *sdv_write_index(const sdv_figures *figures, char *p, int number)
+{
+    if (number >= 100000000) {
+        char digits[16], *end = digits + sizeof digits;
+        for (const char *d = sdv_digits(end, (uint64_t)number); d < end;) *p++ = *d++;
+        return p;
+    }
+    uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
+    int zeros = 0;
+    if (number < 10000) zeros = sdv_zeros_before(text);         // neighbours have as many digits
+    else if (number < 100000) zeros = 3;
+    else if (number < 1000000) zeros = 2;
+    else if (number < 10000000) zeros = 1;
+    sdv_store_eight(p, text >> 8 * zeros);
+    return p + 8 - zeros;
 }
 
 // ------------------------------------------------------------------------------ >>obj-read
+// The text comes in blocks. Statements are read where they lie in the buffer, once all of their
+// lines are there; what is left of a block moves to the front before the next one is read. Behind
+// the text there are always line ends, so nothing has to look whether the text is over.
 
-// One more item, not cleared; NULL when out of memory.
-static void *sdv_push(sdv_context *context, sdv_array *array, size_t item)
+// So many more items, not cleared; NULL when out of memory.
+static inline void *sdv_push(sdv_context *context, sdv_array *array, size_t count, size_t item)
 {
-    if (array->count == array->capacity)
-        sdv_grow(context, array, array->capacity ? 2 * array->capacity : 64, item);
-    if (context->result) return NULL;
-    return (char *)(array->block + 1) + array->count++ * item;
+    if (count > array->capacity - array->count) {
+        size_t most = array->capacity > count ? array->capacity : count;
+        sdv_grow(context, array, most < 32 ? 64 : 2 * most, item);
+        if (context->result) return NULL;
+    }
+    array->count += count;
+    return (char *)(array->block + 1) + (array->count - count) * item;
 }
 
 static void sdv_push_int(sdv_context *context, sdv_array *array, int value)
 {
-    int *item = (int *)sdv_push(context, array, sizeof(int));
+    int *item = (int *)sdv_push(context, array, 1, sizeof(int));
     if (item) *item = value;
 }
 
 static void sdv_push_float(sdv_context *context, sdv_array *array, float value)
 {
-    float *item = (float *)sdv_push(context, array, sizeof(float));
+    float *item = (float *)sdv_push(context, array, 1, sizeof(float));
     if (item) *item = value;
+}
+
+// The items that are missing up to count become value. So an array that most files need not have
+// is made when its first item with another value comes.
+static void sdv_fill_ints(sdv_context *context, sdv_array *array, size_t count, int value)
+{
+    while (array->count < count && !context->result) sdv_push_int(context, array, value);
+}
+
+static void sdv_fill_floats(sdv_context *context, sdv_array *array, size_t count, float value)
+{
+    while (array->count < count && !context->result) sdv_push_float(context, array, value);
+}
+
+// Ints or floats, many of them: they stay where they were written until all are there.
+typedef struct sdv_link {
+    sdv_block block;
+    size_t count, unused;               // of the items behind this head
+} sdv_link;
+
+typedef struct sdv_series {
+    sdv_link *last;                     // linked to those before it
+    size_t    count, room;              // items in all; how many more fit behind the last one
+} sdv_series;
+
+static void sdv_series_grow(sdv_context *context, sdv_series *series, size_t count)
+{
+    size_t room = series->count > 1024 ? series->count : 1024, most = (size_t)PTRDIFF_MAX / 8;
+    if (room < count) room = count;
+    if (context->result) return;
+    sdv_block *block = sdv_allocate(context, room < most ? sizeof(sdv_link) + 4 * room : SIZE_MAX);
+    if (!block) return;
+    block->next = (sdv_block *)series->last;
+    series->last = (sdv_link *)block;
+    series->last->count = 0;
+    series->room = room;
+}
+
+// Where so many more items can be written; then sdv_series_add counts them. NULL: out of memory.
+static inline void *sdv_series_room(sdv_context *context, sdv_series *series, size_t count)
+{
+    if (count > series->room) sdv_series_grow(context, series, count);
+    if (context->result) return NULL;
+    return (int *)(series->last + 1) + series->last->count;
+}
+
+static inline void sdv_series_add(sdv_series *series, size_t count)
+{
+    series->last->count += count;
+    series->count += count;
+    series->room -= count;
+}
+
+// The items that are missing up to count become value.
+static void sdv_series_fill(sdv_context *context, sdv_series *series, size_t count, int value)
+{
+    while (series->count < count) {
+        int *item = (int *)sdv_series_room(context, series, 1);
+        if (!item) return;
+        *item = value;
+        sdv_series_add(series, 1);
+    }
+}
+
+// Moves all items to an array, or nowhere.
+static void sdv_series_take(sdv_series *series, void *array)
+{
+    int *end = (int *)array;
+    if (array) end += series->count;
+    while (series->last) {
+        sdv_link *link = series->last;
+        if (array) memcpy(end -= link->count, link + 1, 4 * link->count);
+        series->last = (sdv_link *)link->block.next;
+        SUBDIV_FREE(link, link->block.user);
+    }
 }
 
 typedef struct sdv_tag {                // an entry of a tag: kind 'c' crease, 'v' corner, 'h' hole
@@ -6046,52 +6325,144 @@ typedef struct sdv_tag {                // an entry of a tag: kind 'c' crease, '
     float sharpness;
 } sdv_tag;
 
-typedef struct sdv_ahead {              // a face that names a vertex which is yet to come
-    int line, vertex;
+typedef struct sdv_ahead {              // a face that names a vertex or vt which is yet to come
+    int line, index;
 } sdv_ahead;
+
+typedef enum sdv_statement {            // what becomes of a statement
+    SDV_KEPT, SDV_PASSED, SDV_ELEMENT, SDV_FREE_FORM, SDV_UNKNOWN, SDV_STATEMENT_KINDS
+} sdv_statement;
 
 typedef struct sdv_obj {
     sdv_context *context;
     subdiv_read  read;
     void        *user;
-    sdv_array    text;                  // what was read and not yet used: begin to text.count
-    size_t       begin;
-    size_t       newline;               // the next LF, or the end of what was read; 0: look for it
+    sdv_array    text;                  // the buffer: begin to text.count is not yet used, and
+    size_t       begin, complete;       // begin to complete are whole statements
     int          ended;                 // nothing more to read
     int          line, next_line;       // of the statement, and of what follows
     subdiv_mesh  mesh;                  // rules and counts
-    sdv_array    positions, face_sizes, face_vertices, tags, ahead;
-    sdv_array    skipped;               // numbers of the file's faces that are not in the mesh
+    sdv_series   positions, uvs, face_vertices, face_uvs;
+    sdv_array    colors, face_sizes, statement_faces, statement_text, statements;
+    sdv_array    vs, ts;                // of one face
+    sdv_array    ahead[2];              // of vertices, of uvs
+    int          most_faces;            // with those that are skipped
+    int          uv_faces;              // faces with UVs
+    int          bare_line, mixed_line; // of the first face without, and the first that has some
+    int          skipped_counts[SDV_STATEMENT_KINDS], skipped_lines[SDV_STATEMENT_KINDS];
+    sdv_array    tags, skipped;         // skipped: numbers of the file's faces not in the mesh
     sdv_array    ints, floats;          // of one tag
 } sdv_obj;
 
-static int sdv_is_blank(char c)
+// Where the last whole statement in the text ends, looking at what is behind first: behind a line
+// end without a backslash. Whether a CR at the very end is one, or half of one, is yet to be seen.
+static size_t sdv_find_complete(const char *text, size_t first, size_t count)
 {
-    return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == '\r';
+    for (size_t i = count; i-- > first;) {
+        if (text[i] != '\n' && (text[i] != '\r' || i + 1 == count)) continue;
+        size_t last = i > 0 && text[i] == '\n' && text[i - 1] == '\r' ? i - 1 : i;
+        if (last == 0 || text[last - 1] != '\\') return i + 1;
+    }
+    return 0;
 }
 
-// The next token of a statement; empty at its end or at a comment.
+// Reads more text behind what is there. Used text makes room first.
+static void sdv_read_more(sdv_obj *obj)
+{
+    sdv_array *text = &obj->text;
+    char *data = (char *)sdv_items(text);
+    if (obj->begin) memmove(data, data + obj->begin, text->count - obj->begin);
+    text->count -= obj->begin;
+    obj->begin = obj->complete = 0;
+    if (text->capacity - text->count < 3) sdv_grow(obj->context, text, 2 * text->capacity, 1);
+    if (obj->context->result) return;
+    data = (char *)sdv_items(text);
+    size_t old = text->count, room = text->capacity - old - 2;
+    sdv_forget_errno();
+    size_t size = obj->read(obj->user, data + old, room);
+    if (size == 0) {
+        obj->ended = 1;
+        memset(data + old, '\n', 2);            // two: the last line may end in a backslash
+        obj->complete = old ? old + 2 : 0;
+    } else if (size > room) {
+        sdv_fail_io(obj->context, "reading failed");
+    } else {
+        text->count += size;
+        obj->complete = sdv_find_complete(data, old ? old - 1 : 0, text->count);
+    }
+}
+
+// -------- tokens
+
+static void sdv_count_line(sdv_obj *obj)
+{
+    if (obj->next_line < INT_MAX) obj->next_line++;
+}
+
+static inline int sdv_is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\f' || c == '\v';
+}
+
+static inline int sdv_is_newline(char c)
+{
+    return c == '\n' || c == '\r';
+}
+
+// Nothing more in this statement: a line end or a comment.
+static inline int sdv_at_end(const char *p)
+{
+    return sdv_is_newline(*p) || *p == '#';
+}
+
+static inline int sdv_continues(const char *p)          // the statement, on the next line
+{
+    return *p == '\\' && sdv_is_newline(p[1]);
+}
+
+static const char *sdv_skip_newline(const char *p)
+{
+    return p + (p[0] == '\r' && p[1] == '\n' ? 2 : 1);
+}
+
+static inline const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
+{
+    while (sdv_is_blank(*p) || sdv_continues(p)) {
+        if (*p == '\\') {
+            sdv_count_line(obj);
+            p = sdv_skip_newline(p + 1);
+        } else {
+            p++;
+        }
+    }
+    return p;
+}
+
+// Behind a token: it is over. "-1.#IND" is one token, and not a number.
+static inline int sdv_ends_token(const char *p)
+{
+    return sdv_is_blank(*p) || sdv_is_newline(*p) || (*p == '#' && p[-1] != '.') ||
+           sdv_continues(p) || *p == 0;
+}
+
 typedef struct sdv_token {
     const char *begin, *end;
 } sdv_token;
 
-static sdv_token sdv_next_token(const char **at, const char *end)
+// The token at p; empty at the end of the statement.
+static sdv_token sdv_token_at(const char *p)
 {
-    const char *p = *at;
-    sdv_token token;
-    while (p < end && sdv_is_blank(*p)) p++;
-    token.begin = p;
-    if (p < end && *p == '#') p = token.begin = end;
-    // A comment may follow at once, but "-1.#IND" is one token, and not a number.
-    while (p < end && !sdv_is_blank(*p) && (*p != '#' || p[-1] == '.')) p++;
-    token.end = *at = p;
+    sdv_token token = { p, p };
+    if (sdv_at_end(p) || *p == 0) return token;
+    do token.end++; while (!sdv_ends_token(token.end));
     return token;
 }
 
-static int sdv_length(sdv_token token)
+static sdv_token sdv_next_token(sdv_obj *obj, const char **at)
 {
-    ptrdiff_t size = token.end - token.begin;
-    return size < 1000 ? (int)size : 1000;
+    sdv_token token = sdv_token_at(sdv_skip_blanks(obj, *at));
+    *at = token.end;
+    return token;
 }
 
 static int sdv_token_is(sdv_token token, const char *text)
@@ -6100,178 +6471,224 @@ static int sdv_token_is(sdv_token token, const char *text)
     return (size_t)(token.end - token.begin) == size && memcmp(token.begin, text, size) == 0;
 }
 
-// Reads more text behind what is there. Used text makes room first.
-static void sdv_read_more(sdv_obj *obj)
+static int sdv_length(const char *begin, const char *end)
 {
-    sdv_array *text = &obj->text;
-    char *data = (char *)(text->block + 1);
-    if (obj->begin) memmove(data, data + obj->begin, text->count - obj->begin);
-    text->count -= obj->begin;
-    obj->newline = obj->begin = 0;
-    if (text->count == text->capacity) {
-        sdv_grow(obj->context, text, 2 * text->capacity, 1);
-        if (obj->context->result) return;
-        data = (char *)(text->block + 1);
-    }
-    size_t room = text->capacity - text->count;
-    size_t size = obj->read(obj->user, data + text->count, room);
-    if (size == 0) {
-        obj->ended = 1;
-    } else if (size > room) {
-        sdv_fail_io(obj->context, "reading failed");
-    } else {
-        text->count += size;
-    }
+    return end - begin < 1000 ? (int)(end - begin) : 1000;
 }
 
-// Where the line that goes on at p ends: at LF, CR LF or CR. NULL: not in what was read.
-static char *sdv_line_end(sdv_obj *obj, char *p)
+// The token at p cannot be used: "%t ..." in the message.
+static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const char *message)
 {
-    char *data = (char *)(obj->text.block + 1), *end = data + obj->text.count;
-    if (obj->newline == 0 || data + obj->newline < p) {
-        char *newline = (char *)memchr(p, '\n', (size_t)(end - p));
-        obj->newline = (size_t)((newline ? newline : end) - data);
-    }
-    char *limit = data + obj->newline;
-    char *cr = (char *)memchr(p, '\r', (size_t)(limit - p));
-    if (cr && cr + 1 < limit) return cr;
-    return limit < end || obj->ended ? limit : NULL;
+    sdv_token token = sdv_token_at(p);
+    if (*token.end == 0)
+        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line, "binary data: not an OBJ file");
+    else
+        sdv_fail_line(obj->context, code, obj->line, message, p, sdv_length(p, token.end));
 }
 
-// The next statement: a line, joined with the next while it ends in a backslash that is not part
-// of a comment. Returns 0 at the end of the text and after errors.
-static int sdv_next_statement(sdv_obj *obj, const char **begin, const char **end)
+// Behind the rest of the statement, whatever it is.
+static const char *sdv_skip_statement(sdv_obj *obj, const char *p)
 {
-    size_t scanned = 0, line = 0;       // what has no line end, where the last line began
-    obj->line = obj->next_line;
-    while (!obj->context->result) {
-        char *data = (char *)(obj->text.block + 1) + obj->begin;
-        char *last = data + (obj->text.count - obj->begin);
-        if (data == last && obj->ended) return 0;
-        char *stop = sdv_line_end(obj, data + scanned);
-        if (!stop) {
-            scanned = last > data ? (size_t)(last - data) - 1 : 0;  // a CR may be the last byte
-            sdv_read_more(obj);
-            continue;
+    int comment = 0;
+    for (;; p++) {
+        while ((unsigned char)*p > '\r' && *p != '#' && *p != '\\') p++;
+        if (*p == '#') comment = 1;
+        if (*p == 0) {
+            sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "");
+            return p;
         }
-        if (obj->next_line < INT_MAX) obj->next_line++;
-        char *tail = stop > data && stop[-1] == '\r' ? stop - 1 : stop;
-        if (tail > data + line && tail[-1] == '\\' &&
-            !memchr(data + line, '#', (size_t)(tail - data) - line)) {
-            scanned = line = (size_t)(stop - data) + (stop < last);
-            memset(tail - 1, ' ', scanned - (size_t)(tail - 1 - data));
-            if (stop < last) continue;
+        if (!comment && sdv_continues(p)) {
+            sdv_count_line(obj);
+            p = sdv_skip_newline(p + 1) - 1;
+        } else if (sdv_is_newline(*p)) {
+            sdv_count_line(obj);
+            return sdv_skip_newline(p);
         }
-        if (memchr(data, 0, (size_t)(stop - data)))
-            sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line,
-                          "binary data: not an OBJ file");
-        *begin = data;
-        *end = stop;
-        obj->begin += (size_t)(stop - data) + (stop < last);
-        return !obj->context->result;
     }
-    return 0;
 }
 
-static void sdv_read_vertex(sdv_obj *obj, const char *at, const char *end)
+// -------- vertices and faces. Each of these functions returns where it stopped reading.
+
+// At most so many numbers; counts those that are there.
+static const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numbers, int most,
+                                    int *count)
 {
+    for (*count = 0; *count < most; ++*count) {
+        p = sdv_skip_blanks(obj, p);
+        if (sdv_at_end(p)) break;
+        const char *end = sdv_read_number(p, &numbers[*count]);
+        if (!end || !sdv_ends_token(end)) {
+            sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a number");
+            break;
+        }
+        if (fabs((double)numbers[*count]) > FLT_MAX) {
+            sdv_refuse(obj, SUBDIV_ERROR_NOT_FINITE, p, "\"%t\" is too large for a float");
+            break;
+        }
+        p = end;
+    }
+    return p;
+}
+
+// x y z, then nothing, or w, or r g b, or r g b and alpha.
+static const char *sdv_read_vertex(sdv_obj *obj, const char *p)
+{
+    float numbers[8];
+    int count;
+    size_t colored = 3 * (size_t)obj->mesh.vertex_count;
+    p = sdv_read_numbers(obj, p, numbers, 8, &count);
+    if (obj->context->result) return p;
+    if (count < 3)
+        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line,
+                      "a vertex needs 3 coordinates, here are %d", count);
     if (obj->mesh.vertex_count == INT_MAX)
         sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many vertices");
-    for (int i = 0; i < 3 && !obj->context->result; i++) {
-        sdv_token token = sdv_next_token(&at, end);
-        float number = 0;
-        if (token.begin == token.end)
-            sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line,
-                          "a vertex needs 3 coordinates, here are %d", i);
-        else if (!sdv_read_number(token.begin, token.end, &number))
-            sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line, "\"%t\" is not a number",
-                          token.begin, sdv_length(token));
-        else if (fabs((double)number) > FLT_MAX)
-            sdv_fail_line(obj->context, SUBDIV_ERROR_NOT_FINITE, obj->line,
-                          "\"%t\" is too large for a float", token.begin, sdv_length(token));
-        sdv_push_float(obj->context, &obj->positions, number);
+    float *position = (float *)sdv_series_room(obj->context, &obj->positions, 3);
+    if (obj->context->result) return p;
+    memcpy(position, numbers, 3 * sizeof(float));
+    sdv_series_add(&obj->positions, 3);
+    obj->mesh.vertex_count++;
+    if (count == 6 || count == 7) {
+        sdv_fill_floats(obj->context, &obj->colors, colored, 1);
+        for (int i = 3; i < 6; i++) sdv_push_float(obj->context, &obj->colors, numbers[i]);
     }
-    if (!obj->context->result) obj->mesh.vertex_count++;
+    return p;
 }
 
-// [+-]digits, saturating far outside of every range. Returns where it ends, NULL without digits.
-static const char *sdv_read_index(const char *p, const char *end, int64_t *out)
+// u, u v or u v w.
+static const char *sdv_read_uv(sdv_obj *obj, const char *p)
 {
-    int negative = p < end && *p == '-', any = 0;
-    int64_t number = 0;
-    if (p < end && (*p == '-' || *p == '+')) p++;
-    for (; p < end && *p >= '0' && *p <= '9'; p++, any = 1)
-        if (number < INT64_MAX / 100) number = number * 10 + (*p - '0');
-    *out = negative ? -number : number;
-    return any ? p : NULL;
+    float numbers[3] = { 0, 0, 0 };
+    int count;
+    p = sdv_read_numbers(obj, p, numbers, 3, &count);
+    if (obj->context->result) return p;
+    if (count == 0)
+        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line, "a vt needs 1 to 3 numbers");
+    if (obj->mesh.uv_count == INT_MAX)
+        sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many vt");
+    float *uv = (float *)sdv_series_room(obj->context, &obj->uvs, 2);
+    if (obj->context->result) return p;
+    memcpy(uv, numbers, 2 * sizeof(float));
+    sdv_series_add(&obj->uvs, 2);
+    obj->mesh.uv_count++;
+    return p;
 }
 
-// v, v/t, v//n, v/t/n, and any of these with numbers left out behind a slash. Gives v alone.
-static int sdv_read_face_vertex(sdv_token token, int64_t *v)
+// Counted from 1, or from the end if negative. What is named may follow: only the largest index so
+// far need be remembered, as the first that is too large is one of them.
+static inline int sdv_resolve(sdv_obj *obj, int uv, int64_t number, const char *p)
 {
-    const char *p = sdv_read_index(token.begin, token.end, v);
-    for (int slashes = 0; p && p < token.end && *p == '/' && slashes < 2; slashes++) {
-        int64_t unused;
-        const char *behind = sdv_read_index(++p, token.end, &unused);
-        if (behind) p = behind;
-    }
-    return p == token.end;
-}
-
-// One face-vertex: counted from 1, from the end if negative; vertices may follow their faces.
-static void sdv_add_face_vertex(sdv_obj *obj, sdv_token token)
-{
-    int64_t v = 0;
-    int count = obj->mesh.vertex_count;
-    if (!sdv_read_face_vertex(token, &v)) {
-        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line,
-                      "\"%t\" is not a face-vertex", token.begin, sdv_length(token));
-        return;
-    }
-    int64_t index = v < 0 ? v + count : v - 1;
+    int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+    int64_t index = number < 0 ? number + count : number - 1;
+    if (index >= 0 && index < count) return (int)index;
     if (index < 0 || index >= INT_MAX) {
+        int64_t unused;
+        int length = sdv_length(p, sdv_read_integer(p, &unused));
         sdv_fail_line(obj->context, SUBDIV_ERROR_INDEX, obj->line,
-                      v == 0 ? "vertex %t does not exist (the first is 1)"
-                             : "vertex %t does not exist (the file has %d so far)",
-                      token.begin, sdv_length(token), count);
+                      number == 0 ? "%s %t does not exist (the first is 1)"
+                                  : "%s %t does not exist (the file has %d so far)",
+                      uv ? "vt" : "vertex", p, length, count);
+        return 0;
+    }
+    sdv_array *ahead = &obj->ahead[uv];
+    const sdv_ahead *entries = (const sdv_ahead *)sdv_items(ahead);
+    if (ahead->count && entries[ahead->count - 1].index >= index) return (int)index;
+    sdv_ahead *entry = (sdv_ahead *)sdv_push(obj->context, ahead, 1, sizeof(sdv_ahead));
+    if (!entry) return 0;
+    entry->line = obj->line;
+    entry->index = (int)index;
+    return (int)index;
+}
+
+// v, v/t, v//n, v/t/n, and any of these with numbers left out behind a slash. *uv: where t is, or
+// NULL. Normals do not matter. NULL if it is anything else.
+static const char *sdv_read_face_vertex(const char *p, int64_t *v, int64_t *t, const char **uv)
+{
+    int64_t n;
+    p = sdv_read_integer(p, v);
+    *uv = NULL;
+    if (!p || *p != '/') return p;
+    const char *end = sdv_read_integer(++p, t);
+    if (end) {
+        *uv = p;
+        p = end;
+    }
+    if (*p != '/') return p;
+    end = sdv_read_integer(++p, &n);
+    return end ? end : p;
+}
+
+// A face whose vertices, and UVs if it has some, stand where there was room for them.
+static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
+{
+    if (size > INT_MAX || obj->mesh.face_count == obj->most_faces) {
+        sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many faces");
         return;
     }
-    sdv_push_int(obj->context, &obj->face_vertices, (int)index);
-    if (index < count) return;
-
-    // Only the largest so far need be remembered: the first that is too large is one of them.
-    const sdv_ahead *ahead = (const sdv_ahead *)sdv_items(&obj->ahead);
-    if (obj->ahead.count && ahead[obj->ahead.count - 1].vertex >= index) return;
-    sdv_ahead *entry = (sdv_ahead *)sdv_push(obj->context, &obj->ahead, sizeof(sdv_ahead));
-    if (!entry) return;
-    entry->line = obj->line;
-    entry->vertex = (int)index;
-}
-
-static void sdv_read_face(sdv_obj *obj, const char *at, const char *end)
-{
-    size_t first = obj->face_vertices.count;
-    int limit = INT_MAX - (int)obj->skipped.count;
-    sdv_token token = sdv_next_token(&at, end);
-    for (; token.begin < token.end && !obj->context->result; token = sdv_next_token(&at, end))
-        sdv_add_face_vertex(obj, token);
-    size_t size = obj->face_vertices.count - first;
-    if (obj->context->result) return;
-    if (size > INT_MAX || obj->mesh.face_count == limit) {
-        sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many faces");
-    } else if (size < 3) {
-        sdv_warn(obj->context, obj->line, "a face with %d vertices is skipped", (int)size);
-        obj->face_vertices.count = first;
-        sdv_push_int(obj->context, &obj->skipped, obj->mesh.face_count + (int)obj->skipped.count);
+    sdv_series_add(&obj->face_vertices, size);
+    if (uvs == size) {
+        sdv_series_add(&obj->face_uvs, size);
+        obj->uv_faces++;
     } else {
-        sdv_push_int(obj->context, &obj->face_sizes, (int)size);
-        obj->mesh.face_count++;
+        if (!obj->bare_line) obj->bare_line = obj->line;
+        if (uvs && !obj->mixed_line) obj->mixed_line = obj->line;
     }
+    if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
+    if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
+        sdv_fill_ints(obj->context, &obj->face_sizes, (size_t)obj->mesh.face_count,
+                      obj->mesh.face_size);
+        sdv_push_int(obj->context, &obj->face_sizes, (int)size);
+    }
+    obj->mesh.face_count++;
 }
+
+// Where the vertices and UVs of a face can be written. Faces without UVs get their -1 later.
+static inline int sdv_face_room(sdv_obj *obj, size_t size, int with_uvs, int **v, int **t)
+{
+    *v = (int *)sdv_series_room(obj->context, &obj->face_vertices, size);
+    *t = NULL;
+    if (with_uvs) {
+        sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
+        *t = (int *)sdv_series_room(obj->context, &obj->face_uvs, size);
+    }
+    return !obj->context->result;
+}
+
+static const char *sdv_read_face(sdv_obj *obj, const char *p)
+{
+    size_t size = 0, uvs = 0;
+    int *face_v, *face_t;
+    obj->vs.count = obj->ts.count = 0;
+    for (p = sdv_skip_blanks(obj, p); !sdv_at_end(p); p = sdv_skip_blanks(obj, p), size++) {
+        int64_t v, t;
+        const char *uv, *end = sdv_read_face_vertex(p, &v, &t, &uv);
+        if (!end || !sdv_ends_token(end)) {
+            sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a face-vertex");
+            return p;
+        }
+        sdv_push_int(obj->context, &obj->vs, sdv_resolve(obj, 0, v, p));
+        if (uv) sdv_push_int(obj->context, &obj->ts, sdv_resolve(obj, 1, t, uv));
+        if (obj->context->result) return p;
+        uvs += uv != NULL;
+        p = end;
+    }
+    if (size < 3) {
+        sdv_warn(obj->context, obj->line, "a face with %d vertices is skipped", (int)size);
+        sdv_push_int(obj->context, &obj->skipped, obj->mesh.face_count + (int)obj->skipped.count);
+        obj->most_faces--;
+    } else if (sdv_face_room(obj, size, uvs == size, &face_v, &face_t)) {
+        memcpy(face_v, sdv_items(&obj->vs), size * sizeof(int));
+        if (face_t) memcpy(face_t, sdv_items(&obj->ts), size * sizeof(int));
+        sdv_add_face(obj, size, uvs);
+    }
+    return p;
+}
+
+// -------- tags
 
 static void sdv_add_tag(sdv_obj *obj, int kind, int a, int b, float sharpness)
 {
-    sdv_tag *tag = (sdv_tag *)sdv_push(obj->context, &obj->tags, sizeof(sdv_tag));
+    sdv_tag *tag = (sdv_tag *)sdv_push(obj->context, &obj->tags, 1, sizeof(sdv_tag));
     if (!tag) return;
     tag->kind = kind;
     tag->a = a;
@@ -6345,78 +6762,254 @@ static int sdv_read_tag_counts(sdv_token token, int64_t counts[3])
     const char *p = token.begin;
     for (int i = 0; i < 3; i++) {
         if (i > 0 && (p == token.end || *p++ != '/')) return 0;
-        p = sdv_read_index(p, token.end, &counts[i]);
+        p = sdv_read_integer(p, &counts[i]);
         if (!p || counts[i] < 0 || counts[i] > INT_MAX) return 0;
     }
     return p == token.end;
 }
 
 // t name ints/floats/strings ... Takes the values that are really there, whatever the counts say.
-static int sdv_read_tag(sdv_obj *obj, const char *at, const char *end)
+// Returns 0 if it makes no sense.
+static int sdv_read_tag(sdv_obj *obj, const char **at)
 {
     int64_t counts[3], value;
-    sdv_token name = sdv_next_token(&at, end), word = { end, end };
-    if (!sdv_read_tag_counts(sdv_next_token(&at, end), counts)) return 0;
+    sdv_token name = sdv_next_token(obj, at), word = { *at, *at };
+    if (!sdv_read_tag_counts(sdv_next_token(obj, at), counts)) return 0;
     obj->ints.count = obj->floats.count = 0;
     for (int64_t i = 0; i < counts[0] && !obj->context->result; i++) {
-        sdv_token token = sdv_next_token(&at, end);
-        if (token.begin == token.end) return 0;
-        if (sdv_read_index(token.begin, token.end, &value) != token.end) return 0;
-        if (value < 0) return 0;
+        sdv_token token = sdv_next_token(obj, at);
+        if (sdv_read_integer(token.begin, &value) != token.end || value < 0) return 0;
         if (value > INT_MAX) value = INT_MAX;       // found to be missing at the end
         sdv_push_int(obj->context, &obj->ints, (int)value);
     }
     for (int64_t i = 0; i < counts[1] && !obj->context->result; i++) {
-        sdv_token token = sdv_next_token(&at, end);
+        sdv_token token = sdv_next_token(obj, at);
         float number = SUBDIV_INFINITE;
-        if (!sdv_token_is(token, "inf") && !sdv_read_number(token.begin, token.end, &number))
+        if (!sdv_token_is(token, "inf") && sdv_read_number(token.begin, &number) != token.end)
             return 0;
         sdv_push_float(obj->context, &obj->floats, number);
     }
-    if (counts[2] > 0) word = sdv_next_token(&at, end);
+    if (counts[2] > 0) word = sdv_next_token(obj, at);
     return obj->context->result || sdv_use_tag(obj, name, word);
 }
 
-static void sdv_read_statement(sdv_obj *obj, const char *at, const char *end)
+// -------- statements
+
+// Keeps "usemtl stone" as it stands in the file, names with blanks and all, joined where it goes on
+// in the next line. Returns what is behind.
+static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 {
-    const char *start = at;
-    sdv_token keyword = sdv_next_token(&at, end);
-    if (obj->line == 1 && sdv_token_is(keyword, "version") && end - at > 20 &&
-        memcmp(at, " https://git-lfs", 16) == 0)
+    const char *next = sdv_skip_statement(obj, keyword.end), *end = next, *p = keyword.end;
+    if (obj->context->result) return next;
+    while (end > p && (sdv_is_blank(end[-1]) || sdv_is_newline(end[-1]) || sdv_continues(end - 1)))
+        end--;
+    while (p < end && (sdv_is_blank(*p) || sdv_is_newline(*p) || sdv_continues(p))) p++;
+    size_t size = (size_t)(keyword.end - keyword.begin), most = size + (size_t)(end - p) + 2;
+    char *text = (char *)sdv_push(obj->context, &obj->statement_text, most, 1), *start = text;
+    if (!text) return next;
+    memcpy(text, keyword.begin, size);
+    text += size;
+    if (p < end) *text++ = ' ';
+    for (; p < end; p++) {
+        *text++ = sdv_continues(p) ? ' ' : *p;
+        if (sdv_continues(p)) p = sdv_skip_newline(p + 1) - 1;
+    }
+    *text++ = 0;
+    obj->statement_text.count -= most - (size_t)(text - start);
+    sdv_push_int(obj->context, &obj->statement_faces, obj->mesh.face_count);
+    return next;
+}
+
+static sdv_statement sdv_statement_kind(sdv_token keyword)
+{
+    static const struct { const char *word; sdv_statement kind; } words[] = {
+        { "vn", SDV_PASSED }, { "g", SDV_KEPT }, { "o", SDV_KEPT }, { "s", SDV_KEPT },
+        { "usemtl", SDV_KEPT }, { "mtllib", SDV_KEPT }, { "p", SDV_ELEMENT }, { "l", SDV_ELEMENT },
+        { "vp", SDV_FREE_FORM }, { "cstype", SDV_FREE_FORM }, { "deg", SDV_FREE_FORM },
+        { "bmat", SDV_FREE_FORM }, { "step", SDV_FREE_FORM }, { "curv", SDV_FREE_FORM },
+        { "curv2", SDV_FREE_FORM }, { "surf", SDV_FREE_FORM }, { "parm", SDV_FREE_FORM },
+        { "trim", SDV_FREE_FORM }, { "hole", SDV_FREE_FORM }, { "scrv", SDV_FREE_FORM },
+        { "sp", SDV_FREE_FORM }, { "end", SDV_FREE_FORM }, { "con", SDV_FREE_FORM },
+        { "ctech", SDV_FREE_FORM }, { "stech", SDV_FREE_FORM } };
+    if (*keyword.begin == 26) return SDV_PASSED;    // ^Z: how some old editors end a text
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (sdv_token_is(keyword, words[i].word)) return words[i].kind;
+    return SDV_UNKNOWN;
+}
+
+// What is neither v, vt, f nor t. Returns what is behind.
+static const char *sdv_read_other(sdv_obj *obj, sdv_token keyword)
+{
+    sdv_statement kind = sdv_statement_kind(keyword);
+    if (kind == SDV_KEPT) return sdv_keep_statement(obj, keyword);
+    if (obj->skipped_counts[kind] == 0) obj->skipped_lines[kind] = obj->line;
+    if (obj->skipped_counts[kind] < INT_MAX) obj->skipped_counts[kind]++;
+    if (obj->line == 1 && strncmp(keyword.begin, "version https://git-lfs", 23) == 0)
         sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, 1,
                       "a Git LFS pointer, not the file itself");
-    if (sdv_token_is(keyword, "v")) {
-        sdv_read_vertex(obj, at, end);
-    } else if (sdv_token_is(keyword, "f") || sdv_token_is(keyword, "fo")) {
-        sdv_read_face(obj, at, end);
-    } else if (sdv_token_is(keyword, "t")) {
-        if (!sdv_read_tag(obj, at, end))
-            sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped",
-                     start, (int)(end - start < 1000 ? end - start : 1000));
-    }
+    return sdv_skip_statement(obj, keyword.end);
 }
+
+// Returns what is behind.
+static const char *sdv_read_statement(sdv_obj *obj, const char *p)
+{
+    obj->line = obj->next_line;
+    p = sdv_skip_blanks(obj, p);
+    sdv_token keyword = sdv_token_at(p);
+    p = keyword.end;
+    if (sdv_token_is(keyword, "v")) {
+        p = sdv_read_vertex(obj, p);
+    } else if (sdv_token_is(keyword, "f") || sdv_token_is(keyword, "fo")) {
+        p = sdv_read_face(obj, p);
+    } else if (sdv_token_is(keyword, "vt")) {
+        p = sdv_read_uv(obj, p);
+    } else if (sdv_token_is(keyword, "t")) {
+        const char *end = p;
+        if (!sdv_read_tag(obj, &p)) {
+            while (!sdv_at_end(end)) end++;
+            sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin,
+                     sdv_length(keyword.begin, end));
+        }
+    } else if (keyword.begin < keyword.end) {
+        return sdv_read_other(obj, keyword);
+    }
+    return obj->context->result ? p : sdv_skip_statement(obj, p);
+}
+
+// -------- the whole file
 
 static void sdv_skip_byte_order_mark(sdv_obj *obj)
 {
     while (obj->text.count < 3 && !obj->ended && !obj->context->result) sdv_read_more(obj);
     if (obj->context->result || obj->text.count < 2) return;
-    const unsigned char *text = (const unsigned char *)(obj->text.block + 1);
+    const unsigned char *text = (const unsigned char *)sdv_items(&obj->text);
     if (obj->text.count >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) obj->begin = 3;
     if ((text[0] == 0xFF && text[1] == 0xFE) || (text[0] == 0xFE && text[1] == 0xFF))
         sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, 1, "UTF-16 text: not an OBJ file");
 }
 
+// -------- lines as most programs write them, in short. For others, NULL, and nothing happened.
+
+static inline const char *sdv_plain_end(sdv_obj *obj, const char *p)
+{
+    while (*p == ' ') p++;
+    if (*p == '\r' && p[1] == '\n') p++;
+    if (*p != '\n') return NULL;
+    sdv_count_line(obj);
+    return p + 1;
+}
+
+static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_series *series,
+                                            int count)
+{
+    float *numbers = (float *)sdv_series_room(obj->context, series, 3);
+    if (!numbers) return NULL;
+    for (int i = 0; i < count; i++) {
+        if (*p != ' ') return NULL;
+        while (*p == ' ') p++;
+        p = sdv_read_number(p, &numbers[i]);
+        if (!p || fabs((double)numbers[i]) > FLT_MAX) return NULL;
+    }
+    p = sdv_plain_end(obj, p);
+    if (p) sdv_series_add(series, (size_t)count);
+    return p;
+}
+
+// An index from 1 to count.
+static inline const char *sdv_plain_index(const char *p, int count, int *out)
+{
+    const char *first = p;
+    unsigned number = 0, digit;
+    for (; (digit = (unsigned char)*p - (unsigned)'0') < 10; p++) number = number * 10 + digit;
+    *out = (int)(number - 1);
+    return p - first < 10 && number - 1 < (unsigned)count ? p : NULL;
+}
+
+static const char *sdv_plain_face(sdv_obj *obj, const char *p)
+{
+    enum { MOST = 64 };
+    size_t size = 0, uvs = 0;
+    int *v, *t;
+    if (!sdv_face_room(obj, MOST, obj->mesh.uv_count > 0, &v, &t)) return NULL;
+    while (*p == ' ') {
+        while (*p == ' ') p++;
+        if (!sdv_is_digit(*p)) break;
+        if (size == MOST) return NULL;
+        p = sdv_plain_index(p, obj->mesh.vertex_count, &v[size++]);
+        if (p && *p == '/' && sdv_is_digit(p[1]) && t)
+            p = sdv_plain_index(p + 1, obj->mesh.uv_count, &t[uvs++]);
+        else if (p && *p == '/')
+            p++;
+        if (!p) return NULL;
+        if (*p == '/')
+            for (p++; sdv_is_digit(*p);) p++;
+    }
+    if (size < 3) return NULL;
+    obj->line = obj->next_line;
+    p = sdv_plain_end(obj, p);
+    if (p) sdv_add_face(obj, size, uvs);
+    return p;
+}
+
+static const char *sdv_plain_line(sdv_obj *obj, const char *p)
+{
+    if (p[0] == 'f') return sdv_plain_face(obj, p + 1);
+    if (p[0] != 'v') return NULL;
+    if (p[1] == ' ') {
+        p = sdv_plain_numbers(obj, p + 1, &obj->positions, 3);
+        if (p) obj->mesh.vertex_count++;
+        return p;
+    }
+    if (p[1] == 't') {
+        p = sdv_plain_numbers(obj, p + 2, &obj->uvs, 2);
+        if (p) obj->mesh.uv_count++;
+        return p;
+    }
+    if (p[1] != 'n' || p[2] != ' ') return NULL;
+    while ((unsigned char)*p >= ' ' && *p != '\\') p++;     // normals do not matter
+    return sdv_plain_end(obj, p);
+}
+
+static void sdv_read_statements(sdv_obj *obj)
+{
+    while (!obj->context->result) {
+        const char *text = (const char *)sdv_items(&obj->text), *p = text + obj->begin;
+        while (p < text + obj->complete && !obj->context->result) {
+            const char *next = sdv_plain_line(obj, p);
+            p = next ? next : sdv_read_statement(obj, p);
+        }
+        obj->begin = (size_t)(p - text);
+        if (obj->ended) return;
+        if (!obj->context->result) sdv_read_more(obj);
+    }
+}
+
 // What can only be said when everything is read.
 static void sdv_check_obj(sdv_obj *obj)
 {
-    const sdv_ahead *ahead = (const sdv_ahead *)sdv_items(&obj->ahead);
     if (obj->mesh.vertex_count == 0)
         sdv_fail(obj->context, SUBDIV_ERROR_EMPTY, "the file has no vertices");
-    for (size_t i = 0; i < obj->ahead.count; i++)
-        if (ahead[i].vertex >= obj->mesh.vertex_count)
-            sdv_fail_line(obj->context, SUBDIV_ERROR_INDEX, ahead[i].line,
-                          "vertex %d does not exist (the file has %d)",
-                          ahead[i].vertex + 1, obj->mesh.vertex_count);
+    for (int uv = 0; uv < 2; uv++) {
+        const sdv_ahead *ahead = (const sdv_ahead *)sdv_items(&obj->ahead[uv]);
+        int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+        for (size_t i = 0; i < obj->ahead[uv].count; i++)
+            if (ahead[i].index >= count)
+                sdv_fail_line(obj->context, SUBDIV_ERROR_INDEX, ahead[i].line,
+                              "%s %d does not exist (the file has %d)", uv ? "vt" : "vertex",
+                              ahead[i].index + 1, count);
+    }
+    if (obj->statement_faces.count > INT_MAX)
+        sdv_fail(obj->context, SUBDIV_ERROR_TOO_LARGE, "too many statements");
+}
+
+static void sdv_warn_skipped(sdv_obj *obj)
+{
+    static const char *const texts[] = { "", "", "points and lines (p, l)",
+        "free-form statements (curves and surfaces)", "statements with unknown keywords" };
+    for (int kind = SDV_ELEMENT; kind < SDV_STATEMENT_KINDS; kind++)
+        if (obj->skipped_counts[kind])
+            sdv_warn(obj->context, obj->skipped_lines[kind], "%d %s are skipped",
+                     obj->skipped_counts[kind], texts[kind]);
 }
 
 // A face of the file is a face of the mesh, but for those that were skipped: -1.
@@ -6480,24 +7073,59 @@ static void sdv_fill_tags(const sdv_obj *obj, subdiv_mesh *mesh)
     }
 }
 
+// A mesh has UVs if any of its faces has.
+static void sdv_finish_uvs(sdv_obj *obj)
+{
+    int bare = obj->mesh.face_count - obj->uv_faces;
+    if (obj->uv_faces == 0) {
+        if (obj->mixed_line)
+            sdv_warn(obj->context, obj->mixed_line,
+                     "no face has a vt at each of its vertices: the UVs are skipped");
+        obj->mesh.uv_count = 0;
+        return;
+    }
+    sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
+    if (bare)
+        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs (a vt at each vertex)",
+                 bare, obj->mesh.face_count);
+}
+
+static void sdv_finish_statements(sdv_obj *obj)
+{
+    char *text = (char *)sdv_items(&obj->statement_text);
+    for (size_t i = 0; i < obj->statement_faces.count; i++, text += strlen(text) + 1) {
+        char **statement = (char **)sdv_push(obj->context, &obj->statements, 1, sizeof(char *));
+        if (!statement) return;
+        *statement = text;
+    }
+    obj->mesh.statement_count = (int)obj->statement_faces.count;
+    obj->mesh.statement_faces = (int *)sdv_items(&obj->statement_faces);
+    obj->mesh.statements = (char **)sdv_items(&obj->statements);
+}
+
 // Everything that was read, in one block.
 static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
 {
+    subdiv_mesh *mesh = &obj->mesh;
     if (!obj->context->result) sdv_check_obj(obj);
-    if (!obj->context->result && obj->tags.count) sdv_check_tags(obj);
     if (obj->context->result) return;
-
-    subdiv_mesh mesh = obj->mesh;
-    const int *sizes = (const int *)sdv_items(&obj->face_sizes);
-    mesh.face_size = mesh.face_count ? sizes[0] : 0;
-    for (int f = 0; f < mesh.face_count; f++)
-        if (sizes[f] != sizes[0]) mesh.face_size = 0;
-    if (!mesh.face_size && mesh.face_count) mesh.face_sizes = (int *)(obj->face_sizes.block + 1);
-    sdv_new_mesh(obj->context, out, &mesh, 0);
+    if (obj->tags.count) sdv_check_tags(obj);
+    if (obj->face_sizes.count) {
+        mesh->face_size = 0;
+        mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
+    }
+    if (obj->colors.count)
+        sdv_fill_floats(obj->context, &obj->colors, 3 * (size_t)mesh->vertex_count, 1);
+    mesh->colors = (float *)sdv_items(&obj->colors);
+    sdv_finish_uvs(obj);
+    sdv_finish_statements(obj);
+    sdv_warn_skipped(obj);
+    if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, 0);
     if (obj->context->result) return;
-    sdv_copy(out->positions, sdv_items(&obj->positions), obj->positions.count, sizeof(float));
-    sdv_copy(out->face_vertices, sdv_items(&obj->face_vertices), obj->face_vertices.count,
-             sizeof(int));
+    sdv_series_take(&obj->positions, out->positions);
+    sdv_series_take(&obj->face_vertices, out->face_vertices);
+    sdv_series_take(&obj->uvs, out->uvs);
+    sdv_series_take(&obj->face_uvs, out->face_uvs);
     sdv_fill_tags(obj, out);
 }
 
@@ -6514,14 +7142,17 @@ static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subd
     obj.read = read;
     obj.user = user;
     obj.next_line = 1;
+    obj.most_faces = INT_MAX;
     sdv_grow(context, &obj.text, 1 << 18, 1);      // stays in the cache; grows for longer lines
     sdv_skip_byte_order_mark(&obj);
-    const char *begin, *end;
-    while (sdv_next_statement(&obj, &begin, &end)) sdv_read_statement(&obj, begin, end);
+    sdv_read_statements(&obj);
     sdv_finish_obj(&obj, mesh);
 
-    sdv_array *arrays[] = { &obj.text, &obj.positions, &obj.face_sizes, &obj.face_vertices,
-                            &obj.tags, &obj.ahead, &obj.skipped, &obj.ints, &obj.floats };
+    sdv_series *series[] = { &obj.positions, &obj.uvs, &obj.face_vertices, &obj.face_uvs };
+    for (size_t i = 0; i < sizeof series / sizeof *series; i++) sdv_series_take(series[i], NULL);
+    sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.statement_faces,
+                            &obj.statement_text, &obj.statements, &obj.vs, &obj.ts, &obj.ahead[0],
+                            &obj.ahead[1], &obj.tags, &obj.skipped, &obj.ints, &obj.floats };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sdv_array_free(arrays[i]);
     return context->result;
 }
@@ -6562,49 +7193,62 @@ typedef struct sdv_output {
     sdv_context *context;
     subdiv_write write;
     void        *user;
+    const sdv_figures *figures;
     char        *buffer;                // [SDV_OUTPUT_SIZE]
     size_t       used;
 } sdv_output;
 
 #define SDV_OUTPUT_SIZE 65536
+#define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
 
 static void sdv_flush(sdv_output *out)
 {
+    sdv_forget_errno();
     if (!out->context->result && out->used &&
         out->write(out->user, out->buffer, out->used) != out->used)
         sdv_fail_io(out->context, "writing failed");
     out->used = 0;
 }
 
+// Where SDV_PIECE_SIZE bytes can be written; sdv_end says how many were.
+static char *sdv_room(sdv_output *out)
+{
+    if (out->used > SDV_OUTPUT_SIZE - SDV_PIECE_SIZE) sdv_flush(out);
+    return out->buffer + out->used;
+}
+
+static void sdv_end(sdv_output *out, const char *end)
+{
+    out->used = (size_t)(end - out->buffer);
+}
+
 static void sdv_write_text(sdv_output *out, const char *text)
 {
-    size_t size = strlen(text);         // literals only: short
-    if (out->used + size > SDV_OUTPUT_SIZE) sdv_flush(out);
-    memcpy(out->buffer + out->used, text, size);
-    out->used += size;
+    for (size_t left = strlen(text), size; left; left -= size, text += size) {
+        char *p = sdv_room(out);
+        size = left < SDV_PIECE_SIZE ? left : SDV_PIECE_SIZE;
+        memcpy(p, text, size);
+        sdv_end(out, p + size);
+    }
 }
 
-static void sdv_write_float(sdv_output *out, float number)
+// A tag with one or two indices and, unless it is negative, a sharpness.
+static void sdv_write_tag(sdv_output *out, const char *tag, const int *indices, int count,
+                          const float *sharpness)
 {
-    if (out->used + 32 > SDV_OUTPUT_SIZE) sdv_flush(out);
-    out->buffer[out->used++] = ' ';
-    out->used += sdv_write_number(out->buffer + out->used, number);
-}
-
-static void sdv_write_int(sdv_output *out, int64_t number)
-{
-    char digits[24], *end = digits + sizeof digits, *first = sdv_digits(end, (uint64_t)number);
-    if (out->used + 32 > SDV_OUTPUT_SIZE) sdv_flush(out);
-    out->buffer[out->used++] = ' ';
-    memcpy(out->buffer + out->used, first, (size_t)(end - first));
-    out->used += (size_t)(end - first);
-}
-
-static void sdv_write_sharpness(sdv_output *out, float sharpness)
-{
-    if (sharpness > SUBDIV_INFINITE) sharpness = SUBDIV_INFINITE;
-    sdv_write_float(out, sharpness > 0 ? sharpness : 0);
-    sdv_write_text(out, "\n");
+    sdv_write_text(out, tag);
+    char *p = sdv_room(out);
+    for (int i = 0; i < count; i++) {
+        *p++ = ' ';
+        p = sdv_write_index(out->figures, p, indices[i]);
+    }
+    if (sharpness) {
+        float s = *sharpness > SUBDIV_INFINITE ? SUBDIV_INFINITE : *sharpness;
+        *p++ = ' ';
+        p = sdv_write_exactly(p, s > 0 ? s : 0);
+    }
+    *p++ = '\n';
+    sdv_end(out, p);
 }
 
 static void sdv_write_rules(sdv_output *out, const subdiv_mesh *mesh)
@@ -6631,58 +7275,116 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
         mesh->creasing == SUBDIV_CREASING_UNIFORM &&
         mesh->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK) return;
     sdv_write_rules(out, mesh);
-    for (int i = 0; i < mesh->crease_count; i++) {
-        sdv_write_text(out, "t crease 2/1/0");
-        sdv_write_int(out, mesh->crease_vertices[2 * i]);
-        sdv_write_int(out, mesh->crease_vertices[2 * i + 1]);
-        sdv_write_sharpness(out, mesh->crease_sharpness[i]);
-    }
-    for (int i = 0; i < mesh->corner_count; i++) {
-        sdv_write_text(out, "t corner 1/1/0");
-        sdv_write_int(out, mesh->corner_vertices[i]);
-        sdv_write_sharpness(out, mesh->corner_sharpness[i]);
-    }
-    for (int i = 0; i < mesh->hole_count; i++) {
-        sdv_write_text(out, "t hole 1/0/0");
-        sdv_write_int(out, mesh->holes[i]);
-        sdv_write_text(out, "\n");
+    for (int i = 0; i < mesh->crease_count; i++)
+        sdv_write_tag(out, "t crease 2/1/0", mesh->crease_vertices + 2 * (size_t)i, 2,
+                      &mesh->crease_sharpness[i]);
+    for (int i = 0; i < mesh->corner_count; i++)
+        sdv_write_tag(out, "t corner 1/1/0", &mesh->corner_vertices[i], 1,
+                      &mesh->corner_sharpness[i]);
+    for (int i = 0; i < mesh->hole_count; i++)
+        sdv_write_tag(out, "t hole 1/0/0", &mesh->holes[i], 1, NULL);
+}
+
+// Lines of so many numbers, and behind each 3 of more unless that is NULL: v x y z r g b.
+static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
+                            const float *more, int count)
+{
+    int all = width + (more ? 3 : 0);
+    for (int i = 0; i < count && !out->context->result; i++) {
+        char *p = sdv_room(out);
+        *p++ = keyword[0];
+        if (keyword[1]) *p++ = keyword[1];
+        for (int j = 0; j < all; j++)
+            p = sdv_write_float(out->figures, p, j < width ? *values++ : *more++);
+        *p++ = '\n';
+        sdv_end(out, p);
     }
 }
 
-static void sdv_write_vertices(sdv_output *out, const float *positions, int count)
+// Faces of one size: f a, a/t, a//a or a/t/a. uvs is NULL without; a face with a -1 there has none.
+// Normals are numbered as the vertices.
+static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs, int normals,
+                            int size, int count)
 {
-    for (int v = 0; v < count && !out->context->result; v++, positions += 3) {
-        sdv_write_text(out, "v");
-        for (int i = 0; i < 3; i++) sdv_write_float(out, positions[i]);
-        sdv_write_text(out, "\n");
+    const sdv_figures *figures = out->figures;
+    const char *full = out->buffer + SDV_OUTPUT_SIZE - SDV_PIECE_SIZE;
+    for (int f = 0; f < count && !out->context->result; f++, vertices += size) {
+        const int *t = uvs ? uvs + (size_t)f * (size_t)size : NULL;
+        for (int i = 0; i < size && t; i++)
+            if (t[i] < 0) t = NULL;
+        char *p = sdv_room(out);
+        *p++ = 'f';
+        for (int i = 0; i < size; i++) {
+            if (p > full) {
+                sdv_end(out, p);
+                p = sdv_room(out);
+            }
+            *p++ = ' ';
+            const char *index = p;
+            p = sdv_write_index(figures, p, vertices[i] + 1);
+            if (!t && !normals) continue;
+            ptrdiff_t length = p - index;
+            *p++ = '/';
+            if (t) p = sdv_write_index(figures, p, t[i] + 1);
+            if (!normals) continue;
+            *p++ = '/';
+            memmove(p, index, 16);              // at most 10 of them count
+            p += length;
+        }
+        *p++ = '\n';
+        sdv_end(out, p);
     }
 }
 
-static const int *sdv_write_face(sdv_output *out, const int *vertices, int size)
+// The statements before a face, from number i on; returns the number of the next.
+static int sdv_write_statements(sdv_output *out, const subdiv_mesh *mesh, int i, int face)
 {
-    sdv_write_text(out, "f");
-    for (int i = 0; i < size; i++) sdv_write_int(out, (int64_t)vertices[i] + 1);
-    sdv_write_text(out, "\n");
-    return vertices + size;
+    for (; i < mesh->statement_count && mesh->statement_faces[i] <= face; i++) {
+        const char *text = mesh->statements[i];
+        sdv_write_text(out, text);
+        // A backslash at the end of a line would join it with the next.
+        sdv_write_text(out, *text && text[strlen(text) - 1] == '\\' ? " \n" : "\n");
+    }
+    return i;
 }
 
 static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
 {
-    const int *vertices = mesh->face_vertices;
-    sdv_write_vertices(out, mesh->positions, mesh->vertex_count);
-    for (int f = 0; f < mesh->face_count && !out->context->result; f++)
-        vertices = sdv_write_face(out, vertices, sdv_face_size(mesh, f));
+    const int *vertices = mesh->face_vertices, *uvs = mesh->uv_count ? mesh->face_uvs : NULL;
+    sdv_write_lines(out, "v", 3, mesh->positions, mesh->colors, mesh->vertex_count);
+    sdv_write_lines(out, "vt", 2, mesh->uvs, NULL, mesh->uv_count);
+    if (mesh->normals) sdv_write_lines(out, "vn", 3, mesh->normals, NULL, mesh->vertex_count);
+    int statement = 0, next;
+    for (int f = 0; f < mesh->face_count && !out->context->result; f = next) {
+        statement = sdv_write_statements(out, mesh, statement, f);
+        next = statement < mesh->statement_count ? mesh->statement_faces[statement]
+                                                 : mesh->face_count;
+        if (!mesh->face_size) next = f + 1;
+        int size = sdv_face_size(mesh, f);
+        sdv_write_faces(out, vertices, uvs, mesh->normals != NULL, size, next - f);
+        vertices += (size_t)(next - f) * (size_t)size;
+        if (uvs) uvs += (size_t)(next - f) * (size_t)size;
+    }
+    sdv_write_statements(out, mesh, statement, mesh->face_count);
+}
+
+static sdv_output sdv_open_output(sdv_context *context, sdv_arena *arena, subdiv_write write,
+                                  void *user)
+{
+    sdv_output out = { context, write, user, NULL, NULL, 0 };
+    sdv_figures *figures = SDV_NEW(context, arena, sdv_figures, 1);
+    out.buffer = SDV_NEW(context, arena, char, SDV_OUTPUT_SIZE);
+    if (context->result) return out;
+    sdv_make_figures(figures);
+    out.figures = figures;
+    return out;
 }
 
 static subdiv_result sdv_save(sdv_context *context, const subdiv_mesh *mesh, subdiv_write write,
                               void *user, const subdiv_options *opt)
 {
-    if (!write) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    if (!context->result) sdv_check_all(context, mesh);
-
     sdv_arena arena = sdv_scratch();
-    sdv_output out = { context, write, user, NULL, 0 };
-    out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
+    sdv_output out = sdv_open_output(context, &arena, write, user);
     if (!context->result) {
         sdv_write_mesh(&out, mesh);
         if (!opt || !opt->no_tags) sdv_write_tags(&out, mesh);
@@ -6696,6 +7398,8 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_all(&context, mesh);
     return sdv_save(&context, mesh, write, user, opt);
 }
 
@@ -6713,14 +7417,20 @@ static int sdv_face_inside(const subdiv_surface *surface, int point)
 
 #define SDV_STREAM_POINTS (1 << 20)
 
-// The vertices of the result, a window at a time. The first windows hold the points of vertices
-// and edges, which any face may make; the others those inside a few faces, or a part of one.
-static void sdv_stream_vertices(sdv_output *out, const subdiv_surface *surface,
-                                const float *positions, float factor, float *window,
-                                void *scratch, const subdiv_options *opt)
+// The points of a surface, width numbers each, a window at a time. The first windows hold the
+// points of vertices and edges, which any face may make; the others those inside a few faces, or a
+// part of one. The first three numbers are positions, to be multiplied by factor.
+static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
+                              const char *keyword, int width, const float *values, float factor,
+                              const subdiv_options *opt)
 {
     int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
-    subdiv_result result = subdiv_evaluate_begin(surface, 3, positions, 3, scratch, opt);
+    size_t stride = (size_t)width;
+    size_t most = total < SDV_STREAM_POINTS ? (size_t)total : SDV_STREAM_POINTS;
+    float *window = SDV_NEW(out->context, arena, float, stride * most);
+    char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
+    if (out->context->result) return;
+    subdiv_result result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
     for (int first = 0; first < total && !result && !out->context->result; first = end) {
         int limit = first < inside ? inside : total, face = 0, faces = surface->cage_face_count;
         end = limit - first > SDV_STREAM_POINTS ? first + SDV_STREAM_POINTS : limit;
@@ -6728,30 +7438,53 @@ static void sdv_stream_vertices(sdv_output *out, const subdiv_surface *surface,
             face = sdv_face_inside(surface, first);
             faces = sdv_face_inside(surface, end - 1) + 1 - face;
         }
-        result = subdiv_evaluate_faces(surface, 3, scratch, face, faces, first, end - first,
-                                       window, 3, opt);
-        sdv_multiply(window, 3 * (size_t)(end - first), factor);
-        sdv_write_vertices(out, window, end - first);
+        result = subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
+                                       window, width, opt);
+        for (size_t i = 0; i < (size_t)(end - first) && factor != 1; i++)
+            sdv_multiply(window + i * stride, 3, factor);
+        sdv_write_lines(out, keyword, width, window, NULL, end - first);
     }
     if (!out->context->result) out->context->result = result;
 }
 
-// The faces, a row of a grid at a time.
-static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row)
+// Positions with the colours behind them, or alone.
+static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
+                                    const subdiv_surface *surface, const float *positions)
+{
+    size_t count = (size_t)surface->cage_vertex_count;
+    if (!surface->colors || context->result) return positions;
+    float *joined = SDV_NEW(context, arena, float, 6 * count);
+    for (size_t v = 0; v < count && joined; v++) {
+        memcpy(joined + 6 * v, positions + 3 * v, 3 * sizeof(float));
+        memcpy(joined + 6 * v + 3, surface->colors + 3 * v, 3 * sizeof(float));
+    }
+    return joined;
+}
+
+// The faces, a row of a grid at a time, and before them their statements. row and uvs have room for
+// one each.
+static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs)
 {
     const sdv_order *order = &surface->order;
+    const subdiv_surface *uv = surface->uv;
+    int size = surface->fine.face_size, statement = 0;
     for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
         if (surface->first_face[f] == surface->first_face[f + 1]) continue;
         int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
-        for (int h = start; h < (sdv_is_ngon(order, f) ? end : start + 1); h++) {
-            sdv_grid grid = sdv_grid_at(order, h);
+        int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
+        statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
+        for (int g = 0; g < grids; g++) {
+            sdv_grid grid = sdv_grid_at(order, start + g), uv_grid = grid;
+            if (own >= 0)
+                uv_grid = sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g);
             for (int i = 0; i < grid.size && !out->context->result; i++) {
-                const int *last = sdv_grid_faces(&grid, i, row);
-                for (const int *v = row; v < last;)
-                    v = sdv_write_face(out, v, surface->fine.face_size);
+                int count = (int)(sdv_grid_faces(&grid, i, row) - row) / size;
+                if (own >= 0) sdv_grid_faces(&uv_grid, i, uvs);
+                sdv_write_faces(out, row, own >= 0 ? uvs : NULL, 0, size, count);
             }
         }
     }
+    sdv_write_statements(out, &surface->fine, statement, surface->fine.face_count);
 }
 
 static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surface,
@@ -6759,19 +7492,19 @@ static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surf
                                 const subdiv_options *opt)
 {
     sdv_arena arena = sdv_scratch();
-    sdv_output out = { context, write, user, NULL, 0 };
+    sdv_output out = sdv_open_output(context, &arena, write, user);
     subdiv_mesh fine = surface->fine;
     float factor = sdv_tame(context, &arena, surface, &positions);
-    int points = fine.vertex_count < SDV_STREAM_POINTS ? fine.vertex_count : SDV_STREAM_POINTS;
-    out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
-    float *window = SDV_NEW(context, &arena, float, 3 * (size_t)points);
-    char *scratch = SDV_NEW(context, &arena, char, subdiv_scratch_size(surface, 3));
     int *row = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
+    int *uvs = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
     fine.holes = SDV_NEW(context, &arena, int, fine.hole_count);
+    const float *values = sdv_join_colors(context, &arena, surface, positions);
     if (!context->result) {
         sdv_fill_holes(surface, fine.holes);
-        sdv_stream_vertices(&out, surface, positions, factor, window, scratch, opt);
-        sdv_stream_faces(&out, surface, row);
+        sdv_stream_points(&out, &arena, surface, "v", surface->colors ? 6 : 3, values, factor, opt);
+        if (surface->uv)
+            sdv_stream_points(&out, &arena, surface->uv, "vt", 2, surface->uvs, 1, opt);
+        sdv_stream_faces(&out, surface, row, uvs);
         if (!opt || !opt->no_tags) sdv_write_tags(&out, &fine);
         sdv_flush(&out);
     }
@@ -6828,8 +7561,8 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
     if (size) *size = 0;
     if (!size || (capacity && !text))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else if (!sdv_save(&context, mesh, sdv_write_memory, &store, opt))
-        *size = store.size;
+    else sdv_check_all(&context, mesh);
+    if (!sdv_save(&context, mesh, sdv_write_memory, &store, opt)) *size = store.size;
     if (!context.result && capacity && capacity < store.size)
         sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
     return context.result;
@@ -6837,11 +7570,42 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
 
 #ifndef SUBDIV_NO_STDIO
 
+// The path is UTF-8, which Windows has to be told.
+#ifdef _WIN32
+#ifdef __cplusplus
+extern "C"
+#endif
+__declspec(dllimport) int __stdcall MultiByteToWideChar(unsigned, unsigned long, const char *, int,
+                                                        wchar_t *, int);
+
+static FILE *sdv_open_path(sdv_context *context, const char *path, const char *mode)
+{
+    const unsigned utf8 = 65001;
+    const wchar_t wide_mode[] = { (wchar_t)mode[0], (wchar_t)mode[1], 0 };
+    sdv_arena arena = sdv_scratch();
+    FILE *file = NULL;
+    int size = MultiByteToWideChar(utf8, 8, path, -1, NULL, 0);    // 8: nothing invalid
+    if (size == 0) sdv_fail(context, SUBDIV_ERROR_IO, "the path is not UTF-8");
+    wchar_t *wide = SDV_NEW(context, &arena, wchar_t, size);
+    if (wide && MultiByteToWideChar(utf8, 8, path, -1, wide, size)) file = _wfopen(wide, wide_mode);
+    sdv_arena_free(&arena);
+    return file;
+}
+#else
+static FILE *sdv_open_path(sdv_context *context, const char *path, const char *mode)
+{
+    (void)context;
+    return fopen(path, mode);
+}
+#endif
+
+// Without a buffer of its own: we read and write in large blocks.
 static FILE *sdv_open(sdv_context *context, const char *path, const char *mode)
 {
-    errno = 0;
-    FILE *file = fopen(path, mode);
-    if (!file) sdv_fail(context, SUBDIV_ERROR_IO, "%s", strerror(errno));
+    sdv_forget_errno();
+    FILE *file = sdv_open_path(context, path, mode);
+    if (file) setvbuf(file, NULL, _IONBF, 0);
+    else sdv_fail(context, SUBDIV_ERROR_IO, "%s", strerror(errno));
     return file;
 }
 
@@ -6913,6 +7677,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #undef SDV_NEW
 #undef SDV_IMPLIED
 #undef SDV_OUTPUT_SIZE
+#undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS
 #undef SDV_QUAD_PATCH_DEPTH
 #undef SDV_LOOP_PATCH_DEPTH

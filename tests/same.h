@@ -9,7 +9,9 @@ static int mesh_is_zero(const subdiv_mesh *m)
     return !m->vertex_count && !m->positions && !m->face_count && !m->face_size && !m->face_sizes &&
            !m->face_vertices && !m->crease_count && !m->crease_vertices && !m->crease_sharpness &&
            !m->corner_count && !m->corner_vertices && !m->corner_sharpness && !m->hole_count &&
-           !m->holes && m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
+           !m->holes && !m->uv_count && !m->uvs && !m->face_uvs && !m->colors && !m->normals &&
+           !m->statement_count && !m->statement_faces && !m->statements &&
+           m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
            m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
            m->uv_rule == (subdiv_uv_rule)0 && !m->cage_faces && !m->memory;
 }
@@ -24,7 +26,17 @@ static int same_bytes(const void *a, const void *b, int count, size_t size)
     return count == 0 || memcmp(a, b, (size_t)count * size) == 0;
 }
 
-// Bit by bit the same cage, however the sizes of its faces are stored.
+static int same_statements(const subdiv_mesh *a, const subdiv_mesh *b)
+{
+    if (a->statement_count != b->statement_count) return 0;
+    for (int i = 0; i < a->statement_count; i++)
+        if (a->statement_faces[i] != b->statement_faces[i] ||
+            strcmp(a->statements[i], b->statements[i]) != 0) return 0;
+    return 1;
+}
+
+// Bit by bit the same cage, however the sizes of its faces are stored. Normals are not compared:
+// they are not read from files.
 static int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
 {
     if (a->vertex_count != b->vertex_count || a->face_count != b->face_count ||
@@ -43,7 +55,11 @@ static int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
            same_bytes(a->crease_sharpness, b->crease_sharpness, a->crease_count, sizeof(float)) &&
            same_bytes(a->corner_vertices, b->corner_vertices, a->corner_count, sizeof(int)) &&
            same_bytes(a->corner_sharpness, b->corner_sharpness, a->corner_count, sizeof(float)) &&
-           same_bytes(a->holes, b->holes, a->hole_count, sizeof(int));
+           same_bytes(a->holes, b->holes, a->hole_count, sizeof(int)) &&
+           same_bytes(a->uvs, b->uvs, 2 * a->uv_count, sizeof(float)) &&
+           same_bytes(a->face_uvs, b->face_uvs, a->uv_count ? total : 0, sizeof(int)) &&
+           same_bytes(a->colors, b->colors, a->colors ? 3 * a->vertex_count : 0, sizeof(float)) &&
+           same_statements(a, b);
 }
 
 #endif

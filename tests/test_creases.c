@@ -641,29 +641,29 @@ static void test_errors(void)
     good_mesh.positions = NULL;
     check_fails(BY_ANGLE, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_mesh.statement_count = -1;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_mesh.statements = NULL;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_mesh.statement_faces = NULL;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_texts[1] = NULL;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_faces[0] = 5;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_INDEX, 30, 1);
     good_faces[1] = 7;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_INDEX, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_INDEX, 30, 1);
     good_faces[0] = -1;
-    check_fails(BY_GROUPS, SUBDIV_ERROR_INDEX, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_INDEX, 30, 1);
     good_mesh.uv_count = -1;
-    check_fails(BY_SEAMS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_mesh.uvs = NULL;
-    check_fails(BY_SEAMS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_mesh.face_uvs = NULL;
-    check_fails(BY_SEAMS, SUBDIV_ERROR_ARGUMENT, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_ARGUMENT, 30, 1);
     good_uvs[23] = 1;
-    check_fails(BY_SEAMS, SUBDIV_ERROR_INDEX, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_INDEX, 30, 1);
     good_uvs[0] = -2;
-    check_fails(BY_SEAMS, SUBDIV_ERROR_INDEX, 30, 1);
+    check_fails(BY_ALL, SUBDIV_ERROR_INDEX, 30, 1);
 }
 
 // Vertices alone, with UVs that no face uses.

@@ -16,10 +16,11 @@
 
 // ---------------------------------------------------------------- a good mesh, broken one by one
 
-// A triangle, a quad and a pentagon around vertex 0, with creases, corners and a hole. All arrays
-// are made anew for each case, so that a case may write to them.
-static float P[3 * 9], S[2], CS[2];
-static int   sizes[3], F[12], E[4], C[2], H[1];
+// A triangle, a quad and a pentagon around vertex 0, with creases, corners, a hole, UVs, colours,
+// normals and statements. All arrays are made anew for each case, so that a case may write to them.
+static float P[3 * 9], S[2], CS[2], UV[2 * 3], colors[3 * 9], N[3 * 9];
+static int   sizes[3], F[12], E[4], C[2], H[1], face_uvs[12], statement_faces[3];
+static char *statements[3];
 
 static subdiv_mesh good_mesh(void)
 {
@@ -33,12 +34,23 @@ static subdiv_mesh good_mesh(void)
     S[0] = 1; S[1] = 2.5f;
     C[0] = 3; C[1] = 8; CS[0] = 1; CS[1] = 10;
     H[0] = 1;
+    static const int good_face_uvs[] = {0,1,2, -1,-1,-1,-1, 2,1,0,0,1}, good_faces[] = {0, 2, 3};
+    static char group[] = "g", material[] = "usemtl a b", smoothing[] = "s 1";
+    memcpy(face_uvs, good_face_uvs, sizeof face_uvs);
+    memcpy(statement_faces, good_faces, sizeof statement_faces);
+    statements[0] = group; statements[1] = material; statements[2] = smoothing;
+    for (int i = 0; i < 6; i++) UV[i] = (float)i;
+    for (int i = 0; i < 27; i++) colors[i] = N[i] = 0.5f;
     subdiv_mesh m = {0};
     m.vertex_count = 9;     m.positions = P;
     m.face_count = 3;       m.face_sizes = sizes;           m.face_vertices = F;
     m.crease_count = 2;     m.crease_vertices = E;          m.crease_sharpness = S;
     m.corner_count = 2;     m.corner_vertices = C;          m.corner_sharpness = CS;
     m.hole_count = 1;       m.holes = H;
+    m.uv_count = 3;         m.uvs = UV;                     m.face_uvs = face_uvs;
+    m.colors = colors;      m.normals = N;
+    m.statement_count = 3;  m.statement_faces = statement_faces;
+    m.statements = statements;
     return m;
 }
 
@@ -80,6 +92,23 @@ static void boundary_3(subdiv_mesh *m)      { m->boundary = (subdiv_boundary)3; 
 static void creasing_2(subdiv_mesh *m)      { m->creasing = (subdiv_creasing)2; }
 static void triangles_2(subdiv_mesh *m)     { m->triangles = (subdiv_triangles)2; }
 static void uv_rule_6(subdiv_mesh *m)       { m->uv_rule = (subdiv_uv_rule)6; }
+static void fewer_uvs(subdiv_mesh *m)       { m->uv_count = -1; }
+static void null_uvs(subdiv_mesh *m)        { m->uvs = NULL; }
+static void null_face_uvs(subdiv_mesh *m)   { m->face_uvs = NULL; }
+static void uv_index(subdiv_mesh *m)        { m->face_uvs[7] = 3; }
+static void uv_index_1(subdiv_mesh *m)      { m->face_uvs[11] = INT_MAX; }
+static void uv_below(subdiv_mesh *m)        { m->face_uvs[4] = -2; }
+static void fewer_lines(subdiv_mesh *m)     { m->statement_count = -3; }
+static void null_lines(subdiv_mesh *m)      { m->statements = NULL; }
+static void null_places(subdiv_mesh *m)     { m->statement_faces = NULL; }
+static void null_line(subdiv_mesh *m)       { m->statements[1] = NULL; }
+static void line_falls(subdiv_mesh *m)      { m->statement_faces[2] = 1; }
+static void line_below(subdiv_mesh *m)      { m->statement_faces[0] = -1; }
+static void line_behind(subdiv_mesh *m)     { m->statement_faces[2] = 4; }
+static char two_lines[] = "g a\nv 1 2 3", other_line[] = "v 1 2 3", near_line[] = "usemtls a";
+static void line_is_two(subdiv_mesh *m)     { m->statements[1] = two_lines; }
+static void line_is_other(subdiv_mesh *m)   { m->statements[0] = other_line; }
+static void line_is_near(subdiv_mesh *m)    { m->statements[2] = near_line; }
 
 typedef struct broken {
     const char   *name;
@@ -131,6 +160,22 @@ static const broken broken_meshes[] = {
     BROKEN(creasing_2,      ARGUMENT,  -1, -1, "creasing"),
     BROKEN(triangles_2,     ARGUMENT,  -1, -1, "triangles"),
     BROKEN(uv_rule_6,       ARGUMENT,  -1, -1, "uv_rule"),
+    BROKEN(fewer_uvs,       ARGUMENT,  -1, -1, "uvs"),
+    BROKEN(null_uvs,        ARGUMENT,  -1, -1, "uvs"),
+    BROKEN(null_face_uvs,   ARGUMENT,  -1, -1, "face_uvs"),
+    BROKEN(uv_index,        INDEX,      2, -1, "3"),
+    BROKEN(uv_index_1,      INDEX,      2, -1, "2147483647"),
+    BROKEN(uv_below,        INDEX,      1, -1, "-2"),
+    BROKEN(fewer_lines,     ARGUMENT,  -1, -1, "-3"),
+    BROKEN(null_lines,      ARGUMENT,  -1, -1, "statements"),
+    BROKEN(null_places,     ARGUMENT,  -1, -1, "statement_faces"),
+    BROKEN(null_line,       ARGUMENT,  -1, -1, "statement 1"),
+    BROKEN(line_falls,      INDEX,      1, -1, "statement 2"),
+    BROKEN(line_below,      INDEX,     -1, -1, "statement 0"),
+    BROKEN(line_behind,     INDEX,      4, -1, "statement 2"),
+    BROKEN(line_is_two,     ARGUMENT,  -1, -1, "statement 1"),
+    BROKEN(line_is_other,   ARGUMENT,  -1, -1, "statement 0"),
+    BROKEN(line_is_near,    ARGUMENT,  -1, -1, "statement 2"),
 };
 
 static void check_error(const subdiv_error *error, const broken *b)
@@ -249,13 +294,24 @@ static void test_broken_positions(void)
     test_context = "";
 }
 
+static void uv_nan(subdiv_mesh *m)          { m->uvs[3] = (float)NAN; }
+static void color_inf(subdiv_mesh *m)       { m->colors[3 * 7 + 2] = HUGE_VALF; }
+static void normal_minus(subdiv_mesh *m)    { m->normals[3 * 8] = -HUGE_VALF; }
+
+static const broken broken_data[] = {
+    BROKEN(uv_nan,       NOT_FINITE, -1, -1, "UV 1"),
+    BROKEN(color_inf,    NOT_FINITE, -1, 7, "color 7"),
+    BROKEN(normal_minus, NOT_FINITE, -1, 8, "normal 8"),
+};
+
 // The writer refuses what could not be read again, before it writes anything.
 static void test_broken_meshes_are_not_saved(void)
 {
-    const broken *lists[] = {broken_meshes, broken_positions};
+    const broken *lists[] = {broken_meshes, broken_positions, broken_data};
     const size_t counts[] = {sizeof broken_meshes / sizeof *broken_meshes,
-                             sizeof broken_positions / sizeof *broken_positions};
-    for (int k = 0; k < 2; k++) {
+                             sizeof broken_positions / sizeof *broken_positions,
+                             sizeof broken_data / sizeof *broken_data};
+    for (int k = 0; k < 3; k++) {
         for (size_t i = 0; i < counts[k]; i++) {
             const broken *b = &lists[k][i];
             subdiv_mesh mesh = good_mesh();
@@ -370,7 +426,7 @@ static void test_levels(void)
 static void test_levels_of_a_mesh_without_faces(void)
 {
     subdiv_mesh fine, cage = good_mesh();
-    cage.face_count = 0;
+    cage.face_count = cage.statement_count = 0;
     cage.crease_count = 0;
     cage.hole_count = 0;
     for (int levels = 0; levels <= 30; levels += 3) {

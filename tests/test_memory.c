@@ -76,14 +76,19 @@ static void write_line(const char *format, int a, int b, int c)
     obj_size += (size_t)n;
 }
 
-// A strip of quads that ends in a pentagon and a triangle, with a warning and tags of each kind.
+// A strip of coloured quads with UVs that ends in a pentagon and a triangle without, with statements,
+// two warnings, and tags of each kind.
 static void make_obj_text(void)
 {
     enum { COUNT = 3000 };
     obj_size = 0;
-    for (int i = 0; i < COUNT; i++) write_line("v %d %d %d\n", i / 2, i % 2, i % 5);
-    for (int i = 1; i + 7 < COUNT; i += 2) write_line("f -%d %d %d", COUNT + 1 - i, i + 2, i + 3),
-                                           write_line(" %d\n", i + 1, 0, 0);
+    for (int i = 0; i < COUNT; i++) write_line("v %d %d %d 1 .5 0\n", i / 2, i % 2, i % 5);
+    for (int i = 0; i < COUNT; i++) write_line("vt %d %d\n", i, i % 7, 0);
+    for (int i = 1; i + 7 < COUNT; i += 2) {
+        if (i % 5 == 0) write_line("usemtl m%d\n", i, 0, 0);
+        write_line("f -%d/1 %d/%d", COUNT + 1 - i, i + 2, i + 2);
+        write_line(" %d/3 %d/2\n", i + 3, i + 1, 0);
+    }
     write_line("f %d %d %d", COUNT - 5, COUNT - 3, COUNT - 1), write_line(" %d %d\n", COUNT - 2,
                                                                          COUNT - 4, 0);
     write_line("f %d %d %d\n", COUNT - 1, COUNT, COUNT - 2);
@@ -282,7 +287,7 @@ static int check_call(call run)
     opt.user = &main_heap;
     opt.error = &error;
     CHECK_EQUAL(subdiv_load_obj_memory(&cage, obj_text, obj_size, &opt), SUBDIV_OK);
-    CHECK_EQUAL(error.warning_count, 1);
+    CHECK_EQUAL(error.warning_count, 2);
     int live = main_heap.live;
     CHECK_EQUAL(live, 1);             // a mesh is one block
 

@@ -15,6 +15,30 @@
 
 // ------------------------------------------------------------------------------------- loading
 
+static unsigned random_state = 2463534242u;
+
+static unsigned random_bits(void)
+{
+    random_state ^= random_state << 13;
+    random_state ^= random_state >> 17;
+    random_state ^= random_state << 5;
+    return random_state;
+}
+
+static float from_bits(unsigned bits)
+{
+    float f;
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+static unsigned to_bits(float f)
+{
+    unsigned bits;
+    memcpy(&bits, &f, sizeof bits);
+    return bits;
+}
+
 // A text handed out in pieces of at most step bytes; call number fail_at fails (0: none).
 typedef struct pieces {
     const char *text;
@@ -73,6 +97,8 @@ static subdiv_result load(subdiv_mesh *mesh, const char *text, subdiv_error *err
 #define V4 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 #define QUAD V4 "f 1 2 3 4\n"
 #define TWO QUAD "f 1 2 3\n"
+#define VT4 "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+#define UVS V4 VT4 "f 1/1 2/2 3/3 4/4\n"
 
 // Each text is another way to write the same mesh, without a warning.
 typedef struct same_text {
@@ -120,19 +146,26 @@ static void test_plain_quad(void)
 static void test_face_forms(void)
 {
     static const same_text pairs[] = {
-        {V4 "f 1/1 2/2 3/3 4/4\n", QUAD},
         {V4 "f 1//1 2//2 3//3 4//4\n", QUAD},
-        {V4 "f 1/1/1 2/2/2 3/3/3 4/4/4\n", QUAD},
         {V4 "f 1/ 2/ 3/ 4/\n", QUAD},
         {V4 "f 1// 2// 3// 4//\n", QUAD},
-        {V4 "f 1/1/ 2/2/ 3/3/ 4/4/\n", QUAD},
-        {V4 "f 1 2/2 3//3 4/4/4\n", QUAD},
-        {V4 "f 1/9/9 2/-9/-9 3/0/0 4\n", QUAD},
-        {V4 "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\n", QUAD},
+        {V4 "f 1 2/ 3// 4//4\n", QUAD},
+        {V4 "f 1//9 2//-9 3//0 4\n", QUAD},
+        {V4 "f 1//99999999999999999999 2//-2147483648 3 4\n", QUAD},
+        {V4 "vt 0 0\nvn 0 0 1\nf 1 2 3 4\n", QUAD},
         {V4 "f -4 -3 -2 -1\n", QUAD},
-        {V4 "f -4/-1 -3/-1 -2//-1 -1/-1/-1\n", QUAD},
+        {V4 "f -4// -3//-1 -2/ -1\n", QUAD},
+        {V4 VT4 "f 1/1/1 2/2/2 3/3/3 4/4/4\n", UVS},
+        {V4 VT4 "f 1/1/ 2/2/ 3/3/ 4/4/\n", UVS},
+        {V4 VT4 "f 1/1 2/2/ 3/3/3 4/4/-7\n", UVS},
+        {V4 VT4 "f -4/-4 -3/-3/0 -2/3 4/-1\n", UVS},
+        {V4 VT4 "f\t1/+1   2/02 3/3\\\n4/4\n", UVS},
+        {"f 1/1 2/2 3/3 4/4\n" VT4 V4, UVS},
+        {"vt 0 0\n" V4 "f 1/-1 2/2 3/3 4/4\nvt 1 0\nvt 1 1\nvt 0 1\n", UVS},
+        {VT4 "vt 7 7\n" V4 "f 1/1 2/2 3/3 4/4\n", V4 VT4 "vt 7 7\nf 1/1 2/2 3/3 4/4\n"},
         {V4 "f +1 +2 +3 +4\n", QUAD},
         {V4 "f 01 0002 3 4\n", QUAD},
+        {V4 "f 000000001 0000000002 00000000000000000000000003 4\n", QUAD},
         {V4 "f 1 -3 3 -1\n", QUAD},
         {V4 "fo 1 2 3 4\n", QUAD},
         {V4 "f\t1  2\t\t3 4 \t\n", QUAD},
@@ -148,15 +181,28 @@ static void test_face_forms(void)
     CHECK_SAME_TEXTS(pairs);
 }
 
+#define RED "v 0 0 0 1 0 0\nv 1 0 0 .5 .25 1e-3\nv 1 1 0 1 1 1\nv 0 1 0 0 0 0\nf 1 2 3 4\n"
+
 static void test_vertex_forms(void)
 {
     static const same_text pairs[] = {
         {"v 0 0 0 1\nv 1 0 0 0.5\nv 1 1 0 2\nv 0 1 0 1\nf 1 2 3 4\n", QUAD},
-        {"v 0 0 0 .1 .2 .3\nv 1 0 0 1 1 1\nv 1 1 0 0 0 0\nv 0 1 0 1 0 1\nf 1 2 3 4\n", QUAD},
-        {"v 0 0 0 1 1 1 1\nv 1 0 0 1 1 1 1\nv 1 1 0 1 1 1 1\nv 0 1 0 1 1 1 1\nf 1 2 3 4\n", QUAD},
+        {"v 0 0 0 .1 .2 .3 .4 .5\nv 1 0 0 1 1\nv 1 1 0 0\nv 0 1 0 1 1 1 1 1 1 1 1\nf 1 2 3 4\n",
+         QUAD},
         {"v .0 0. +0\nv 1e0 0e5 0E-5\nv 1.000 10e-1 0.0\nv 000 .1e+1 0\nf 1 2 3 4\n", QUAD},
         {"v 0 0 0e999999999999\nv 1 0 0\nv 1 1 0\nv 0 1 1e-99999999999\nf 1 2 3 4\n", QUAD},
         {"v\t0\t0\t0\n  v 1 0 0\n\tv 1 1 0\n \t v 0 1 0\n f 1 2 3 4\n", QUAD},
+        {"v  0  0 0 \nv   1 0   0\nv 1 1 0  \r\nv 0 1 0\t\nf  1  2 3   4  \r\n", QUAD},
+        {"v 0 0 0 1 0 0 1\nv 1 0 0 .5 .25 1e-3 0.5\nv 1 1 0 1 1 1 0\nv 0 1 0 0 0 0 7\nf 1 2 3 4\n",
+         RED},
+        {"v 0 0 0 1 0 0\nv 1 0 0 .5 .25 .001\nv 1 1 0\nv 0 1 0 0 0 0\nf 1 2 3 4\n", RED},
+        {"v 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0 1 1 1\nf 1 2 3 4\n",
+         "v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3 4\n"},
+        {"v 0 0 0 1 0 0#red\nv 1 0 0 .5 .25 \\\n1e-3\nv 1 1 0 1 1 1 # white\n"
+         "v 0 1 0 0 0 0\nf 1 2 3 4\n", RED},
+        {V4 "vt\t0 0\nvt 1\nvt 1 1 0.5 # w\nvt 0 1 1 2 3\nf 1/1 2/2 3/3 4/4\n", UVS},
+        {V4 "vt 0\nvt +1e0 .0\n  vt 1 1 -1e30\\\n0\nvt -0e9 1.\nf 1/1 2/2 3/3 4/4\n",
+         V4 "vt 0 0\nvt 1 0\nvt 1 1\nvt -0 1\nf 1/1 2/2 3/3 4/4\n"},
     };
     CHECK_SAME_TEXTS(pairs);
 }
@@ -194,18 +240,132 @@ static void test_lines(void)
     CHECK_SAME_TEXTS(pairs);
 }
 
+// What is not kept: one warning for each kind, which names the first line and the count.
+typedef struct other {
+    const char *text;
+    int warning_count;
+    const char *warning;
+} other;
+
 static void test_other_keywords(void)
 {
-    static const same_text pairs[] = {
-        {"mtllib a b.mtl\no name of it\ng\ng a b\ns off\ns 1\nusemtl red\n" QUAD "l 1 2\np 1\n",
-         QUAD},
-        {"vt 0\nvt 0 0\nvt 0 0 0\nvn 0 0 1\nvp 1 2\nvertex 1 2 3\n" QUAD, QUAD},
-        {V4 "vn nan x\nvt\nl 1/1 2/2\np 99\nf 1 2 3 4\nfoo bar\nface 1 2\nlod 3\nbevel on\n", QUAD},
-        {"cstype bspline\ndeg 3 3\n" V4 "curv 0 1 1 2\nsurf 0 1 0 1 9 9\nparm u 0 1\nend\n"
-         "call x.obj\nf 1 2 3 4\n", QUAD},
-        {QUAD "V 1 2 3\nF 1 2 3\nT crease 2/1/0 0 1 2\ntrace_obj x\n", QUAD},
+    static const other cases[] = {
+        {QUAD "vn 0 0 1\nvn nan x\nvn\n", 0, ""},
+        {QUAD "l 1 2\np 1\nl 1/1 2/2\np 99\n", 1, "line 6: 4 points and lines"},
+        {"vp 1 2\ncstype bspline\ndeg 3 3\n" V4 "curv 0 1 1 2\nsurf 0 1 0 1 9 9\nparm u 0 1\nend\n"
+         "f 1 2 3 4\n", 1, "line 1: 7 free-form"},
+        {V4 "vertex 1 2 3\ncall x.obj\nf 1 2 3 4\nfoo bar\nface 1 2\nlod 3\nbevel on\n", 1,
+         "line 5: 6 statements with unknown"},
+        {QUAD "V 1 2 3\nF 1 2 3\nT crease 2/1/0 0 1 2\ntrace_obj x\n", 1, "line 6: 4 statements"},
+        {"foo \\\nv 9 9 9\n" QUAD "l 1 2\nend\nfoo # \\\nend", 3, "line 8: 1 points"},
+        {"vt 0 0\nvt 0\n" QUAD, 0, ""},
     };
-    CHECK_SAME_TEXTS(pairs);
+    subdiv_mesh plain;
+    subdiv_error error;
+    CHECK_EQUAL(load(&plain, QUAD, &error), SUBDIV_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        CHECK_EQUAL(error.warning_count, cases[i].warning_count);
+        if (strncmp(error.warning, cases[i].warning, strlen(cases[i].warning)) != 0)
+            TEST_REPORT("\"%s\" does not begin with \"%s\"", error.warning, cases[i].warning);
+        CHECK(same_mesh(&mesh, &plain));
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
+    subdiv_mesh_free(&plain);
+}
+
+// ----------------------------------------------------------------------------- UVs and statements
+
+// The UV indices of the faces that a text gives, a face each: "0 1 2;3 4 -1;".
+typedef struct uv_case {
+    const char *text;
+    int uv_count;
+    const char *face_uvs;
+    int warning_count;
+    const char *warning;
+} uv_case;
+
+static void list_uvs(const subdiv_mesh *m, char *text)
+{
+    const int *uv = m->face_uvs;
+    *text = 0;
+    for (int f = 0; f < m->face_count && uv; f++)
+        for (int i = 0; i < size_of_face(m, f); i++, uv++)
+            sprintf(text + strlen(text), "%d%c", *uv, i + 1 < size_of_face(m, f) ? ' ' : ';');
+}
+
+static void test_faces_without_uvs(void)
+{
+    static const uv_case cases[] = {
+        {QUAD, 0, "", 0, ""},
+        {VT4 QUAD, 0, "", 0, ""},
+        {UVS, 4, "0 1 2 3;", 0, ""},
+        {UVS "f 1 2 3\n", 4, "0 1 2 3;-1 -1 -1;", 1, "line 10: 1 of 2 faces"},
+        {V4 VT4 "f 1 2 3\nf 2 3 4\nf 1/4 2/3 3/2\nf 1 3 4\n", 4,
+         "-1 -1 -1;-1 -1 -1;3 2 1;-1 -1 -1;", 1, "line 9: 3 of 4 faces"},
+        {V4 VT4 "f 1/1 2/2 3\nf 1 2/1 3/1\nf 1/1 2 3/4 4/2\nf 4/4 3/3 1/1\n", 4,
+         "-1 -1 -1;-1 -1 -1;-1 -1 -1 -1;3 2 0;", 1, "line 9: 3 of 4 faces"},
+        {V4 VT4 "f 1/1 2/2 3//\n", 0, "", 1, "line 9: no face has a vt"},
+        {V4 "vt 0 0\nvn 0 0 1\nf 1 2/1 3//1 4/1/1\n", 0, "", 1, "line 7: no face has a vt"},
+        {V4 VT4 "f 1/1 2/2\nf 1/3 2/2 3/1\nf 4/1\n", 4, "2 1 0;", 2, "line 9: a face with 2"},
+        {"f 1/1 2/2 3\nf 3/3 2/2 1/1\n" V4 VT4, 4, "-1 -1 -1;2 1 0;", 1, "line 1: 1 of 2 faces"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        subdiv_error error;
+        char text[256];
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        CHECK_EQUAL(mesh.uv_count, cases[i].uv_count);
+        CHECK_EQUAL(mesh.uvs != NULL, cases[i].uv_count > 0);
+        list_uvs(&mesh, text);
+        CHECK_TEXT(text, cases[i].face_uvs);
+        CHECK_EQUAL(error.warning_count, cases[i].warning_count);
+        if (strncmp(error.warning, cases[i].warning, strlen(cases[i].warning)) != 0)
+            TEST_REPORT("\"%s\" does not begin with \"%s\"", error.warning, cases[i].warning);
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
+}
+
+// The statements of a mesh with their faces, a line each: "0 g a\n2 s 1\n".
+static void list_statements(const subdiv_mesh *m, char *text)
+{
+    *text = 0;
+    for (int i = 0; i < m->statement_count; i++)
+        sprintf(text + strlen(text), "%d %s\n", m->statement_faces[i], m->statements[i]);
+}
+
+static void test_statements(void)
+{
+    static const same_text cases[] = {
+        {QUAD, ""},
+        {"mtllib a.mtl b.mtl\no thing\n" V4 "g a b\ns off\nusemtl red\nf 1 2 3\ng\ns 1\nf 1 2 3 4\n"
+         "s 0\n",
+         "0 mtllib a.mtl b.mtl\n0 o thing\n0 g a b\n0 s off\n0 usemtl red\n1 g\n1 s 1\n2 s 0\n"},
+        {V4 "usemtl\tMaterial #25 \t\r\n  g   left  side \nf 1 2 3\n"
+         "o \xc3\xa9t\xc3\xa9 \xe2\x98\x83\n",
+         "0 usemtl Material #25\n0 g left  side\n1 o \xc3\xa9t\xc3\xa9 \xe2\x98\x83\n"},
+        {V4 "g a \\\n b\\\r\nc\nf 1 2 3\ns \\\n\nf 1 2 3\nmtllib C:\\dir\\ \no x # y \\\n"
+         "f 1 2 4\ng z\\",
+         "0 g a   b c\n1 s\n2 mtllib C:\\dir\\\n2 o x # y\n3 g z\n"},
+        {V4 "f 1 2 3\nf 1 2\ng a\nf 1\nf 1 2 3\ns 1", "1 g a\n2 s 1\n"},
+        {V4 "group a\nusemtls b\nf 1 2 3\nusemtl", "1 usemtl\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        subdiv_error error;
+        char text[512];
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        list_statements(&mesh, text);
+        CHECK_TEXT(text, cases[i].plain);
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
 }
 
 // Appends to a text that is large enough.
@@ -252,6 +412,76 @@ static void test_long_lines(void)
     for (int i = 0; i < SIDES && !test_bad; i++) {
         CHECK_EQUAL(mesh.face_vertices[i], SIDES - 1 - i);
         CHECK(mesh.positions[3 * i] == (float)i);
+    }
+    subdiv_mesh_free(&mesh);
+    free(text);
+}
+
+// A text of several blocks, of lines of every kind in any order, read in blocks of other sizes.
+static void test_block_borders(void)
+{
+    static const char *const lines[] = {
+        "v 1 2.5 -3\n", "v\t1e3 .5 0 # x\n", "v 1 2 3 .5 .5 .5\r\n", "vt .25 1\n", "vt 1\r",
+        "f 1 2 3\n", "f 1/1 2/1 3/1\n", "f -1 -2 \\\n-3\r\n", "f 3//3 2//2 1//1 1//7 \n", "g a b\n",
+        "usemtl red\n", "# a comment \\\n", "\n", "\r\n", "s 1\r", "l 1 2\n", "vn 0 0 1\n",
+        "t crease 2/1/0 0 1 2\n",
+        "  f 1/1/1 2/1/1 3/1/1 2/1/1 1/1/1\n", "v 0.1234567890123456789 1 1\n", "f 1 2\n", "\\\n\n",
+    };
+    enum { LINES = 60000, KINDS = sizeof lines / sizeof *lines };
+    char *text = (char *)malloc(LINES * 40);
+    size_t size = 0;
+    append(text, &size, "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n");
+    for (int i = 0; i < LINES; i++) append(text, &size, lines[random_bits() % KINDS]);
+    append(text, &size, "f 1 2 77777");         // how many lines there are, and vertices
+    size_t steps[] = {size, 1, 11, 4096, 262142, 262143, 100003};
+    for (int bad = 0; bad < 2; bad++) {
+        subdiv_mesh first = {0};
+        subdiv_error first_error = {0};
+        for (int k = 0; k < 7; k++) {
+            pieces p = {text, bad ? size : size - 11, 0, steps[k], 0, 0};
+            subdiv_mesh mesh;
+            subdiv_error error = {0};
+            subdiv_options opt = {0};
+            opt.error = &error;
+            CHECK_EQUAL(subdiv_load_obj_callback(&mesh, read_piece, &p, &opt),
+                        bad ? SUBDIV_ERROR_INDEX : SUBDIV_OK);
+            if (k == 0) {
+                first = mesh;
+                first_error = error;
+                continue;
+            }
+            CHECK(same_mesh(&mesh, &first));
+            CHECK_EQUAL(error.line, first_error.line);
+            CHECK_EQUAL(error.warning_count, first_error.warning_count);
+            CHECK_TEXT(error.message, first_error.message);
+            CHECK_TEXT(error.warning, first_error.warning);
+            subdiv_mesh_free(&mesh);
+        }
+        if (!bad) CHECK(first.face_count > LINES / 6 && first.vertex_count > LINES / 10);
+        if (!bad) CHECK(first.uv_count > 0 && first.colors && first.statement_count > LINES / 10);
+        subdiv_mesh_free(&first);
+    }
+    free(text);
+}
+
+// Groups cost no more the more there are.
+static void test_many_groups(void)
+{
+    enum { GROUPS = 60000 };
+    char *text = (char *)malloc(GROUPS * 48), piece[64];
+    subdiv_mesh mesh;
+    size_t size = 0;
+    append(text, &size, V4);
+    for (int i = 0; i < GROUPS; i++) {
+        snprintf(piece, sizeof piece, "g group %d\nusemtl m%d\nf 1 2 3\n", i, i);
+        append(text, &size, piece);
+    }
+    CHECK_EQUAL(subdiv_load_obj_memory(&mesh, text, size, NULL), SUBDIV_OK);
+    CHECK_EQUAL(mesh.statement_count, 2 * GROUPS);
+    for (int i = 0; i < mesh.statement_count && !test_bad; i++) {
+        snprintf(piece, sizeof piece, i % 2 ? "usemtl m%d" : "g group %d", i / 2);
+        CHECK_TEXT(mesh.statements[i], piece);
+        CHECK_EQUAL(mesh.statement_faces[i], i / 2);
     }
     subdiv_mesh_free(&mesh);
     free(text);
@@ -515,6 +745,32 @@ static const refusal refusals[] = {
     {"v 0 0 -1e99999999999999999999\n", SUBDIV_ERROR_NOT_FINITE, 1, {"-1e9999999999999999", ""}},
     {"v 0 0 1e18446744073709551617\n", SUBDIV_ERROR_NOT_FINITE, 1, {"1e18446744073709551617", ""}},
     {"v 0 0 3.4028236e38\n", SUBDIV_ERROR_NOT_FINITE, 1, {"3.4028236e38", ""}},
+    {"v 0 0 0 x\n", SUBDIV_ERROR_SYNTAX, 1, {"x", ""}},
+    {"v 0 0 0 1 0 nan\n", SUBDIV_ERROR_SYNTAX, 1, {"nan", ""}},
+    {"v 0 0 0 1 0 1e39\n", SUBDIV_ERROR_NOT_FINITE, 1, {"1e39", ""}},
+    {V4 "vt\n", SUBDIV_ERROR_SYNTAX, 5, {"vt", ""}},
+    {V4 "vt # 0 0\n", SUBDIV_ERROR_SYNTAX, 5, {"vt", ""}},
+    {V4 "vt 0 x\n", SUBDIV_ERROR_SYNTAX, 5, {"x", ""}},
+    {V4 "vt 0,5 0,25\n", SUBDIV_ERROR_SYNTAX, 5, {"0,5", ""}},
+    {V4 "vt 0 1 -inf\n", SUBDIV_ERROR_SYNTAX, 5, {"-inf", ""}},
+    {V4 "vt 0 1e40\n", SUBDIV_ERROR_NOT_FINITE, 5, {"1e40", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1 3/7\n", SUBDIV_ERROR_INDEX, 6, {"vt 7", "1"}},
+    {"f 1/1 2/1 3/7\nvt 0 0\n" V4, SUBDIV_ERROR_INDEX, 1, {"vt 7", "1"}},
+    {V4 "vt 0 0\nf 1/0 2/1 3/1\n", SUBDIV_ERROR_INDEX, 6, {"vt 0", ""}},
+    {V4 "vt 0 0\nf 1/1 2/-2 3/1\n", SUBDIV_ERROR_INDEX, 6, {"vt -2", "1"}},
+    {V4 "f 1/-1 2/-1 3/-1\nvt 0 0\n", SUBDIV_ERROR_INDEX, 5, {"vt -1", "0"}},
+    {V4 "f 1/1 2/2 3/3 4/4\n", SUBDIV_ERROR_INDEX, 5, {"vt 1", "0"}},
+    {V4 "vt 0 0\nf 1/1/1 2/1/1 3/2147483648/1\n", SUBDIV_ERROR_INDEX, 6, {"2147483648", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1 3/4294967297\n", SUBDIV_ERROR_INDEX, 6, {"4294967297", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1 3/99999999999999999999\n", SUBDIV_ERROR_INDEX, 6,
+     {"99999999999999999999", ""}},
+    {V4 "vt 0 0\nf 1/1 2/1\nf 1/2 3\n", SUBDIV_ERROR_INDEX, 7, {"vt 2", "1"}},
+    {V4 "vt 0 0\nf 1/1.0 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1.0", ""}},
+    {V4 "vt 0 0\nf 1/x 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/x", ""}},
+    {V4 "vt 0 0\nf 1/1/x 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1/x", ""}},
+    {V4 "vt 0 0\nf 1/1/1/1 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1/1/1", ""}},
+    {V4 "vt 0 0\nf 1/- 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/-", ""}},
+    {V4 "vt 0 0\nf 1/1\\ 2/1 3/1\n", SUBDIV_ERROR_SYNTAX, 6, {"1/1\\", ""}},
     {"", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
     {"\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
     {"# nothing\n# here\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
@@ -522,7 +778,8 @@ static const refusal refusals[] = {
     {"<!DOCTYPE html>\n<html><body>404</body></html>\n", SUBDIV_ERROR_EMPTY, 0,
      {"no vertices", ""}},
     {"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n", SUBDIV_ERROR_SYNTAX, 1,
-     {"Git LFS", ""}},    {"V 0 0 0\nV 1 0 0\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
+     {"Git LFS", ""}},
+    {"V 0 0 0\nV 1 0 0\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
 };
 
 static const char *scratch = "build/test_obj.scratch.obj";
@@ -608,30 +865,6 @@ static void test_binary_is_refused(void)
 }
 
 // ----------------------------------------------------------------------------- reading numbers
-
-static unsigned random_state = 2463534242u;
-
-static unsigned random_bits(void)
-{
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
-}
-
-static float from_bits(unsigned bits)
-{
-    float f;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
-static unsigned to_bits(float f)
-{
-    unsigned bits;
-    memcpy(&bits, &f, sizeof bits);
-    return bits;
-}
 
 static float random_float(void)
 {
@@ -938,6 +1171,55 @@ static void test_write_special_numbers(void)
     check_written(values, n - n % 3 + 3);
 }
 
+static void test_write_indices(void)
+{
+    sdv_figures *figures = (sdv_figures *)malloc(sizeof *figures);
+    sdv_make_figures(figures);
+    for (unsigned i = 0; i < 300000; i++) {
+        char text[64], expected[32];
+        int number = i < 120000 ? (int)i : (int)(random_bits() >> (1 + i % 31));
+        *sdv_write_index(figures, text, i == 299999 ? INT_MAX : number) = 0;
+        snprintf(expected, sizeof expected, "%d", i == 299999 ? INT_MAX : number);
+        CHECK_TEXT(text, expected);
+    }
+    free(figures);
+}
+
+// Every so many bit patterns: written, they are what strtof makes of the text, and what we read.
+// OBJ_SWEEP=1 in the environment looks at all of them.
+static void test_sweep(void)
+{
+    enum { COUNT = 3 * 100000 };
+    const char *setting = getenv("OBJ_SWEEP");
+    unsigned long long step = setting && atoi(setting) > 0 ? (unsigned)atoi(setting) : 2039;
+    float *values = (float *)malloc(COUNT * sizeof *values);
+    for (unsigned long long bits = 0; bits >> 32 == 0 && !test_bad;) {
+        subdiv_mesh mesh = {0}, back;
+        size_t size;
+        int count = 0;
+        for (; count < COUNT && bits >> 32 == 0; bits += step) {
+            values[count] = from_bits((unsigned)bits);
+            count += values[count] - values[count] == 0;            // finite
+        }
+        while (count % 3) values[count++] = 0;
+        mesh.vertex_count = count / 3;
+        mesh.positions = values;
+        if (count == 0) break;
+        char *text = save_text(&mesh, &size, NULL), *p = text;
+        CHECK_EQUAL(subdiv_load_obj_memory(&back, text, size, NULL), SUBDIV_OK);
+        for (int i = 0; i < count && back.vertex_count == count / 3; i++) {
+            if (i % 3 == 0) p += strspn(p, "v\n");
+            float f = strtof(p, &p);
+            if (to_bits(f) != to_bits(values[i]) || to_bits(back.positions[i]) != to_bits(f))
+                TEST_REPORT("%08x is written as %08x and read as %08x", to_bits(values[i]),
+                            to_bits(f), to_bits(back.positions[i]));
+        }
+        subdiv_mesh_free(&back);
+        free(text);
+    }
+    free(values);
+}
+
 // What a reader sees matters too: small numbers without an exponent, nothing superfluous.
 static void test_write_short_texts(void)
 {
@@ -964,15 +1246,28 @@ static int    wavy_C[] = {0, 8, 4};
 static float  wavy_CS[] = {1.3f, 10.0f, 0.7f};
 static int    wavy_H[] = {1, 4};
 
+static float  wavy_UV[2 * 7], wavy_colors[3 * 9];
+static int    wavy_face_uvs[] = {0,1,2,3, 1,2,3, 2,4,3, 5,6,0,1,2, 6,6,6};
+static int    wavy_statement_faces[] = {0, 0, 2, 5};
+static char   wavy_mtllib[] = "mtllib a b.mtl", wavy_group[] = "g";
+static char   wavy_material[] = "usemtl \xc3\xa4", wavy_smoothing[] = "s 1";
+static char  *wavy_statements[] = {wavy_mtllib, wavy_group, wavy_material, wavy_smoothing};
+
 static subdiv_mesh wavy_mesh(void)
 {
     subdiv_mesh m = {0};
     for (int i = 0; i < 3 * 9; i++) wavy_P[i] = random_float();
+    for (int i = 0; i < 2 * 7; i++) wavy_UV[i] = random_float();
+    for (int i = 0; i < 3 * 9; i++) wavy_colors[i] = random_float();
     m.vertex_count = 9;     m.positions = wavy_P;
     m.face_count = 5;       m.face_sizes = wavy_sizes;      m.face_vertices = wavy_F;
     m.crease_count = 4;     m.crease_vertices = wavy_E;     m.crease_sharpness = wavy_S;
     m.corner_count = 3;     m.corner_vertices = wavy_C;     m.corner_sharpness = wavy_CS;
     m.hole_count = 2;       m.holes = wavy_H;
+    m.uv_count = 7;         m.uvs = wavy_UV;                m.face_uvs = wavy_face_uvs;
+    m.colors = wavy_colors;
+    m.statement_count = 4;  m.statement_faces = wavy_statement_faces;
+    m.statements = wavy_statements;
     return m;
 }
 
@@ -985,6 +1280,7 @@ static void check_round_trip(const subdiv_mesh *mesh)
     CHECK_EQUAL(load_bytes(&back, text, size, &error), SUBDIV_OK);
     CHECK_EQUAL(error.warning_count, 0);
     CHECK(same_mesh(mesh, &back));
+    back.normals = mesh->normals;     // not read from files
     char *again = save_text(&back, &again_size, NULL);
     CHECK_EQUAL(again_size, size);
     CHECK(again_size == size && memcmp(text, again, size) == 0);
@@ -1015,13 +1311,74 @@ static void test_round_trip_of_one_face_size(void)
     mesh.face_size = 3;
     mesh.face_count = 6;
     check_round_trip(&mesh);
+    mesh.normals = mesh.positions;
+    check_round_trip(&mesh);
     mesh.face_size = 18;
     mesh.face_count = 1;
     mesh.hole_count = 0;
+    mesh.statement_count = 2;
     check_round_trip(&mesh);
     mesh.face_count = 0;
     mesh.crease_count = 0;
+    mesh.uv_count = 0;
     check_round_trip(&mesh);
+}
+
+// With and without UVs, colours, normals and statements, in all combinations.
+static void test_round_trip_of_data(void)
+{
+    for (int set = 0; set < 16; set++) {
+        subdiv_mesh mesh = wavy_mesh();
+        if (set & 1) mesh.uv_count = 0;
+        if (set & 2) mesh.colors = NULL;
+        if (set & 4) mesh.statement_count = 0;
+        if (set & 8) mesh.normals = mesh.positions;
+        check_round_trip(&mesh);
+    }
+}
+
+// The text of a triangle, a triangle without UVs and a quad, in every form.
+static void test_written_text(void)
+{
+    static float P[] = {0,0,0, 1,0,0, 1,1,0, 0,1,0.5f}, UV[] = {0,0, 0.25f,-1};
+    static float colors[] = {1,0,0, 0,1,0, 0,0,1, 1,1,1}, N[] = {0,0,1, 0,0,1, 0,0,1, 0,-1,0};
+    static int sizes[] = {3, 3, 4}, F[] = {0,1,2, 1,2,3, 0,1,2,3};
+    static int face_uvs[] = {0,1,0, 1,-1,1, 1,1,0,0}, faces[] = {0, 1, 1, 3};
+    char g[] = "g a", path[] = "mtllib C:\\x\\", s1[] = "s 1", o[] = "o end";
+    char *statements[] = {g, path, s1, o};
+    static const char *const texts[] = {
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 3\nf 2 3 4\nf 1 2 3 4\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nvt 0 0\nvt 0.25 -1\n"
+        "f 1/1 2/2 3/1\nf 2 3 4\nf 1/2 2/2 3/1 4/1\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 -1 0\n"
+        "f 1//1 2//2 3//3\nf 2//2 3//3 4//4\nf 1//1 2//2 3//3 4//4\n",
+        "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0.5 1 1 1\nvt 0 0\nvt 0.25 -1\n"
+        "vn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 -1 0\n"
+        "g a\nf 1/1/1 2/2/2 3/1/3\nmtllib C:\\x\\ \ns 1\nf 2//2 3//3 4//4\n"
+        "f 1/2/1 2/2/2 3/1/3 4/1/4\no end\n",
+    };
+    for (int k = 0; k < 4; k++) {
+        subdiv_mesh m = {0}, back;
+        subdiv_error error;
+        size_t size;
+        m.vertex_count = 4;     m.positions = P;
+        m.face_count = 3;       m.face_sizes = sizes;       m.face_vertices = F;
+        m.uv_count = k % 2 * 2; m.uvs = UV;                 m.face_uvs = face_uvs;
+        m.normals = k >= 2 ? N : NULL;
+        m.colors = k == 3 ? colors : NULL;
+        m.statement_count = k == 3 ? 4 : 0;
+        m.statement_faces = faces;
+        m.statements = statements;
+        char *text = save_text(&m, &size, NULL);
+        CHECK_TEXT(text, texts[k]);
+        CHECK_EQUAL(load_bytes(&back, text, size, &error), SUBDIV_OK);
+        CHECK_EQUAL(error.warning_count, k % 2);
+        CHECK_EQUAL(back.uv_count, m.uv_count);
+        CHECK(same_statements(&m, &back));
+        for (int i = 3; i < 6 && back.face_uvs; i++) CHECK_EQUAL(back.face_uvs[i], -1);
+        subdiv_mesh_free(&back);
+        free(text);
+    }
 }
 
 static void test_tags_only_when_needed(void)
@@ -1122,7 +1479,10 @@ typedef struct sink {
 static size_t write_sink(void *user, const void *bytes, size_t size)
 {
     sink *s = (sink *)user;
-    if (++s->calls == s->fail_at) return size - (s->keep < size ? s->keep : size);
+    if (++s->calls == s->fail_at) {
+        errno = ENOSPC;
+        return size - (s->keep < size ? s->keep : size);
+    }
     if (size <= s->capacity - s->size) memcpy(s->text + s->size, bytes, size);
     s->size += size;
     return size;
@@ -1152,7 +1512,7 @@ static void test_failing_write(void)
             sink s = {all.text, 0, size, keep, 0, k};
             CHECK_EQUAL(subdiv_save_obj_callback(&mesh, write_sink, &s, &opt), SUBDIV_ERROR_IO);
             CHECK_EQUAL(error.code, SUBDIV_ERROR_IO);
-            CHECK(error.message[0] != 0);
+            CHECK(strstr(error.message, strerror(ENOSPC)) != NULL);
             CHECK_EQUAL(s.calls, k);
         }
     }
@@ -1212,6 +1572,7 @@ static void test_files(void)
         fclose(full);
         CHECK_EQUAL(subdiv_save_obj(&mesh, "/dev/full", &opt), SUBDIV_ERROR_IO);
         CHECK(strstr(error.message, "/dev/full") != NULL);
+        CHECK(strstr(error.message, strerror(ENOSPC)) != NULL);
     }
 }
 
@@ -1258,7 +1619,11 @@ int main(void)
     RUN(test_vertex_forms);
     RUN(test_lines);
     RUN(test_other_keywords);
+    RUN(test_faces_without_uvs);
+    RUN(test_statements);
     RUN(test_long_lines);
+    RUN(test_block_borders);
+    RUN(test_many_groups);
     RUN(test_crease_corner_hole_tags);
     RUN(test_rule_tags);
     RUN(test_skipped_with_warning);
@@ -1275,8 +1640,12 @@ int main(void)
     RUN(test_write_random_numbers);
     RUN(test_write_special_numbers);
     RUN(test_write_short_texts);
+    RUN(test_write_indices);
+    RUN(test_sweep);
     RUN(test_round_trip_of_every_rule);
     RUN(test_round_trip_of_one_face_size);
+    RUN(test_round_trip_of_data);
+    RUN(test_written_text);
     RUN(test_tags_only_when_needed);
     RUN(test_infinite_sharpness_is_written);
     RUN(test_locale_does_not_matter);
