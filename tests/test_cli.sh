@@ -280,6 +280,29 @@ fine "no groups: a warning" grep -qx 'subdiv: warning: bare.obj: the mesh has no
 ends 0 -l 0 --crease-seams --crease-angle 30 --crease-smoothing-groups bare.obj form.obj
 tags form.obj 8 10
 fine "two warnings" grep -q 'no smoothing groups (and 1 more)' err
+
+# Smoothing groups: a top of its own, everything flat, nothing but the sides in a group.
+{ grep '^v' bare.obj; printf 's 1\nf 5 6 7 8\ns 2\n'; grep '^f' bare.obj | tail -n 4; } > groups.obj
+ends 0 -l 0 --crease-smoothing-groups groups.obj form.obj
+tags form.obj 4 10
+fine "no warning" test ! -s err
+sed 's/^s .*/s off/' groups.obj > flat.obj
+ends 0 -l 0 --crease-smoothing-groups --crease-sharpness 3 flat.obj form.obj
+tags form.obj 8 3
+sed '/^s 1/d' groups.obj > sides.obj
+ends 0 -l 0 --crease-smoothing-groups sides.obj form.obj
+tags form.obj 4 10
+
+# UV seams: two quads that agree on the UVs of their edge, by value, and two that do not.
+strip='v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n'
+strip=$strip'vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\nvt 1 0\nf 1/1 2/2 3/3 4/4\n'
+printf "$strip"'f 2/7 5/5 6/6 3/3\n' > sewn.obj
+printf "$strip"'f 2/1 5/5 6/6 3/3\n' > seam.obj
+ends 0 -l 0 --crease-seams sewn.obj form.obj
+tags form.obj 0 10
+fine "no warning" test ! -s err
+ends 0 -l 0 --crease-seams seam.obj form.obj
+tags form.obj 1 10
 for form in '-1' 181 x '' nan inf 0x10 '1 2' 30deg; do
     ends 2 --crease-angle "$form" bare.obj
     says "from 0 to 180, not '$form'"
