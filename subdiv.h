@@ -3555,7 +3555,6 @@ typedef struct sdv_window {             // a part of the result, four channels o
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
     int    first, end;                  // points first to end - 1 are written
-    int    whole;                       // which are all
 } sdv_window;
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
@@ -3691,138 +3690,108 @@ typedef struct sdv_polynomial {
 
 // A row of it, a polynomial in x alone.
 typedef struct sdv_curve {
-    sdv_four origin, a[5];
+    sdv_four a[5];
     int degree;
 } sdv_curve;
 
 static void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
 {
     sdv_four t = sdv_all(y);
-    curve->origin = q->origin;
     curve->degree = q->degree;
     curve->a[1] = sdv_horner3(q->c[1], t);
     if (q->degree == 3) {
-        curve->a[0] = sdv_horner3(q->c[0], t);
+        curve->a[0] = sdv_plus(q->origin, sdv_horner3(q->c[0], t));
         curve->a[2] = sdv_horner3(q->c[2], t);
         curve->a[3] = sdv_horner3(q->c[3], t);
     } else {
-        curve->a[0] = sdv_horner4(q->c[0], t);
+        curve->a[0] = sdv_plus(q->origin, sdv_horner4(q->c[0], t));
         curve->a[2] = sdv_plus(q->c[2][0], sdv_times(q->c[2][1], t));
         curve->a[3] = sdv_plus(q->c[3][0], sdv_times(q->c[3][1], t));
         curve->a[4] = q->c[4][0];
     }
 }
 
-static sdv_four sdv_curve_point(const sdv_curve *curve, float x)
+static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 {
-    sdv_four p = curve->degree == 4 ? sdv_horner4(curve->a, sdv_all(x))
-                                    : sdv_horner3(curve->a, sdv_all(x));
-    return sdv_plus(curve->origin, p);
+    return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
-// The inner loop of everything: count points, those at from h, (from + 1) h, ..., one behind the
-// other in memory, four lanes stored of each but the last. The parameters are multiples of a
-// power of two, so adding them up is exact.
-static void sdv_put_run(float *p, int lanes, int count, const sdv_curve *curve, int from, float h)
+// The inner loop of everything: count points that stand one behind the other, those at x, x + h,
+// ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
+// between points, four lanes are stored of each but the last.
+static void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
+                        float x, float h)
 {
-    sdv_four x = sdv_all((float)from * h), y = sdv_all((float)(from + 1) * h), two = sdv_all(2 * h);
-    const sdv_curve c = *curve;
-    int i = 1;
-    if (c.degree == 4) {
-        for (; i + 1 < count; i += 2, p += 2 * lanes) {
-            sdv_store(p, sdv_plus(c.origin, sdv_horner4(c.a, x)));
-            sdv_store(p + lanes, sdv_plus(c.origin, sdv_horner4(c.a, y)));
-            x = sdv_plus(x, two);
-            y = sdv_plus(y, two);
-        }
+    int skip = out->first - index;
+    if (skip < 0) skip = 0;
+    if (count > out->end - index) count = out->end - index;
+    if (count <= skip) return;
+    sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
+    size_t stride = out->stride;
+    float *p = out->values + stride * (size_t)(index + skip - out->first);
+    float *last = p + stride * (size_t)(count - skip - 1);
+    if (out->lanes < 3 || (size_t)out->lanes != stride) {
+        for (; p != last; p += stride, t = sdv_plus(t, step))
+            sdv_store_some(p, sdv_curve_point(curve, t), out->lanes);
+    } else if (curve->degree == 4) {
+        const sdv_curve c = *curve;
+        for (; p != last; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(c.a, t));
     } else {
-        for (; i + 1 < count; i += 2, p += 2 * lanes) {
-            sdv_store(p, sdv_plus(c.origin, sdv_horner3(c.a, x)));
-            sdv_store(p + lanes, sdv_plus(c.origin, sdv_horner3(c.a, y)));
-            x = sdv_plus(x, two);
-            y = sdv_plus(y, two);
-        }
+        const sdv_curve c = *curve;
+        for (; p != last; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
     }
-    for (i--; i < count; i++, p += lanes)
-        sdv_store_some(p, sdv_curve_point(curve, (float)(from + i) * h), lanes);
+    sdv_store_some(last, sdv_curve_point(curve, t), out->lanes);
 }
 
-// Row r of a patch of n segments, point by point: anywhere, of any width, in any window.
-static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                        const sdv_polynomial *q, int n, int r)
+// The first or last row of a patch of n segments.
+static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                              const sdv_polynomial *q, int n, int top)
 {
-    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
-    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
-    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
-    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
-    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
-    float h = 1.0f / (float)n;
-    sdv_side line = sdv_grid_line(grid, row);
+    int step = patch->step, owned = patch->owned, column = patch->column;
+    int row = patch->row + (top ? step * n : 0), count = top && grid->triangle ? 0 : n;
+    int left = owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT);
+    int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
+    int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
+    if (!(left | inside | right)) return;
     sdv_curve curve;
-    sdv_row_curve(q, (float)r * h, &curve);
-    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), sdv_curve_point(&curve, 0));
-    for (int i = 1; i < last && inside; i++)
-        sdv_put_point(out, line.first + line.step * (column + step * i),
-                      sdv_curve_point(&curve, (float)i * h));
+    sdv_row_curve(q, top ? 1.0f : 0.0f, &curve);
+    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), curve.a[0]);
     if (right)
-        sdv_put_point(out, sdv_grid_index(grid, row, column + step * last),
-                      sdv_curve_point(&curve, (float)last * h));
+        sdv_put_point(out, sdv_grid_index(grid, row, column + step * count),
+                      sdv_curve_point(&curve, sdv_all(1)));
+    if (inside) {
+        sdv_side line = sdv_grid_line(grid, row);
+        int forward = line.step == step, i = forward ? 1 : count - 1;
+        float h = 1.0f / (float)n;
+        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
+                    (float)i * h, forward ? h : -h);
+    }
 }
 
-// Sides 1 and 3 of a patch between its first and last row: points stand inside the grid, beside
-// those of the row, or on a side of the grid.
-static sdv_side sdv_patch_side(const sdv_grid *grid, int border, int row, int step, int side)
-{
-    sdv_side inside = { -1, 0 };
-    sdv_side on = { grid->side[side].first + grid->side[side].step * row,
-                    grid->side[side].step * step };
-    return border ? on : inside;
-}
-
-// The rows between the first and the last, where the whole result is written and its points have
-// no space between them.
+// The rows between: their inner points and, beside them, their ends, unless those stand on a side
+// of the grid. A turned triangle has none there.
 static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                                const sdv_polynomial *q, int n)
 {
-    int step = patch->step, triangle = grid->triangle, lanes = out->lanes;
-    int reach = patch->column + n + (triangle ? patch->row : 0);
-    sdv_side left = sdv_patch_side(grid, patch->column == 0, patch->row, step, 3);
-    sdv_side right = sdv_patch_side(grid, step > 0 && reach == grid->size, patch->row, step, 1);
+    int step = patch->step, triangle = grid->triangle, column = patch->column;
+    int reach = column + n + (triangle ? patch->row : 0);
+    int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
+    int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
+    int first = left && !left_side ? 0 : 1, end = right && !right_side ? n + 1 : n;
     float h = 1.0f / (float)n;
     sdv_curve curve;
-    for (int row = 1; row < n; row++) {
-        int last = triangle ? n - row : n, from = 1, count = last - 1;
-        int at = sdv_grid_line(grid, patch->row + step * row).first + patch->column;
-        sdv_row_curve(q, (float)row * h, &curve);
-        if (patch->owned & SDV_LEFT) {
-            if (left.first < 0) from = 0, count++;
-            else sdv_put_point(out, left.first + left.step * row, sdv_curve_point(&curve, 0));
-        }
-        if (patch->owned & SDV_RIGHT) {
-            if (right.first < 0) count++;
-            else sdv_put_point(out, right.first + right.step * row,
-                               sdv_curve_point(&curve, (float)last * h));
-        }
-        if (step > 0) {
-            sdv_put_run(out->values + (size_t)lanes * (size_t)(at + from), lanes, count, &curve,
-                        from, h);
-        } else {
-            for (int i = from; i < from + count; i++)
-                sdv_put_point(out, at - i, sdv_curve_point(&curve, (float)i * h));
-        }
+    for (int r = 1; r < n; r++) {
+        int row = patch->row + step * r;
+        int at = sdv_grid_line(grid, row).first + column;
+        if (triangle) end--;
+        sdv_row_curve(q, (float)r * h, &curve);
+        if (step > 0) sdv_put_run(out, at + first, end - first, &curve, (float)first * h, h);
+        else sdv_put_run(out, at - end + 1, end - first, &curve, (float)(end - 1) * h, -h);
+        if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, row), curve.a[0]);
+        if (right_side)
+            sdv_put_point(out, sdv_side_index(grid, 1, row),
+                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - (float)r * h : 1)));
     }
-}
-
-// All points of a patch that it owns.
-static void sdv_put_patch(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                          const sdv_polynomial *q, int n)
-{
-    sdv_put_row(out, grid, patch, q, n, 0);
-    if (out->whole && out->lanes >= 3 && (size_t)out->lanes == out->stride)
-        sdv_put_inner_rows(out, grid, patch, q, n);
-    else
-        for (int r = 1; r < n; r++) sdv_put_row(out, grid, patch, q, n, r);
-    sdv_put_row(out, grid, patch, q, n, n);
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -4045,7 +4014,9 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         }
         if (order->loop) sdv_triangle_polynomial(patch, points, n, linear, work, &q);
         else sdv_quad_polynomial(patch, points, n, linear, work, &q);
-        sdv_put_patch(out, &grid, patch, &q, n);
+        sdv_put_outer_row(out, &grid, patch, &q, n, 0);
+        sdv_put_inner_rows(out, &grid, patch, &q, n);
+        sdv_put_outer_row(out, &grid, patch, &q, n, 1);
     }
 }
 
@@ -4152,8 +4123,7 @@ static void sdv_face_job(void *context, int job)
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        int whole = e->first_point == 0 && e->end_point == surface->fine.vertex_count;
-        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point, whole };
+        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
