@@ -1973,6 +1973,12 @@ static int sdv_side_index(const sdv_grid *grid, int side, int t)
     return grid->side[side].first + grid->side[side].step * t;
 }
 
+static int sdv_inside_index(const sdv_grid *grid, int row, int column)
+{
+    int cut = grid->triangle ? row * (row - 1) / 2 : 0;
+    return grid->inside + (row - 1) * (grid->size - 1) - cut + column - 1;
+}
+
 static int sdv_quad_index(const sdv_grid *grid, int row, int column)
 {
     int n = grid->size, top = row == n, right = column == n;
@@ -1981,7 +1987,7 @@ static int sdv_quad_index(const sdv_grid *grid, int row, int column)
     if (right) return sdv_side_index(grid, 1, row);
     if (top) return sdv_side_index(grid, 2, column);
     if (column == 0) return sdv_side_index(grid, 3, row);
-    return grid->inside + (row - 1) * (n - 1) + column - 1;
+    return sdv_inside_index(grid, row, column);
 }
 
 static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
@@ -1992,17 +1998,15 @@ static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
     if (row == 0) return sdv_side_index(grid, 0, column);
     if (column == 0) return sdv_side_index(grid, 3, row);
     if (row + column == n) return sdv_side_index(grid, 1, row);
-    return grid->inside + (row - 1) * (n - 1) - row * (row - 1) / 2 + column - 1;
+    return sdv_inside_index(grid, row, column);
 }
 
 // Where the points of a row stand, but those of other sides: first + step * column.
 static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
 {
-    int n = grid->size;
-    sdv_side line = { grid->inside + (row - 1) * (n - 1) - 1, 1 };
+    sdv_side line = { sdv_inside_index(grid, row, 0), 1 };
     if (row == 0) return grid->side[0];
-    if (grid->triangle) line.first -= row * (row - 1) / 2;
-    else if (row == n) return grid->side[2];
+    if (!grid->triangle && row == grid->size) return grid->side[2];
     return line;
 }
 
@@ -3554,7 +3558,7 @@ typedef struct sdv_window {             // a part of the result, four channels o
     float *values;                      // of point first
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-    int    first, end;                  // points first to end - 1 are written
+    int    first, count;                // so many points are written
 } sdv_window;
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
@@ -3573,8 +3577,9 @@ static void sdv_store_some(float *p, sdv_four a, int lanes)
 
 static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
-    if (index < out->first || index >= out->end) return;
-    sdv_store_some(out->values + out->stride * (size_t)(index - out->first), a, out->lanes);
+    int i = index - out->first;
+    if (i >= 0 && i < out->count)
+        sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
 // The sum of a row whose points start here, in one order of additions, so that its bits are always
@@ -3722,25 +3727,24 @@ static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 static void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
                         float x, float h)
 {
-    int skip = out->first - index;
-    if (skip < 0) skip = 0;
-    if (count > out->end - index) count = out->end - index;
-    if (count <= skip) return;
+    int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
+    if (last >= out->count) last = out->count - 1;
+    if (first + skip > last) return;
     sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
     size_t stride = out->stride;
-    float *p = out->values + stride * (size_t)(index + skip - out->first);
-    float *last = p + stride * (size_t)(count - skip - 1);
+    float *p = out->values + stride * (size_t)(first + skip);
+    float *end = out->values + stride * (size_t)last;
     if (out->lanes < 3 || (size_t)out->lanes != stride) {
-        for (; p != last; p += stride, t = sdv_plus(t, step))
+        for (; p != end; p += stride, t = sdv_plus(t, step))
             sdv_store_some(p, sdv_curve_point(curve, t), out->lanes);
     } else if (curve->degree == 4) {
         const sdv_curve c = *curve;
-        for (; p != last; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(c.a, t));
+        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(c.a, t));
     } else {
         const sdv_curve c = *curve;
-        for (; p != last; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
+        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
     }
-    sdv_store_some(last, sdv_curve_point(curve, t), out->lanes);
+    sdv_store_some(end, sdv_curve_point(curve, t), out->lanes);
 }
 
 // The first or last row of a patch of n segments.
@@ -3777,20 +3781,27 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     int reach = column + n + (triangle ? patch->row : 0);
     int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
     int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
-    int first = left && !left_side ? 0 : 1, end = right && !right_side ? n + 1 : n;
-    float h = 1.0f / (float)n;
+    int first = left && !left_side ? 0 : 1, last = right && !right_side ? n : n - 1;
+    float h = 1.0f / (float)n, x = (float)first * h, turn = 0;
+    if (triangle) last--;
+    int at = sdv_inside_index(grid, patch->row + step, column + step * first);
+    int next = sdv_inside_index(grid, patch->row + 2 * step, column + step * first);
+    int count = last - first + 1, across = next - at;
+    if (step < 0) at -= count - 1, across++, x += (float)(count - 1) * h, turn = -h, h = -h;
     sdv_curve curve;
     for (int r = 1; r < n; r++) {
-        int row = patch->row + step * r;
-        int at = sdv_grid_line(grid, row).first + column;
-        if (triangle) end--;
-        sdv_row_curve(q, (float)r * h, &curve);
-        if (step > 0) sdv_put_run(out, at + first, end - first, &curve, (float)first * h, h);
-        else sdv_put_run(out, at - end + 1, end - first, &curve, (float)(end - 1) * h, -h);
-        if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, row), curve.a[0]);
+        float y = (float)r / (float)n;
+        if (count == 0 && !left_side && !right_side) break;
+        sdv_row_curve(q, y, &curve);
+        sdv_put_run(out, at, count, &curve, x, h);
+        if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r), curve.a[0]);
         if (right_side)
-            sdv_put_point(out, sdv_side_index(grid, 1, row),
-                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - (float)r * h : 1)));
+            sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
+                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : 1)));
+        at += across;
+        across -= triangle;
+        count -= triangle;
+        x += turn;
     }
 }
 
@@ -3819,11 +3830,11 @@ static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
     }
 }
 
-// One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2.
-static inline sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2)
+// One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2, and the one
+// between p1 and p2. bend is 1/8, or bilinear 0.
+static inline sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four bend)
 {
-    sdv_four bend = sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1));
-    return sdv_plus(p1, sdv_times(sdv_all(0.125f), bend));
+    return sdv_plus(p1, sdv_times(bend, sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1))));
 }
 
 static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
@@ -3831,35 +3842,48 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
-// A quad with one level to go: nine points, which its polynomial would be too much work for. Of the
-// three rows of points those that it owns, each from three or two rows of control points.
+// Of its three bottom or top points those that a patch owns, from rows of control points.
+static void sdv_put_three(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                          const sdv_four *p, sdv_four bend, int top)
+{
+    int row = patch->row + 2 * top, column = patch->column, owned = patch->owned;
+    sdv_four u[4];
+    for (int i = 0; i < 4; i++) u[i] = sdv_spline_vertex(p[i], p[4 + i], p[8 + i], bend);
+    if (owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT))
+        sdv_put_point(out, sdv_quad_index(grid, row, column),
+                      sdv_spline_vertex(u[0], u[1], u[2], bend));
+    if (owned & (top ? SDV_TOP : SDV_BOTTOM)) {
+        sdv_side line = sdv_grid_line(grid, row);
+        sdv_put_point(out, line.first + line.step * (column + 1), sdv_middle(u[1], u[2]));
+    }
+    if (owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT))
+        sdv_put_point(out, sdv_quad_index(grid, row, column + 2),
+                      sdv_spline_vertex(u[1], u[2], u[3], bend));
+}
+
+// A quad with one level to go: nine points at most, for which its polynomial is too much work.
 static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                          const int *points, int linear, const float *work)
 {
-    static const unsigned char bits[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
-                                              { SDV_LEFT, 0, SDV_RIGHT },
-                                              { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
-    int owned = patch->owned, x = patch->column;
-    sdv_four p[16], u[4];
-    sdv_load_points(points, 16, work, p);
+    int owned = patch->owned, row = patch->row + 1, column = patch->column + 1;
+    int middle = sdv_inside_index(grid, row, column);
+    int below = owned & (SDV_BOTTOM_LEFT | SDV_BOTTOM | SDV_BOTTOM_RIGHT) || patch->sharp;
+    int above = owned & (SDV_TOP_LEFT | SDV_TOP | SDV_TOP_RIGHT) || patch->sharp;
+    sdv_four p[16], u[4], bend = sdv_all(linear ? 0 : 0.125f);
+    sdv_load_points(points + 4, 8, work, p + 4);
+    if (below) sdv_load_points(points, 4, work, p);
+    if (above) sdv_load_points(points + 12, 4, work, p + 12);
     if (patch->sharp) sdv_mirror_quad(patch, p);
-    for (int row = 0; row < 3; row++) {
-        const sdv_four *at = row == 2 ? p + 8 : p + 4;
-        const unsigned char *bit = bits[row];
-        int y = patch->row + row;
-        if (row != 1 && !(owned & (bit[0] | bit[1] | bit[2]))) continue;
-        for (int i = 0; i < 4; i++)
-            u[i] = row == 1 ? sdv_middle(at[i], at[i + 4]) :
-                   linear ? at[i] : sdv_spline_vertex(at[i - 4], at[i], at[i + 4]);
-        if (bit[0] & owned)
-            sdv_put_point(out, sdv_quad_index(grid, y, x),
-                          linear ? u[1] : sdv_spline_vertex(u[0], u[1], u[2]));
-        if (row == 1 || bit[1] & owned)
-            sdv_put_point(out, sdv_quad_index(grid, y, x + 1), sdv_middle(u[1], u[2]));
-        if (bit[2] & owned)
-            sdv_put_point(out, sdv_quad_index(grid, y, x + 2),
-                          linear ? u[2] : sdv_spline_vertex(u[1], u[2], u[3]));
-    }
+    for (int i = 0; i < 4; i++) u[i] = sdv_middle(p[4 + i], p[8 + i]);
+    sdv_put_point(out, middle, sdv_middle(u[1], u[2]));
+    if (owned & SDV_LEFT)
+        sdv_put_point(out, column > 1 ? middle - 1 : sdv_side_index(grid, 3, row),
+                      sdv_spline_vertex(u[0], u[1], u[2], bend));
+    if (owned & SDV_RIGHT)
+        sdv_put_point(out, column + 1 < grid->size ? middle + 1 : sdv_side_index(grid, 1, row),
+                      sdv_spline_vertex(u[1], u[2], u[3], bend));
+    if (below) sdv_put_three(out, grid, patch, p, bend, 0);
+    if (above) sdv_put_three(out, grid, patch, p + 4, bend, 1);
 }
 
 // The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
@@ -4123,7 +4147,8 @@ static void sdv_face_job(void *context, int job)
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point };
+        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point,
+                           e->end_point - e->first_point };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
