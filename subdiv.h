@@ -3582,23 +3582,27 @@ static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
-// The sum of a row whose points start here, in one order of additions, so that its bits are always
-// the same.
-static sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask, const int *points,
-                            const float *work)
+// The sum of a row of count points that start here, in one order of additions, so that its bits are
+// always the same.
+static inline sdv_four sdv_sum(const sdv_masks *masks, const sdv_weights *mask, int count,
+                               const int *points, const float *work)
 {
+    const int even = mask->first < 0;
     sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
-    if (mask->first < 0) {
-        for (int i = 1; i < mask->count; i++)
-            sum = sdv_plus(sum, sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0));
-        return sdv_plus(p0, sdv_times(sdv_all(mask->even), sum));
-    }
-    const float *weights = masks->weights + mask->first;
-    for (int i = 1; i < mask->count; i++) {
+    for (int i = 1; i < count; i++) {
         sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
-        sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
+        if (!even) d = sdv_times(sdv_all(masks->weights[mask->first + i]), d);
+        sum = sdv_plus(sum, d);
     }
-    return sdv_plus(p0, sum);
+    return sdv_plus(p0, even ? sdv_times(sdv_all(mask->even), sum) : sum);
+}
+
+// Most rows have four points: their loop is unrolled.
+static inline sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask,
+                                   const int *points, const float *work)
+{
+    if (mask->count == 4) return sdv_sum(masks, mask, 4, points, work);
+    return sdv_sum(masks, mask, mask->count, points, work);
 }
 
 // Blocks of rows, from one up to another.
