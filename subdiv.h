@@ -3734,21 +3734,20 @@ static void sdv_put_run(const sdv_window *out, int index, int count, const sdv_c
     int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
     if (last >= out->count) last = out->count - 1;
     if (first + skip > last) return;
-    sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
+    const sdv_curve c = *curve;
+    int lanes = out->lanes;
     size_t stride = out->stride;
     float *p = out->values + stride * (size_t)(first + skip);
     float *end = out->values + stride * (size_t)last;
-    if (out->lanes < 3 || (size_t)out->lanes != stride) {
+    sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
+    if (lanes < 4 && (lanes < 3 || stride > 3))
         for (; p != end; p += stride, t = sdv_plus(t, step))
-            sdv_store_some(p, sdv_curve_point(curve, t), out->lanes);
-    } else if (curve->degree == 4) {
-        const sdv_curve c = *curve;
+            sdv_store_some(p, sdv_curve_point(&c, t), lanes);
+    else if (c.degree == 4)
         for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(c.a, t));
-    } else {
-        const sdv_curve c = *curve;
+    else
         for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
-    }
-    sdv_store_some(end, sdv_curve_point(curve, t), out->lanes);
+    sdv_store_some(p, sdv_curve_point(&c, t), lanes);
 }
 
 // The first or last row of a patch of n segments.
