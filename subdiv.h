@@ -3703,7 +3703,7 @@ typedef struct sdv_curve {
     int degree;
 } sdv_curve;
 
-static void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
+static inline void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
 {
     sdv_four t = sdv_all(y);
     curve->degree = q->degree;
@@ -3720,7 +3720,7 @@ static void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
     }
 }
 
-static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
+static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 {
     return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
@@ -3728,7 +3728,7 @@ static sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
 // between points, four lanes are stored of each but the last.
-static void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
+static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
                         float x, float h)
 {
     int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
@@ -3846,22 +3846,26 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
 }
 
 // Of its three bottom or top points those that a patch owns, from rows of control points.
-static void sdv_put_three(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                           const sdv_four *p, sdv_four bend, int top)
 {
     int row = patch->row + 2 * top, column = patch->column, owned = patch->owned;
-    sdv_four u[4];
-    for (int i = 0; i < 4; i++) u[i] = sdv_spline_vertex(p[i], p[4 + i], p[8 + i], bend);
-    if (owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT))
-        sdv_put_point(out, sdv_quad_index(grid, row, column),
-                      sdv_spline_vertex(u[0], u[1], u[2], bend));
+    sdv_four left = sdv_spline_vertex(p[1], p[5], p[9], bend);
+    sdv_four right = sdv_spline_vertex(p[2], p[6], p[10], bend);
     if (owned & (top ? SDV_TOP : SDV_BOTTOM)) {
         sdv_side line = sdv_grid_line(grid, row);
-        sdv_put_point(out, line.first + line.step * (column + 1), sdv_middle(u[1], u[2]));
+        sdv_put_point(out, line.first + line.step * (column + 1), sdv_middle(left, right));
     }
-    if (owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT))
+    if (owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT)) {
+        sdv_four beside = sdv_spline_vertex(p[0], p[4], p[8], bend);
+        sdv_put_point(out, sdv_quad_index(grid, row, column),
+                      sdv_spline_vertex(beside, left, right, bend));
+    }
+    if (owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT)) {
+        sdv_four beside = sdv_spline_vertex(p[3], p[7], p[11], bend);
         sdv_put_point(out, sdv_quad_index(grid, row, column + 2),
-                      sdv_spline_vertex(u[1], u[2], u[3], bend));
+                      sdv_spline_vertex(left, right, beside, bend));
+    }
 }
 
 // A quad with one level to go: nine points at most, for which its polynomial is too much work.
