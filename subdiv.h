@@ -3728,8 +3728,8 @@ static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
 // between points, four lanes are stored of each but the last.
-static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
-                        float x, float h)
+static inline void sdv_put_run(const sdv_window *out, int index, int count,
+                               const sdv_curve *curve, float x, float h)
 {
     int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
     if (last >= out->count) last = out->count - 1;
@@ -3785,18 +3785,21 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
     int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
     int first = left && !left_side ? 0 : 1, last = right && !right_side ? n : n - 1;
-    float h = 1.0f / (float)n, x = (float)first * h, turn = 0;
-    if (triangle) last--;
+    int count = last - first + 1 - triangle;            // of row 1, and where it starts
     int at = sdv_inside_index(grid, patch->row + step, column + step * first);
     int next = sdv_inside_index(grid, patch->row + 2 * step, column + step * first);
-    int count = last - first + 1, across = next - at;
-    if (step < 0) at -= count - 1, across++, x += (float)(count - 1) * h, turn = -h, h = -h;
-    sdv_curve curve;
-    for (int r = 1; r < n; r++) {
-        float y = (float)r / (float)n;
-        if (count == 0 && !left_side && !right_side) break;
+    int across = next - at;
+    float h = 1.0f / (float)n, x = (float)first * h, y = h, dx = h, turn = 0;
+    if (step < 0) {                                     // from the other end
+        at -= count - 1;
+        across++;
+        x += (float)(count - 1) * h;
+        dx = turn = -h;
+    }
+    for (int r = 1; r < n && (count > 0 || left_side || right_side); r++) {
+        sdv_curve curve;
         sdv_row_curve(q, y, &curve);
-        sdv_put_run(out, at, count, &curve, x, h);
+        sdv_put_run(out, at, count, &curve, x, dx);
         if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r), curve.a[0]);
         if (right_side)
             sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
@@ -3805,6 +3808,7 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
         across -= triangle;
         count -= triangle;
         x += turn;
+        y += h;
     }
 }
 
@@ -3846,8 +3850,8 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
 }
 
 // Of its three bottom or top points those that a patch owns, from rows of control points.
-static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                          const sdv_four *p, sdv_four bend, int top)
+static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid,
+                                 const sdv_patch *patch, const sdv_four *p, sdv_four bend, int top)
 {
     int row = patch->row + 2 * top, column = patch->column, owned = patch->owned;
     sdv_four left = sdv_spline_vertex(p[1], p[5], p[9], bend);
@@ -3868,7 +3872,7 @@ static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid, co
     }
 }
 
-// A quad with one level to go: nine points at most, for which its polynomial is too much work.
+// A quad with one level to go: nine points at most, for which a polynomial is too much work.
 static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                          const int *points, int linear, const float *work)
 {
