@@ -2086,6 +2086,12 @@ static int sdv_side_index(const sdv_grid *grid, int side, int t)
     return grid->side[side].first + grid->side[side].step * t;
 }
 
+static int sdv_inside_index(const sdv_grid *grid, int row, int column)
+{
+    int cut = grid->triangle ? row * (row - 1) / 2 : 0;
+    return grid->inside + (row - 1) * (grid->size - 1) - cut + column - 1;
+}
+
 static int sdv_quad_index(const sdv_grid *grid, int row, int column)
 {
     int n = grid->size, top = row == n, right = column == n;
@@ -2094,7 +2100,7 @@ static int sdv_quad_index(const sdv_grid *grid, int row, int column)
     if (right) return sdv_side_index(grid, 1, row);
     if (top) return sdv_side_index(grid, 2, column);
     if (column == 0) return sdv_side_index(grid, 3, row);
-    return grid->inside + (row - 1) * (n - 1) + column - 1;
+    return sdv_inside_index(grid, row, column);
 }
 
 static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
@@ -2105,17 +2111,15 @@ static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
     if (row == 0) return sdv_side_index(grid, 0, column);
     if (column == 0) return sdv_side_index(grid, 3, row);
     if (row + column == n) return sdv_side_index(grid, 1, row);
-    return grid->inside + (row - 1) * (n - 1) - row * (row - 1) / 2 + column - 1;
+    return sdv_inside_index(grid, row, column);
 }
 
 // Where the points of a row stand, but those of other sides: first + step * column.
 static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
 {
-    int n = grid->size;
-    sdv_side line = { grid->inside + (row - 1) * (n - 1) - 1, 1 };
+    sdv_side line = { sdv_inside_index(grid, row, 0), 1 };
     if (row == 0) return grid->side[0];
-    if (grid->triangle) line.first -= row * (row - 1) / 2;
-    else if (row == n) return grid->side[2];
+    if (!grid->triangle && row == grid->size) return grid->side[2];
     return line;
 }
 
@@ -4174,8 +4178,7 @@ typedef struct sdv_window {             // a part of the result, four channels o
     float *values;                      // of point first
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-    int    first, end;                  // points first to end - 1 are written
-    int    whole;                       // which are all
+    int    first, count;                // so many points are written
 } sdv_window;
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
@@ -4194,27 +4197,32 @@ static void sdv_store_some(float *p, sdv_four a, int lanes)
 
 static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
-    if (index < out->first || index >= out->end) return;
-    sdv_store_some(out->values + out->stride * (size_t)(index - out->first), a, out->lanes);
+    int i = index - out->first;
+    if (i >= 0 && i < out->count)
+        sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
-// The sum of a row whose points start here, in one order of additions, so that its bits are always
-// the same.
-static sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask, const int *points,
-                            const float *work)
+// The sum of a row of count points that start here, in one order of additions, so that its bits are
+// always the same.
+static inline sdv_four sdv_sum(const sdv_masks *masks, const sdv_weights *mask, int count,
+                               const int *points, const float *work)
 {
+    const int even = mask->first < 0;
     sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
-    if (mask->first < 0) {
-        for (int i = 1; i < mask->count; i++)
-            sum = sdv_plus(sum, sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0));
-        return sdv_plus(p0, sdv_times(sdv_all(mask->even), sum));
-    }
-    const float *weights = masks->weights + mask->first;
-    for (int i = 1; i < mask->count; i++) {
+    for (int i = 1; i < count; i++) {
         sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
-        sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
+        if (!even) d = sdv_times(sdv_all(masks->weights[mask->first + i]), d);
+        sum = sdv_plus(sum, d);
     }
-    return sdv_plus(p0, sum);
+    return sdv_plus(p0, even ? sdv_times(sdv_all(mask->even), sum) : sum);
+}
+
+// Most rows have four points: their loop is unrolled.
+static inline sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask,
+                                   const int *points, const float *work)
+{
+    if (mask->count == 4) return sdv_sum(masks, mask, 4, points, work);
+    return sdv_sum(masks, mask, mask->count, points, work);
 }
 
 // Blocks of rows, from one up to another.
@@ -4311,138 +4319,117 @@ typedef struct sdv_polynomial {
 
 // A row of it, a polynomial in x alone.
 typedef struct sdv_curve {
-    sdv_four origin, a[5];
+    sdv_four a[5];
     int degree;
 } sdv_curve;
 
-static void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
+static inline void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
 {
     sdv_four t = sdv_all(y);
-    curve->origin = q->origin;
     curve->degree = q->degree;
     curve->a[1] = sdv_horner3(q->c[1], t);
     if (q->degree == 3) {
-        curve->a[0] = sdv_horner3(q->c[0], t);
+        curve->a[0] = sdv_plus(q->origin, sdv_horner3(q->c[0], t));
         curve->a[2] = sdv_horner3(q->c[2], t);
         curve->a[3] = sdv_horner3(q->c[3], t);
     } else {
-        curve->a[0] = sdv_horner4(q->c[0], t);
+        curve->a[0] = sdv_plus(q->origin, sdv_horner4(q->c[0], t));
         curve->a[2] = sdv_plus(q->c[2][0], sdv_times(q->c[2][1], t));
         curve->a[3] = sdv_plus(q->c[3][0], sdv_times(q->c[3][1], t));
         curve->a[4] = q->c[4][0];
     }
 }
 
-static sdv_four sdv_curve_point(const sdv_curve *curve, float x)
+static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 {
-    sdv_four p = curve->degree == 4 ? sdv_horner4(curve->a, sdv_all(x))
-                                    : sdv_horner3(curve->a, sdv_all(x));
-    return sdv_plus(curve->origin, p);
+    return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
-// The inner loop of everything: count points, those at from h, (from + 1) h, ..., one behind the
-// other in memory, four lanes stored of each but the last. The parameters are multiples of a
-// power of two, so adding them up is exact.
-static void sdv_put_run(float *p, int lanes, int count, const sdv_curve *curve, int from, float h)
+// The inner loop of everything: count points that stand one behind the other, those at x, x + h,
+// ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
+// between points, four lanes are stored of each but the last.
+static inline void sdv_put_run(const sdv_window *out, int index, int count,
+                               const sdv_curve *curve, float x, float h)
 {
-    sdv_four x = sdv_all((float)from * h), y = sdv_all((float)(from + 1) * h), two = sdv_all(2 * h);
+    int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
+    if (last >= out->count) last = out->count - 1;
+    if (first + skip > last) return;
     const sdv_curve c = *curve;
-    int i = 1;
-    if (c.degree == 4) {
-        for (; i + 1 < count; i += 2, p += 2 * lanes) {
-            sdv_store(p, sdv_plus(c.origin, sdv_horner4(c.a, x)));
-            sdv_store(p + lanes, sdv_plus(c.origin, sdv_horner4(c.a, y)));
-            x = sdv_plus(x, two);
-            y = sdv_plus(y, two);
-        }
-    } else {
-        for (; i + 1 < count; i += 2, p += 2 * lanes) {
-            sdv_store(p, sdv_plus(c.origin, sdv_horner3(c.a, x)));
-            sdv_store(p + lanes, sdv_plus(c.origin, sdv_horner3(c.a, y)));
-            x = sdv_plus(x, two);
-            y = sdv_plus(y, two);
-        }
-    }
-    for (i--; i < count; i++, p += lanes)
-        sdv_store_some(p, sdv_curve_point(curve, (float)(from + i) * h), lanes);
+    int lanes = out->lanes;
+    size_t stride = out->stride;
+    float *p = out->values + stride * (size_t)(first + skip);
+    float *end = out->values + stride * (size_t)last;
+    sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
+    if (lanes < 4 && (lanes < 3 || stride > 3))
+        for (; p != end; p += stride, t = sdv_plus(t, step))
+            sdv_store_some(p, sdv_curve_point(&c, t), lanes);
+    else if (c.degree == 4)
+        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(c.a, t));
+    else
+        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
+    sdv_store_some(p, sdv_curve_point(&c, t), lanes);
 }
 
-// Row r of a patch of n segments, point by point: anywhere, of any width, in any window.
-static void sdv_put_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                        const sdv_polynomial *q, int n, int r)
+// The first or last row of a patch of n segments.
+static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                              const sdv_polynomial *q, int n, int top)
 {
-    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
-    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
-    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
-    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
-    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
-    float h = 1.0f / (float)n;
-    sdv_side line = sdv_grid_line(grid, row);
+    int step = patch->step, owned = patch->owned, column = patch->column;
+    int row = patch->row + (top ? step * n : 0), count = top && grid->triangle ? 0 : n;
+    int left = owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT);
+    int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
+    int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
+    if (!(left | inside | right)) return;
     sdv_curve curve;
-    sdv_row_curve(q, (float)r * h, &curve);
-    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), sdv_curve_point(&curve, 0));
-    for (int i = 1; i < last && inside; i++)
-        sdv_put_point(out, line.first + line.step * (column + step * i),
-                      sdv_curve_point(&curve, (float)i * h));
+    sdv_row_curve(q, top ? 1.0f : 0.0f, &curve);
+    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), curve.a[0]);
     if (right)
-        sdv_put_point(out, sdv_grid_index(grid, row, column + step * last),
-                      sdv_curve_point(&curve, (float)last * h));
+        sdv_put_point(out, sdv_grid_index(grid, row, column + step * count),
+                      sdv_curve_point(&curve, sdv_all(1)));
+    if (inside) {
+        sdv_side line = sdv_grid_line(grid, row);
+        int forward = line.step == step, i = forward ? 1 : count - 1;
+        float h = 1.0f / (float)n;
+        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
+                    (float)i * h, forward ? h : -h);
+    }
 }
 
-// Sides 1 and 3 of a patch between its first and last row: points stand inside the grid, beside
-// those of the row, or on a side of the grid.
-static sdv_side sdv_patch_side(const sdv_grid *grid, int border, int row, int step, int side)
-{
-    sdv_side inside = { -1, 0 };
-    sdv_side on = { grid->side[side].first + grid->side[side].step * row,
-                    grid->side[side].step * step };
-    return border ? on : inside;
-}
-
-// The rows between the first and the last, where the whole result is written and its points have
-// no space between them.
+// The rows between: their inner points and, beside them, their ends, unless those stand on a side
+// of the grid. A turned triangle has none there.
 static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                                const sdv_polynomial *q, int n)
 {
-    int step = patch->step, triangle = grid->triangle, lanes = out->lanes;
-    int reach = patch->column + n + (triangle ? patch->row : 0);
-    sdv_side left = sdv_patch_side(grid, patch->column == 0, patch->row, step, 3);
-    sdv_side right = sdv_patch_side(grid, step > 0 && reach == grid->size, patch->row, step, 1);
-    float h = 1.0f / (float)n;
-    sdv_curve curve;
-    for (int row = 1; row < n; row++) {
-        int last = triangle ? n - row : n, from = 1, count = last - 1;
-        int at = sdv_grid_line(grid, patch->row + step * row).first + patch->column;
-        sdv_row_curve(q, (float)row * h, &curve);
-        if (patch->owned & SDV_LEFT) {
-            if (left.first < 0) from = 0, count++;
-            else sdv_put_point(out, left.first + left.step * row, sdv_curve_point(&curve, 0));
-        }
-        if (patch->owned & SDV_RIGHT) {
-            if (right.first < 0) count++;
-            else sdv_put_point(out, right.first + right.step * row,
-                               sdv_curve_point(&curve, (float)last * h));
-        }
-        if (step > 0) {
-            sdv_put_run(out->values + (size_t)lanes * (size_t)(at + from), lanes, count, &curve,
-                        from, h);
-        } else {
-            for (int i = from; i < from + count; i++)
-                sdv_put_point(out, at - i, sdv_curve_point(&curve, (float)i * h));
-        }
+    int step = patch->step, triangle = grid->triangle, column = patch->column;
+    int reach = column + n + (triangle ? patch->row : 0);
+    int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
+    int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
+    int first = left && !left_side ? 0 : 1, last = right && !right_side ? n : n - 1;
+    int count = last - first + 1 - triangle;            // of row 1, and where it starts
+    int at = sdv_inside_index(grid, patch->row + step, column + step * first);
+    int next = sdv_inside_index(grid, patch->row + 2 * step, column + step * first);
+    int across = next - at;
+    float h = 1.0f / (float)n, x = (float)first * h, y = h, dx = h, turn = 0;
+    if (step < 0) {                                     // from the other end
+        at -= count - 1;
+        across++;
+        x += (float)(count - 1) * h;
+        dx = turn = -h;
     }
-}
-
-// All points of a patch that it owns.
-static void sdv_put_patch(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                          const sdv_polynomial *q, int n)
-{
-    sdv_put_row(out, grid, patch, q, n, 0);
-    if (out->whole && out->lanes >= 3 && (size_t)out->lanes == out->stride)
-        sdv_put_inner_rows(out, grid, patch, q, n);
-    else
-        for (int r = 1; r < n; r++) sdv_put_row(out, grid, patch, q, n, r);
-    sdv_put_row(out, grid, patch, q, n, n);
+    for (int r = 1; r < n && (count > 0 || left_side || right_side); r++) {
+        sdv_curve curve;
+        sdv_row_curve(q, y, &curve);
+        sdv_put_run(out, at, count, &curve, x, dx);
+        if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r), curve.a[0]);
+        if (right_side)
+            sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
+                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : 1)));
+        at += across;
+        across -= triangle;
+        count -= triangle;
+        x += turn;
+        y += h;
+    }
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -4470,11 +4457,11 @@ static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
     }
 }
 
-// One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2.
-static inline sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2)
+// One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2, and the one
+// between p1 and p2. bend is 1/8, or bilinear 0.
+static inline sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four bend)
 {
-    sdv_four bend = sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1));
-    return sdv_plus(p1, sdv_times(sdv_all(0.125f), bend));
+    return sdv_plus(p1, sdv_times(bend, sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1))));
 }
 
 static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
@@ -4482,35 +4469,52 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
-// A quad with one level to go: nine points, which its polynomial would be too much work for. Of the
-// three rows of points those that it owns, each from three or two rows of control points.
+// Of its three bottom or top points those that a patch owns, from rows of control points.
+static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid,
+                                 const sdv_patch *patch, const sdv_four *p, sdv_four bend, int top)
+{
+    int row = patch->row + 2 * top, column = patch->column, owned = patch->owned;
+    sdv_four left = sdv_spline_vertex(p[1], p[5], p[9], bend);
+    sdv_four right = sdv_spline_vertex(p[2], p[6], p[10], bend);
+    if (owned & (top ? SDV_TOP : SDV_BOTTOM)) {
+        sdv_side line = sdv_grid_line(grid, row);
+        sdv_put_point(out, line.first + line.step * (column + 1), sdv_middle(left, right));
+    }
+    if (owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT)) {
+        sdv_four beside = sdv_spline_vertex(p[0], p[4], p[8], bend);
+        sdv_put_point(out, sdv_quad_index(grid, row, column),
+                      sdv_spline_vertex(beside, left, right, bend));
+    }
+    if (owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT)) {
+        sdv_four beside = sdv_spline_vertex(p[3], p[7], p[11], bend);
+        sdv_put_point(out, sdv_quad_index(grid, row, column + 2),
+                      sdv_spline_vertex(left, right, beside, bend));
+    }
+}
+
+// A quad with one level to go: nine points at most, for which a polynomial is too much work.
 static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
                          const int *points, int linear, const float *work)
 {
-    static const unsigned char bits[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
-                                              { SDV_LEFT, 0, SDV_RIGHT },
-                                              { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
-    int owned = patch->owned, x = patch->column;
-    sdv_four p[16], u[4];
-    sdv_load_points(points, 16, work, p);
+    int owned = patch->owned, row = patch->row + 1, column = patch->column + 1;
+    int middle = sdv_inside_index(grid, row, column);
+    int below = owned & (SDV_BOTTOM_LEFT | SDV_BOTTOM | SDV_BOTTOM_RIGHT) || patch->sharp;
+    int above = owned & (SDV_TOP_LEFT | SDV_TOP | SDV_TOP_RIGHT) || patch->sharp;
+    sdv_four p[16], u[4], bend = sdv_all(linear ? 0 : 0.125f);
+    sdv_load_points(points + 4, 8, work, p + 4);
+    if (below) sdv_load_points(points, 4, work, p);
+    if (above) sdv_load_points(points + 12, 4, work, p + 12);
     if (patch->sharp) sdv_mirror_quad(patch, p);
-    for (int row = 0; row < 3; row++) {
-        const sdv_four *at = row == 2 ? p + 8 : p + 4;
-        const unsigned char *bit = bits[row];
-        int y = patch->row + row;
-        if (row != 1 && !(owned & (bit[0] | bit[1] | bit[2]))) continue;
-        for (int i = 0; i < 4; i++)
-            u[i] = row == 1 ? sdv_middle(at[i], at[i + 4]) :
-                   linear ? at[i] : sdv_spline_vertex(at[i - 4], at[i], at[i + 4]);
-        if (bit[0] & owned)
-            sdv_put_point(out, sdv_quad_index(grid, y, x),
-                          linear ? u[1] : sdv_spline_vertex(u[0], u[1], u[2]));
-        if (row == 1 || bit[1] & owned)
-            sdv_put_point(out, sdv_quad_index(grid, y, x + 1), sdv_middle(u[1], u[2]));
-        if (bit[2] & owned)
-            sdv_put_point(out, sdv_quad_index(grid, y, x + 2),
-                          linear ? u[2] : sdv_spline_vertex(u[1], u[2], u[3]));
-    }
+    for (int i = 0; i < 4; i++) u[i] = sdv_middle(p[4 + i], p[8 + i]);
+    sdv_put_point(out, middle, sdv_middle(u[1], u[2]));
+    if (owned & SDV_LEFT)
+        sdv_put_point(out, column > 1 ? middle - 1 : sdv_side_index(grid, 3, row),
+                      sdv_spline_vertex(u[0], u[1], u[2], bend));
+    if (owned & SDV_RIGHT)
+        sdv_put_point(out, column + 1 < grid->size ? middle + 1 : sdv_side_index(grid, 1, row),
+                      sdv_spline_vertex(u[1], u[2], u[3], bend));
+    if (below) sdv_put_three(out, grid, patch, p, bend, 0);
+    if (above) sdv_put_three(out, grid, patch, p + 4, bend, 1);
 }
 
 // The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
@@ -4665,7 +4669,9 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         }
         if (order->loop) sdv_triangle_polynomial(patch, points, n, linear, work, &q);
         else sdv_quad_polynomial(patch, points, n, linear, work, &q);
-        sdv_put_patch(out, &grid, patch, &q, n);
+        sdv_put_outer_row(out, &grid, patch, &q, n, 0);
+        sdv_put_inner_rows(out, &grid, patch, &q, n);
+        sdv_put_outer_row(out, &grid, patch, &q, n, 1);
     }
 }
 
@@ -4773,8 +4779,8 @@ static void sdv_face_job(void *context, int job)
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        int whole = e->first_point == 0 && e->end_point == surface->fine.vertex_count;
-        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, e->end_point, whole };
+        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point,
+                           e->end_point - e->first_point };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
