@@ -246,7 +246,7 @@ typedef struct subdiv_mesh {
     float *uvs;                       // [2 * uv_count]       u v
     int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
     float *colors;                    // [3 * vertex_count]   r g b, or NULL
-    float *normals;                   // [3 * vertex_count]   of length 1, or NULL
+    float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
     int    statement_count;           // OBJ's g, o, usemtl, mtllib and s, as they stand in the file
     int   *statement_faces;           // [statement_count]    the face each stands before, rising
     char **statements;                // [statement_count]    such as "usemtl stone"
@@ -282,6 +282,7 @@ typedef struct subdiv_options {
     int           triangulate;        // Loop: cut larger faces into fans instead of refusing them
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
     int           linear;             // split only: points stay on the cage's faces and edges
+    int           limit;              // points on the limit surface, with normals (see >>limit)
     int           no_tags;            // OBJ: write no crease, corner, hole and rule tags
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
@@ -371,6 +372,52 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
                                                const subdiv_options *opt);
 SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face);
+
+// --------------------------------------------------------------------------------- >>limit
+// The surface that refinement tends to. With opt->limit, subdiv_refine moves every point of the
+// result to where it would end up and gives fine its unit normals. In two steps: a surface that was
+// prepared with opt->limit makes such meshes, and every evaluation of it gives limit values, of any
+// channels. The function below gives positions, normals and tangents in one pass.
+//
+// Sharpness that is left on the last level counts as infinite, as in OpenSubdiv: with a crease of
+// 2.5, ask for 3 levels or more. On level 0 what matters is what is left on level 1. The result is
+// no cage for more of the same: its points are those of a finer mesh than its own.
+//
+// A point has one normal and two tangents, the same ones from any call. On a crease or boundary
+// they are those of the surface on one side, at a corner those of the edges of one face there: of
+// the first face, in the order of the result, among those that are refined in the same way. They
+// are 0 where the surface has none: without faces; where tangents are parallel or 0; between two
+// triangles back to back; and where a vertex is twice in a face.
+
+// Where to put them: each an array of so many floats a point, or NULL.
+typedef struct subdiv_limit {
+    float *positions;                 // [3]  x y z
+    float *normals;                   // [3]  of length 1, or 0
+    float *tangents;                  // [6]  two, along no particular direction and of no particular
+                                      //      length; first x second is along the normal
+    int    stride;                    // floats from point to point in all three; 0: they are dense
+} subdiv_limit;
+
+// Every point of the result, from positions in [in_stride * cage vertices], as subdiv_evaluate does;
+// scratch: subdiv_scratch_size for 3 channels, or NULL. And the same in pieces: after
+// subdiv_evaluate_begin with 3 channels, as subdiv_evaluate_faces does; the arrays then start at
+// first_point. Errors: also ARGUMENT if the surface was prepared without opt->limit.
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
+                                               const float *in, int in_stride,
+                                               const subdiv_limit *out,
+                                               void *scratch, const subdiv_options *opt);
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surface,
+                                                     const void *scratch,
+                                                     int first_face, int face_count,
+                                                     int first_point, int point_count,
+                                                     const subdiv_limit *out,
+                                                     const subdiv_options *opt);
+
+// Normals of any mesh, on the limit surface or not: each vertex gets the sum of its faces' normals,
+// weighted by their areas, made 1 long; 0 if there is none. Fills mesh->normals; if that is NULL,
+// with a new array, which subdiv_mesh_free frees, also from a mesh whose other arrays are yours.
+// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
@@ -1124,6 +1171,7 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 typedef struct sdv_rules {
     int loop;                           // faces split into 4 triangles, else into quads
     int linear;                         // nothing is smoothed
+    int limit;                          // the result is on the limit surface
     subdiv_creasing creasing;
     subdiv_triangles triangles;
 } sdv_rules;
@@ -1862,6 +1910,117 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
                       sdv_catmull_clark_edge(faces);
     if (sharpness <= 0) return smooth;
     return sdv_blend(sharpness < 1 ? sharpness : 1, sdv_crease_edge(), smooth);
+}
+
+// Limit masks: where a vertex ends up when refinement goes on forever, and how the surface lies
+// there. They are the left eigenvectors of one step of refinement around the vertex: of the
+// eigenvalue 1 for the point; of the next ones for tangents, whose weights sum to 0. They are for
+// levels from 1 on, where all faces are quads (Loop: triangles). e: the neighbours, f: under
+// Catmull-Clark the vertices across the quads. Sharpness that is left counts as infinite [OSD].
+//
+// Smooth, Catmull-Clark, valence n [HKD93]. Regular: 4/9, 1/9, 1/36.
+//
+//     f----e----f
+//     |    |    |            P = (n^2 v + 4 (sum of e) + (sum of f)) / (n (n + 5))
+//     e----v----e
+//     |    |    |            (n = 2 as well, where OpenSubdiv takes P = v)
+//     f----e----f
+static sdv_mask sdv_catmull_clark_limit(int n)
+{
+    double w = 1.0 / (n * (n + 5.0));
+    sdv_mask mask = { n / (n + 5.0), 4 * w, w, 0 };
+    return mask;
+}
+
+// Smooth, Loop, valence n [Loop87], with the b of its vertex point. Regular: 1/2, 1/12.
+//
+//       e---e
+//      / \ / \               P = (1 - n w) v + w (sum of e)
+//     e---v---e
+//      \ / \ /               w = 1 / (n + 3 / (8 b))
+//       e---e
+static sdv_mask sdv_loop_limit(int n)
+{
+    double w = 1 / (n + 0.375 / sdv_loop_vertex(n).edge);
+    sdv_mask mask = { 1 - n * w, w, 0, 0 };
+    return mask;
+}
+
+// On a crease or boundary: the point of the cubic B-spline curve [HDD94].
+//
+//     1/6---2/3---1/6        P = (a + 4v + b) / 6
+static sdv_mask sdv_crease_limit(void)
+{
+    sdv_mask mask = { 2.0 / 3, 0, 0, 1.0 / 6 };
+    return mask;
+}
+
+// Tangents t0 t1, each the weights of v, the e and the f, counter-clockwise from any e; t0 x t1 is
+// along the normal, their lengths mean nothing. Smooth, valence n, a = 2 pi/n [HKD93], [Loop87]:
+//
+//     t0 = sum of  4 cos(i a) e_i + g (cos(i a) + cos((i+1) a)) f_i       t1: the same with sin
+//     g  = 1 / (4 L - 1)      L = (5 + cos a + cos(a/2) sqrt(2 (9 + cos a))) / 16, the eigenvalue
+//
+// f_i stands between e_i and e_(i+1); Loop: the e alone. Valence 2 has no two such waves. Two quads
+// back to back have no tangent plane; e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
+// triangles make a cusp, and have no t1.
+static double sdv_face_wave(double a)
+{
+    double c = cos(a);
+    return 4 / (1 + c + cos(a / 2) * sqrt(2 * (9 + c)));
+}
+
+static void sdv_smooth_tangents(int n, int loop, double *t0, double *t1)
+{
+    double a = 6.283185307179586477 / n, g = n > 2 ? sdv_face_wave(a) : 0;
+    t0[0] = t1[0] = 0;
+    for (int i = 0; i < n; i++) {
+        t0[1 + i] = 4 * cos(i * a);
+        t1[1 + i] = n > 2 ? 4 * sin(i * a) : 0;
+    }
+    for (int i = 0; i < n && !loop; i++) {
+        t0[1 + n + i] = g * (cos(i * a) + cos((i + 1) * a));
+        t1[1 + n + i] = n > 2 ? g * (sin(i * a) + sin((i + 1) * a)) : n == 2 ? 1 - 2 * i : 0;
+    }
+}
+
+// On a crease or boundary, for the side with k faces: e_0 and e_k are along the crease, and
+// t0 = e_0 - e_k; t1 leads across. It is half a wave, a = pi/k, with the weights of v and of the
+// two ends that make it an eigenvector (the faces of [BLZ00] and of [HDD94] refine otherwise):
+//
+//     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i, 0 < i < k for the e
+//          + w (e_0 + e_k) - (2 w + (4 + 2 g) r) v              r = (1 + cos a) / sin a
+//     w  = g ((1 + g) sin a - (2 + g) r)
+//     Loop:  t1 = (1 + 2 cos a) (sum of sin(i a) e_i) - r cos a (e_0 + e_k) - r v
+//
+// Regular: Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face ends in
+// a point of a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
+static void sdv_crease_tangents(int k, int loop, double *t0, double *t1)
+{
+    double a = 3.14159265358979323846 / k, c = cos(a), r = (1 + c) / sin(a);
+    double g = sdv_face_wave(a), w = g * ((1 + g) * sin(a) - (2 + g) * r);
+    if (loop) w = -r * c;
+    for (int i = 0; i <= k; i++) {
+        t0[1 + i] = 0;
+        t1[1 + i] = (loop ? 1 + 2 * c : 4) * sin(i * a);
+    }
+    for (int i = 0; i < k && !loop; i++) {
+        t0[2 + k + i] = 0;
+        t1[2 + k + i] = k > 1 ? g * (sin(i * a) + sin((i + 1) * a)) : 0;
+    }
+    t0[0] = 0;
+    t0[1] = 1;
+    t0[1 + k] = -1;
+    t1[0] = k == 1 ? -2 : loop ? -r : -2 * w - (4 + 2 * g) * r;
+    t1[1] = t1[1 + k] = k == 1 ? 1 : w;
+}
+
+// The limit mask of a rule at a vertex with so many faces. A corner is where it ends up.
+static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
+{
+    if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
+    if (rule == SDV_CREASE) return sdv_crease_limit();
+    return rules->loop ? sdv_loop_limit(faces) : sdv_catmull_clark_limit(faces);
 }
 
 // ----------------------------------------------------------------------------------- >>order
@@ -2630,17 +2789,18 @@ static int sdv_control_points(const sdv_rules *rules)
 
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
-// sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading).
-static int sdv_stays(float sharpness, int levels, subdiv_creasing creasing)
+// sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading),
+// and in the limit.
+static int sdv_lasts(float sharpness, int levels, const sdv_rules *rules)
 {
     return sharpness >= SUBDIV_INFINITE ||
-           (creasing == SUBDIV_CREASING_UNIFORM && sharpness >= (float)levels);
+           (rules->creasing == SUBDIV_CREASING_UNIFORM && sharpness > (float)levels);
 }
 
-static int sdv_lasts(float sharpness, int levels, subdiv_creasing creasing)
+static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
 {
-    return sharpness >= SUBDIV_INFINITE ||
-           (creasing == SUBDIV_CREASING_UNIFORM && sharpness > (float)levels);
+    int just = rules->creasing == SUBDIV_CREASING_UNIFORM && sharpness == (float)levels;
+    return sdv_lasts(sharpness, levels, rules) || (just && !rules->limit);
 }
 
 // How the surface goes on at a vertex, down to the last level.
@@ -2670,12 +2830,12 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
             float t = level->sharpness[two[i]];
             if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
             sharp++;
-            stay += sdv_stays(t, levels, rules->creasing);
-            last += sdv_lasts(t, levels, rules->creasing);
+            stay += sdv_stays(t, levels, rules);
+            last += sdv_lasts(t, levels, rules);
         }
     }
-    if (last > 2 || sdv_lasts(s, levels, rules->creasing)) return SDV_PINNED;
-    if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules->creasing))) return SDV_ROUGH;
+    if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
+    if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
     return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
 }
@@ -2817,7 +2977,7 @@ static int sdv_find_fans(const sdv_level *level, const sdv_rules *rules,
 {
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
-        if (s > 0 && !sdv_stays(s, levels, rules->creasing)) return 0;
+        if (s > 0 && !sdv_stays(s, levels, rules)) return 0;
         patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
         fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
@@ -2924,15 +3084,29 @@ typedef struct sdv_step {
     sdv_rows faces, vertices, edges;
 } sdv_step;
 
+// Rows that make points of the limit and their tangents from the last level: see sdv_limit_row.
+typedef struct sdv_limit_weights {
+    int    count;                       // points
+    size_t first;                       // where their weights start: for the position, then for
+} sdv_limit_weights;                       // either tangent
+
+typedef struct sdv_limit_rows {
+    sdv_rows        rows;
+    sdv_limit_weights *masks;
+    float          *weights;
+} sdv_limit_rows;
+
 struct subdiv_surface {
     sdv_arena arena;
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
-    sdv_step    *steps;                 // [levels] the last makes face points alone
+    sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
     sdv_patches *patches;               // [levels]
     sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
+    sdv_limit_rows limit;               // of a limit, instead of last
+    subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
     int       work_count;               // work points
     sdv_order order;
     unsigned char *hole;                // [cage face_count]
@@ -3170,10 +3344,12 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     sdv_arena_free(&scratch);
 }
 
-// Vertices that never move are copied: those without faces, corners that stay, all if linear.
+// Vertices that never move are copied: those without faces, corners that stay, all if linear. (In a
+// limit only the first: the others have tangents.)
 static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage, int v)
 {
-    if (surface->rules.linear || cage->vertex_faces[v] == 0) return 1;
+    if (cage->vertex_faces[v] == 0) return 1;
+    if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
@@ -3355,6 +3531,214 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
     if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
 }
 
+// What the weights of a limit row depend on, with the number of faces: all those around a smooth
+// vertex; those between the two edges of a crease; a corner's edges alone. Loose: the faces do not
+// close around it, which takes a face with a vertex twice, or the crease has a single edge here; so
+// there are no tangents.
+typedef enum sdv_limit_kind {
+    SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_RING, SDV_LOOSE_CREASE, SDV_LIMIT_KINDS
+} sdv_limit_kind;
+
+// Writes limit rows. Masks are found by kind and number of faces.
+typedef struct sdv_limit_writer {
+    sdv_writer *writer;
+    const sdv_level *level;             // the last
+    const sdv_rules *rules;
+    sdv_array   masks, weights;         // sdv_limit_weights, floats
+    int         most;                   // faces at a vertex
+    int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
+    double     *tangents;               // [2 * (2 most + 2)]
+} sdv_limit_writer;
+
+static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
+{
+    int loop = limit->rules->loop, tip = kind == SDV_TIP || kind == SDV_LOOSE_CREASE;
+    int edges = tip ? 2 : kind == SDV_SPAN ? faces + 1 : faces, across = loop || tip ? 0 : faces;
+    sdv_rule rule = kind == SDV_TIP ? SDV_CORNER :
+                    kind == SDV_SPAN || kind == SDV_LOOSE_CREASE ? SDV_CREASE : SDV_SMOOTH;
+    sdv_mask mask = sdv_limit_mask(limit->rules, rule, faces);
+    sdv_limit_weights made = { 1 + edges + across, limit->weights.count };
+    double *t0 = limit->tangents, *t1 = t0 + made.count;
+    float *weights = (float *)sdv_room(limit->writer->context, &limit->weights,
+                                       3 * (size_t)made.count, sizeof(float));
+    if (!weights) return made;
+    for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
+    if (kind == SDV_RING) sdv_smooth_tangents(faces, loop, t0, t1);
+    if (kind == SDV_SPAN) sdv_crease_tangents(faces, loop, t0, t1);
+    if (kind == SDV_TIP) t0[1] = t1[2] = 1;
+    weights[0] = (float)mask.self;
+    for (int i = 0; i < edges; i++)
+        weights[1 + i] = (float)(i == 0 || i + 1 == edges ? mask.edge + mask.crease : mask.edge);
+    for (int i = 0; i < across; i++) weights[1 + edges + i] = (float)mask.face;
+    for (int i = 0; i < 2 * made.count; i++) weights[made.count + i] = (float)t0[i];
+    limit->weights.count += 3 * (size_t)made.count;
+    return made;
+}
+
+// The number of a mask.
+static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
+{
+    int *known = &limit->known[(int)kind * (limit->most + 1) + faces];
+    if (*known >= 0) return *known;
+    sdv_limit_weights made = sdv_new_limit_mask(limit, kind, faces);
+    sdv_limit_weights *mask = (sdv_limit_weights *)sdv_room(limit->writer->context, &limit->masks, 1,
+                                                      sizeof made);
+    if (!mask) return 0;
+    *mask = made;
+    return *known = (int)limit->masks.count++;
+}
+
+// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge: a dart is
+// smooth. -1 if there is none.
+static int sdv_around(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h), across = level->across[before];
+    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
+                                                                                       : across;
+}
+
+// Do as many faces close around the vertex of h as it has?
+static int sdv_ring_closes(const sdv_level *level, int h)
+{
+    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
+    for (int i = 1; i < faces; i++) {
+        at = sdv_around(level, at);
+        if (at < 0 || at == h) return 0;
+    }
+    return sdv_around(level, at) == h;
+}
+
+// The points of count faces from h on, counter-clockwise: the neighbours, of a crease also the one
+// behind the last face, then the vertices across.
+static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
+{
+    int *across = point + count + crease;
+    for (int i = 0; i < count; i++) {
+        int next = sdv_next(level, h);
+        *point++ = sdv_point_at(level, next);
+        if (!loop) *across++ = sdv_point_at(level, sdv_next(level, next));
+        if (crease && i + 1 == count) *point = sdv_point_at(level, sdv_previous(level, h));
+        h = sdv_around(level, h);
+    }
+    return across;
+}
+
+// Without an order: all neighbours, then all vertices across.
+static int *sdv_add_loose_ring(const sdv_level *level, int v, int loop, int *point)
+{
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        *point++ = sdv_point_at(level, sdv_next(level, h));
+    for (int h = level->vertex_first[v]; h >= 0 && !loop; h = level->vertex_next[h])
+        *point++ = sdv_point_at(level, sdv_next(level, sdv_next(level, h)));
+    return point;
+}
+
+// The faces on one side of a crease at the vertex of h: how many, and the first of them. 0 if the
+// same edge bounds them twice.
+static int sdv_find_span(const sdv_level *level, int h, int *first)
+{
+    int count = 1, last = h;
+    *first = h;
+    for (int i = sdv_clockwise(level, h); i >= 0 && i != h; i = sdv_clockwise(level, i), count++)
+        *first = i;
+    for (int i = sdv_counter_clockwise(level, h); i >= 0 && i != h;
+         i = sdv_counter_clockwise(level, i), count++)
+        last = i;
+    return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
+}
+
+// The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
+// the vertex, its neighbours and, under Catmull-Clark, the vertices across its faces. h is the face
+// whose surface counts at a crease and whose edges at a corner.
+static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
+{
+    const sdv_level *level = limit->level;
+    sdv_writer *writer = limit->writer;
+    int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
+    int faces = level->vertex_faces[v], *start = writer->row + 2, *point = start;
+    sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
+    sdv_limit_kind kind = SDV_TIP;
+    *point++ = level->first_point + v;
+    if (rule == SDV_CREASE && (faces = sdv_find_span(level, h, &first)) > 0) {
+        kind = SDV_SPAN;
+        point = sdv_add_fan(level, first, faces, 1, loop, point);
+    } else if (rule == SDV_CREASE) {
+        kind = SDV_LOOSE_CREASE;
+        point = sdv_add_neighbours(level, v, rule, 1, point);
+    } else if (rule == SDV_CORNER) {
+        faces = 0;
+        *point++ = sdv_point_at(level, sdv_next(level, h));
+        *point++ = sdv_point_at(level, sdv_previous(level, h));
+    } else if (sdv_ring_closes(level, h)) {
+        kind = SDV_RING;
+        point = sdv_add_fan(level, h, faces, 0, loop, point);
+    } else {
+        kind = SDV_LOOSE_RING;
+        point = sdv_add_loose_ring(level, v, loop, point);
+    }
+    writer->row[0] = sdv_find_limit_mask(limit, kind, faces);
+    writer->row[1] = target;
+    writer->row = point;
+    writer->rows->count++;
+}
+
+// The points of the faces of the core that no patch makes, face by face.
+static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
+{
+    const sdv_level *level = limit->level;
+    int size = level->face_size, h_grid = -1;
+    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
+        sdv_place place = level->places[f];
+        if (!level->core[f]) continue;
+        if (place.h != h_grid) grid = sdv_grid_at(&surface->order, h_grid = place.h);
+        sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
+        for (int i = 0; i < size; i++) {
+            int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
+            unsigned char *done = &level->vertex_done[level->face_vertices[h]];
+            if (!*done) sdv_limit_row(limit, h, sdv_grid_index(&grid, place.row + place.step * up,
+                                                               place.column + place.step * right));
+            *done = 1;
+        }
+    }
+    if (!limit->writer->context->result) sdv_go_to_face(limit->writer, surface->cage_face_count);
+}
+
+static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const sdv_level *level)
+{
+    sdv_context *context = writer->context;
+    sdv_arena scratch = sdv_scratch();
+    sdv_limit_writer limit;
+    size_t size = 0, known;
+    memset(&limit, 0, sizeof limit);
+    limit.writer = writer;
+    limit.level = level;
+    limit.rules = &surface->rules;
+    for (int v = 0; v < level->vertex_count; v++) {
+        int faces = level->vertex_faces[v];
+        if (!level->vertex_done[v]) size += 5 + 2 * (size_t)faces;
+        if (faces > limit.most) limit.most = faces;
+    }
+    known = SDV_LIMIT_KINDS * ((size_t)limit.most + 1);
+    limit.known = SDV_NEW(context, &scratch, int, known);
+    limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
+    for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
+    sdv_begin_result(writer, &surface->arena, &surface->limit.rows, size,
+                     surface->cage_face_count);
+    sdv_write_limit(&limit, surface);
+    surface->limit.masks = SDV_NEW(context, &surface->arena, sdv_limit_weights, limit.masks.count);
+    surface->limit.weights = SDV_NEW(context, &surface->arena, float, limit.weights.count);
+    if (!context->result) {
+        sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
+                 sizeof(sdv_limit_weights));
+        sdv_copy(surface->limit.weights, sdv_items(&limit.weights), limit.weights.count,
+                 sizeof(float));
+    }
+    sdv_array_free(&limit.masks);
+    sdv_array_free(&limit.weights);
+    sdv_arena_free(&scratch);
+}
+
 // A level: its patches; then, of what is rough, the rows to the next level and the next level,
 // which has no faces if nothing is.
 static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int depth,
@@ -3364,7 +3748,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_context *context = writer->context;
     sdv_step *step = &surface->steps[depth];
     sdv_arena scratch = sdv_scratch();
-    int last = depth + 1 == surface->levels;
+    int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
     sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
@@ -3409,6 +3793,8 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
         next_arena = sdv_scratch();
         level = next;
     }
+    if (surface->rules.limit && level.face_count && !context->result)
+        sdv_prepare_limit(&writer, surface, &level);
     surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
     surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
     if (!context->result) {
@@ -3531,7 +3917,10 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     memset(made, 0, sizeof *made);
     made->arena = arena;
     made->levels = levels;
+    made->rules.limit = opt && opt->limit;
     sdv_prepare(&context, made, cage, opt);
+    if (!context.result && levels == 0 && made->rules.limit)
+        context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
@@ -3541,6 +3930,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
     if (!surface) return;
+    subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
     sdv_arena_free(&arena);
 }
@@ -3633,6 +4023,33 @@ static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const
     while (row < last) {
         const sdv_weights *mask = &masks->items[row[0]];
         sdv_put_point(out, row[1], sdv_row_sum(masks, mask, row + 2, work));
+        row += 2 + mask->count;
+    }
+}
+
+// A sum of limit weights: of a position or, without p0, of a tangent.
+static sdv_four sdv_limit_sum(const float *weights, int count, const int *points,
+                              const float *work, int position)
+{
+    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
+    for (int i = 1; i < count; i++) {
+        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
+        sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
+    }
+    return position ? sdv_plus(p0, sum) : sum;
+}
+
+static void sdv_apply_limit(const subdiv_surface *surface, const float *work, int face, int end,
+                            const sdv_window *out)
+{
+    const sdv_limit_rows *limit = &surface->limit;
+    if (limit->rows.count == 0) return;
+    const int *row = limit->rows.items + limit->rows.starts[face];
+    const int *last = limit->rows.items + limit->rows.starts[end];
+    while (row < last) {
+        const sdv_limit_weights *mask = &limit->masks[row[0]];
+        sdv_put_point(out, row[1], sdv_limit_sum(limit->weights + mask->first, mask->count,
+                                                 row + 2, work, 1));
         row += 2 + mask->count;
     }
 }
@@ -3895,10 +4312,9 @@ static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_
 
 // The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
 // along the rows.
-static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n, int linear,
+static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
                                 const float *work, sdv_polynomial *q)
 {
-    float h = 1.0f / (float)n;
     sdv_four p[16], up[4][4], x[4];
     q->degree = 3;
     sdv_load_points(points, 16, work, p);
@@ -3907,11 +4323,11 @@ static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n
     if (patch->sharp) sdv_mirror_quad(patch, p);
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], h * h, up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hh, up[i]);
     }
     for (int j = 0; j < 4; j++) {
         if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], h * h, x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hh, x);
         for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
     }
 }
@@ -4011,10 +4427,9 @@ static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
     q->c[0][1] = p[8];
 }
 
-static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int n, int linear,
+static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
                                     const float *work, sdv_polynomial *q)
 {
-    float h = 1.0f / (float)n;
     sdv_four p[12];
     q->degree = 4;
     sdv_load_points(points, 12, work, p);
@@ -4022,7 +4437,19 @@ static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, i
     for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
     sdv_mirror_triangle(patch, p);
     if (linear) sdv_plane(p, q);
-    else sdv_box_spline(p, h * h, q);
+    else sdv_box_spline(p, hh, q);
+}
+
+// Patch i: on the last level or, with h = 0, in the limit.
+static void sdv_patch_polynomial(const subdiv_surface *surface, const sdv_patches *patches, int i,
+                                 const float *work, sdv_polynomial *q)
+{
+    const sdv_patch *patch = &patches->items[i];
+    const sdv_rules *rules = &surface->rules;
+    const int *points = patches->points + (size_t)sdv_control_points(rules) * (size_t)i;
+    float h = rules->limit ? 0 : 1.0f / (float)(1 << patches->depth);
+    if (rules->loop) sdv_triangle_polynomial(patch, points, h * h, rules->linear, work, q);
+    else sdv_quad_polynomial(patch, points, h * h, rules->linear, work, q);
 }
 
 // The points that the patches of a level make for cage faces face to end - 1.
@@ -4039,12 +4466,11 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         const sdv_patch *patch = &patches->items[i];
         const int *points = patches->points + width * (size_t)i;
         if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-        if (!order->loop && n == 2) {
+        if (!order->loop && n == 2 && !surface->rules.limit) {
             sdv_put_nine(out, &grid, patch, points, linear, work);
             continue;
         }
-        if (order->loop) sdv_triangle_polynomial(patch, points, n, linear, work, &q);
-        else sdv_quad_polynomial(patch, points, n, linear, work, &q);
+        sdv_patch_polynomial(surface, patches, i, work, &q);
         sdv_put_patch(out, &grid, patch, &q, n);
     }
 }
@@ -4057,11 +4483,143 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     for (int i = 0; i < surface->levels; i++)
         sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
     sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
+    sdv_apply_limit(surface, work, face, end, out);
+}
+
+// ------------------------------------------------------------------------- >>limit-surface
+// A limit's points with their tangents and normals. Where a patch is, its polynomial has
+// derivatives, along the rows and across; elsewhere rows have weights for them.
+
+typedef struct sdv_limit_window {       // a part of the result, as sdv_window
+    subdiv_limit out;                   // its arrays start at point first
+    int first, end;
+} sdv_limit_window;
+
+// The unit vector along a x b, or 0. In doubles, whose range holds the squares of all floats.
+static void sdv_unit_normal(const float *a, const float *b, float *normal)
+{
+    double n[3], squares = 0;
+    for (int k = 0; k < 3; k++) {
+        int i = k < 2 ? k + 1 : 0, j = k > 0 ? k - 1 : 2;
+        n[k] = (double)a[i] * (double)b[j] - (double)a[j] * (double)b[i];
+        squares += n[k] * n[k];
+    }
+    double scale = squares > 0 ? 1 / sqrt(squares) : 0;
+    for (int k = 0; k < 3; k++) normal[k] = (float)(n[k] * scale);
+}
+
+static void sdv_put_limit(const sdv_limit_window *window, int index, sdv_four p, sdv_four along,
+                          sdv_four across)
+{
+    const subdiv_limit *out = &window->out;
+    float t[6];
+    if (index < window->first || index >= window->end) return;
+    size_t i = (size_t)(index - window->first), stride = (size_t)out->stride;
+    if (out->positions) sdv_store_three(out->positions + (stride ? stride : 3) * i, p);
+    sdv_store_three(t, along);
+    sdv_store_three(t + 3, across);
+    if (out->normals) sdv_unit_normal(t, t + 3, out->normals + (stride ? stride : 3) * i);
+    if (out->tangents) memcpy(out->tangents + (stride ? stride : 6) * i, t, sizeof t);
+}
+
+static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work, int face, int end,
+                               const sdv_limit_window *out)
+{
+    const sdv_rows *copies = &surface->copies, *rows = &surface->limit.rows;
+    const int *row = copies->count ? copies->items + copies->starts[face] : NULL;
+    const int *last = copies->count ? copies->items + copies->starts[end] : NULL;
+    for (; row < last; row += 3)
+        sdv_put_limit(out, row[1], sdv_load(work + 4 * (size_t)row[2]), sdv_all(0), sdv_all(0));
+    row = rows->count ? rows->items + rows->starts[face] : NULL;
+    last = rows->count ? rows->items + rows->starts[end] : NULL;
+    while (row < last) {
+        const sdv_limit_weights *mask = &surface->limit.masks[row[0]];
+        const float *weights = surface->limit.weights + mask->first;
+        size_t n = (size_t)mask->count;
+        sdv_put_limit(out, row[1], sdv_limit_sum(weights, mask->count, row + 2, work, 1),
+                      sdv_limit_sum(weights + n, mask->count, row + 2, work, 0),
+                      sdv_limit_sum(weights + 2 * n, mask->count, row + 2, work, 0));
+        row += 2 + mask->count;
+    }
+}
+
+// The derivative of a polynomial across its rows, of what sdv_row_curve looks at.
+static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
+{
+    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
+    const int *powers = q->degree == 3 ? cubic : quartic;
+    d->degree = q->degree;
+    d->origin = sdv_all(0);
+    for (int i = 0; i <= q->degree; i++) {
+        for (int j = 0; j < powers[i]; j++)
+            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
+        d->c[i][powers[i]] = sdv_all(0);
+    }
+}
+
+// And of a row along itself.
+static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
+{
+    d->degree = 3;
+    d->origin = d->a[3] = sdv_all(0);
+    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
+}
+
+// Row r of a patch of n segments: what sdv_put_row writes, with tangents.
+static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
+                              const sdv_patch *patch, const sdv_polynomial *q,
+                              const sdv_polynomial *rise, int n, int r)
+{
+    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
+    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
+    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
+    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
+    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
+    float h = 1.0f / (float)n;
+    sdv_side line = sdv_grid_line(grid, row);
+    sdv_curve curve, along, across;
+    sdv_row_curve(q, (float)r * h, &curve);
+    sdv_row_curve(rise, (float)r * h, &across);
+    sdv_along_row(&curve, &along);
+    for (int i = 0; i <= last; i++) {
+        int end = i == 0 || i == last;
+        if (!(i == 0 ? left : i == last ? right : inside)) continue;
+        float x = (float)i * h;
+        int index = end ? sdv_grid_index(grid, row, column + step * i)
+                        : line.first + line.step * (column + step * i);
+        sdv_put_limit(out, index, sdv_curve_point(&curve, x), sdv_curve_point(&along, x),
+                      sdv_curve_point(&across, x));
+    }
+}
+
+static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
+                              const float *work, int face, int end, const sdv_limit_window *out)
+{
+    const sdv_order *order = &surface->order;
+    int n = 1 << patches->depth, h = -1, last = sdv_first_patch(order, patches, end);
+    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    sdv_polynomial q, rise;
+    for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
+        const sdv_patch *patch = &patches->items[i];
+        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        sdv_patch_polynomial(surface, patches, i, work, &q);
+        sdv_across_rows(&q, &rise);
+        for (int r = 0; r <= n; r++) sdv_put_limit_row(out, &grid, patch, &q, &rise, n, r);
+    }
+}
+
+static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
+                                 int end, const sdv_limit_window *out)
+{
+    for (int i = 0; i < surface->levels; i++)
+        sdv_limit_patches(surface, &surface->patches[i], work, face, end, out);
+    sdv_limit_rows_out(surface, work, face, end, out);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
 typedef struct sdv_evaluation {
     const subdiv_surface *surface;
+    const subdiv_limit *limit;          // or NULL: then the values go to out
     int          channels;
     const float *in;                    // channels a vertex
     size_t       in_stride;
@@ -4150,6 +4708,11 @@ static void sdv_face_job(void *context, int job)
     int faces = e->end_face - e->first_face;
     int face = e->first_face + sdv_share(faces, job, e->jobs);
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
+    if (e->limit) {
+        sdv_limit_window out = { *e->limit, e->first_point, e->end_point };
+        sdv_make_limit_faces(surface, e->work, face, end, &out);
+        return;
+    }
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
         int whole = e->first_point == 0 && e->end_point == surface->fine.vertex_count;
@@ -4207,8 +4770,15 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
     return sdv_first_inside(&surface->order, cage_face);
 }
 
+// What makes the points: the surface, but for a limit on level 0.
+static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
+{
+    return surface->at_level_1 ? surface->at_level_1 : surface;
+}
+
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
+    surface = sdv_maker(surface);
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
 
@@ -4233,13 +4803,39 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     if (context.result) return context.result;
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
-    evaluation.surface = surface;
+    evaluation.surface = sdv_maker(surface);
     evaluation.channels = channels;
     evaluation.in = in;
     evaluation.in_stride = (size_t)in_stride;
     evaluation.work = (float *)scratch;
     sdv_make_work(&evaluation, opt);
     return SUBDIV_OK;
+}
+
+static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
+                            int first_face, int face_count, int first_point, int point_count)
+{
+    int faces = surface->cage_face_count, points = surface->fine.vertex_count;
+    if (first_face < 0 || face_count < 0 || first_face > faces - face_count)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "the cage has %d faces", faces);
+    if (first_point < 0 || point_count < 0 || first_point > points - point_count)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "the result has %d points", points);
+}
+
+static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
+                                        const void *scratch, int first_face, int face_count,
+                                        int first_point, int point_count)
+{
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.surface = sdv_maker(surface);
+    evaluation.channels = channels;
+    evaluation.work = (float *)(size_t)scratch;     // only read
+    evaluation.first_point = first_point;
+    evaluation.end_point = first_point + point_count;
+    evaluation.first_face = first_face;
+    evaluation.end_face = first_face + face_count;
+    return evaluation;
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, int channels,
@@ -4252,25 +4848,13 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
     sdv_context context = sdv_begin(opt);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_values(&context, surface, channels, scratch, &out_stride);
+    if (!context.result)
+        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
     if (context.result) return context.result;
-    if (first_face < 0 || face_count < 0 || first_face > surface->cage_face_count - face_count)
-        sdv_fail(&context, SUBDIV_ERROR_INDEX, "the cage has %d faces", surface->cage_face_count);
-    if (first_point < 0 || point_count < 0 ||
-        first_point > surface->fine.vertex_count - point_count)
-        sdv_fail(&context, SUBDIV_ERROR_INDEX, "the result has %d points",
-                 surface->fine.vertex_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation;
-    memset(&evaluation, 0, sizeof evaluation);
-    evaluation.surface = surface;
-    evaluation.channels = channels;
-    evaluation.work = (float *)(size_t)scratch;     // only read
+    sdv_evaluation evaluation = sdv_evaluation_of(surface, channels, scratch, first_face,
+                                                  face_count, first_point, point_count);
     evaluation.out = out;
     evaluation.out_stride = (size_t)out_stride;
-    evaluation.first_point = first_point;
-    evaluation.end_point = first_point + point_count;
-    evaluation.first_face = first_face;
-    evaluation.end_face = first_face + face_count;
     sdv_make_points(&evaluation, opt);
     return SUBDIV_OK;
 }
@@ -4296,6 +4880,61 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
     return context.result;
 }
 
+static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
+                            const subdiv_limit *out)
+{
+    if (!surface || !out) {
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+        return;
+    }
+    int least = out->tangents ? 6 : 3;
+    if (!surface->rules.limit)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
+    if (out->stride && out->stride < least)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d",
+                 out->stride, least);
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surface,
+                                                     const void *scratch,
+                                                     int first_face, int face_count,
+                                                     int first_point, int point_count,
+                                                     const subdiv_limit *out,
+                                                     const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_limit(&context, surface, out);
+    if (!scratch) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "scratch is NULL");
+    if (!context.result)
+        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
+    if (context.result) return context.result;
+    sdv_evaluation evaluation = sdv_evaluation_of(surface, 3, scratch, first_face, face_count,
+                                                  first_point, point_count);
+    evaluation.limit = out;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
+                                               const float *in, int in_stride,
+                                               const subdiv_limit *out,
+                                               void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    sdv_check_limit(&context, surface, out);
+    if (!context.result) sdv_check_values(&context, surface, 3, in, &in_stride);
+    if (context.result) return context.result;
+    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, 3), 1);
+    if (!context.result)
+        context.result = subdiv_evaluate_begin(surface, 3, in, in_stride, scratch, opt);
+    if (!context.result)
+        context.result = subdiv_evaluate_limit_faces(surface, scratch, 0, surface->cage_face_count,
+                                                     0, surface->fine.vertex_count, out, opt);
+    sdv_arena_free(&arena);
+    return context.result;
+}
+
 // Lays arrays out in one block: first called with base NULL to add up the size.
 static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
 {
@@ -4304,7 +4943,10 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
-static size_t sdv_carve_mesh(subdiv_mesh *mesh, char *base, int result)
+// What a new mesh has besides positions and faces: a result, cage_faces; a limit, and normals.
+typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
+
+static size_t sdv_carve_mesh(subdiv_mesh *mesh, char *base, sdv_extras extras)
 {
     size_t size = 0, vertices = (size_t)mesh->vertex_count, faces = (size_t)mesh->face_count;
     size_t creases = (size_t)mesh->crease_count, corners = (size_t)mesh->corner_count;
@@ -4312,7 +4954,9 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, char *base, int result)
     size_t sizes = mesh->face_size ? 0 : faces;
     mesh->positions = (float *)sdv_carve(base, &size, vertices, 3 * sizeof(float));
     mesh->face_vertices = (int *)sdv_carve(base, &size, face_vertices, sizeof(int));
-    mesh->cage_faces = (int *)sdv_carve(base, &size, result ? faces : 0, sizeof(int));
+    size_t results = extras >= SDV_RESULT ? faces : 0, normals = extras >= SDV_LIMIT ? vertices : 0;
+    mesh->cage_faces = (int *)sdv_carve(base, &size, results, sizeof(int));
+    mesh->normals = (float *)sdv_carve(base, &size, normals, 3 * sizeof(float));
     mesh->crease_vertices = (int *)sdv_carve(base, &size, creases, 2 * sizeof(int));
     mesh->crease_sharpness = (float *)sdv_carve(base, &size, creases, sizeof(float));
     mesh->corner_vertices = (int *)sdv_carve(base, &size, corners, sizeof(int));
@@ -4323,19 +4967,19 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, char *base, int result)
     return size;
 }
 
-// A mesh like the model, with room for positions and faces, of a result also for cage_faces; the
-// lists that the model has are copied.
+// A mesh like the model, with room for positions, faces and extras; the lists that the model has are
+// copied.
 static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
-                         int result)
+                         sdv_extras extras)
 {
     *mesh = *model;
-    sdv_block *block = sdv_allocate(context, sdv_carve_mesh(mesh, NULL, result));
+    sdv_block *block = sdv_allocate(context, sdv_carve_mesh(mesh, NULL, extras));
     if (!block) {
         memset(mesh, 0, sizeof *mesh);
         return;
     }
     mesh->memory = block;
-    sdv_carve_mesh(mesh, (char *)(block + 1), result);
+    sdv_carve_mesh(mesh, (char *)(block + 1), extras);
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
     if (model->crease_vertices) {
         sdv_copy(mesh->crease_vertices, model->crease_vertices, creases, 2 * sizeof(int));
@@ -4456,11 +5100,16 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
     memset(&made, 0, sizeof made);
     sdv_arena arena = sdv_scratch();
     float factor = sdv_tame(&context, &arena, surface, &positions);
-    if (!context.result) sdv_new_mesh(&context, &made, &surface->fine, 1);
+    int limit = surface->rules.limit;
+    if (!context.result)
+        sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
+        subdiv_limit out = { made.positions, made.normals, NULL, 0 };
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
         sdv_fill_holes(surface, made.holes);
-        context.result = subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
+        context.result = limit ?
+            subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
+            subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
     sdv_arena_free(&arena);
@@ -5912,7 +6561,7 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     for (int f = 0; f < mesh.face_count; f++)
         if (sizes[f] != sizes[0]) mesh.face_size = 0;
     if (!mesh.face_size && mesh.face_count) mesh.face_sizes = (int *)(obj->face_sizes.block + 1);
-    sdv_new_mesh(obj->context, out, &mesh, 0);
+    sdv_new_mesh(obj->context, out, &mesh, SDV_PLAIN);
     if (obj->context->result) return;
     sdv_copy(out->positions, sdv_items(&obj->positions), obj->positions.count, sizeof(float));
     sdv_copy(out->face_vertices, sdv_items(&obj->face_vertices), obj->face_vertices.count,
