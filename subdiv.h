@@ -383,22 +383,21 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // 2.5, ask for 3 levels or more. On level 0 what matters is what is left on level 1. The result is
 // no cage for more of the same: its points are those of a finer mesh than its own.
 //
-// A point has one normal and two tangents, the same ones from any call. On a crease or boundary
-// they are those of the surface on one side, at a corner those of the edges of one face there: of
-// the first face, in the order of the result, among those that are refined in the same way. They
-// are 0 where the surface has none: without faces; where tangents are parallel or 0; between two
-// triangles back to back; and where a vertex is twice in a face.
+// A point has one normal and two tangents, the same ones from any call: on a crease those of the
+// surface on one side; at a corner, and where non-manifold faces are no fan between two creases,
+// those of the edges of one face there. The normal is 0 where there is none: without faces, between
+// two triangles back to back, and where both tangents are parallel or 0.
 
 // Where to put them: each an array of so many floats a point, or NULL.
 typedef struct subdiv_limit {
     float *positions;                 // [3]  x y z
     float *normals;                   // [3]  of length 1, or 0
-    float *tangents;                  // [6]  two, along no particular direction and of no particular
-                                      //      length; first x second is along the normal
+    float *tangents;                  // [6]  two, of any direction and length in the tangent plane;
+                                      //      the first x the second is along the normal
     int    stride;                    // floats from point to point in all three; 0: they are dense
 } subdiv_limit;
 
-// Every point of the result, from positions in [in_stride * cage vertices], as subdiv_evaluate does;
+// Every point of the result, from positions in [in_stride * cage vertices], as subdiv_evaluate;
 // scratch: subdiv_scratch_size for 3 channels, or NULL. And the same in pieces: after
 // subdiv_evaluate_begin with 3 channels, as subdiv_evaluate_faces does; the arrays then start at
 // first_point. Errors: also ARGUMENT if the surface was prepared without opt->limit.
@@ -1993,8 +1992,8 @@ static void sdv_smooth_tangents(int n, int loop, double *t0, double *t1)
 //     w  = g ((1 + g) sin a - (2 + g) r)
 //     Loop:  t1 = (1 + 2 cos a) (sum of sin(i a) e_i) - r cos a (e_0 + e_k) - r v
 //
-// Regular: Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face ends in
-// a point of a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
+// Regular is Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v, and Loop k = 3. A single face
+// fills a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
 static void sdv_crease_tangents(int k, int loop, double *t0, double *t1)
 {
     double a = 3.14159265358979323846 / k, c = cos(a), r = (1 + c) / sin(a);
@@ -3532,11 +3531,11 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
 }
 
 // What the weights of a limit row depend on, with the number of faces: all those around a smooth
-// vertex; those between the two edges of a crease; a corner's edges alone. Loose: the faces do not
-// close around it, which takes a face with a vertex twice, or the crease has a single edge here; so
-// there are no tangents.
+// vertex; those between the two edges of a crease; of a corner none. Tips have the tangents of one
+// face's edges: a corner and, loose, a crease or smooth vertex whose faces are no such fan, which
+// takes a non-manifold crease or a vertex that is twice in a face.
 typedef enum sdv_limit_kind {
-    SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_RING, SDV_LOOSE_CREASE, SDV_LIMIT_KINDS
+    SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING, SDV_LIMIT_KINDS
 } sdv_limit_kind;
 
 // Writes limit rows. Masks are found by kind and number of faces.
@@ -3552,12 +3551,13 @@ typedef struct sdv_limit_writer {
 
 static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
-    int loop = limit->rules->loop, tip = kind == SDV_TIP || kind == SDV_LOOSE_CREASE;
-    int edges = tip ? 2 : kind == SDV_SPAN ? faces + 1 : faces, across = loop || tip ? 0 : faces;
-    sdv_rule rule = kind == SDV_TIP ? SDV_CORNER :
-                    kind == SDV_SPAN || kind == SDV_LOOSE_CREASE ? SDV_CREASE : SDV_SMOOTH;
-    sdv_mask mask = sdv_limit_mask(limit->rules, rule, faces);
-    sdv_limit_weights made = { 1 + edges + across, limit->weights.count };
+    static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER, SDV_CREASE,
+                                                     SDV_SMOOTH };
+    int loop = limit->rules->loop, tip = kind >= SDV_TIP, first = tip ? 3 : 1;
+    int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces + (kind == SDV_SPAN);
+    int across = loop || kind == SDV_TIP || kind == SDV_LOOSE_CREASE ? 0 : faces;
+    sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
+    sdv_limit_weights made = { first + edges + across, limit->weights.count };
     double *t0 = limit->tangents, *t1 = t0 + made.count;
     float *weights = (float *)sdv_room(limit->writer->context, &limit->weights,
                                        3 * (size_t)made.count, sizeof(float));
@@ -3565,11 +3565,13 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
     if (kind == SDV_RING) sdv_smooth_tangents(faces, loop, t0, t1);
     if (kind == SDV_SPAN) sdv_crease_tangents(faces, loop, t0, t1);
-    if (kind == SDV_TIP) t0[1] = t1[2] = 1;
+    if (tip) t0[1] = t1[2] = 1;
     weights[0] = (float)mask.self;
+    for (int i = 1; i < first; i++) weights[i] = 0;
     for (int i = 0; i < edges; i++)
-        weights[1 + i] = (float)(i == 0 || i + 1 == edges ? mask.edge + mask.crease : mask.edge);
-    for (int i = 0; i < across; i++) weights[1 + edges + i] = (float)mask.face;
+        weights[first + i] = (float)(i == 0 || i + 1 == edges ? mask.edge + mask.crease
+                                                              : mask.edge);
+    for (int i = 0; i < across; i++) weights[first + edges + i] = (float)mask.face;
     for (int i = 0; i < 2 * made.count; i++) weights[made.count + i] = (float)t0[i];
     limit->weights.count += 3 * (size_t)made.count;
     return made;
@@ -3581,8 +3583,8 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
     int *known = &limit->known[(int)kind * (limit->most + 1) + faces];
     if (*known >= 0) return *known;
     sdv_limit_weights made = sdv_new_limit_mask(limit, kind, faces);
-    sdv_limit_weights *mask = (sdv_limit_weights *)sdv_room(limit->writer->context, &limit->masks, 1,
-                                                      sizeof made);
+    sdv_limit_weights *mask = (sdv_limit_weights *)sdv_room(limit->writer->context,
+                                                            &limit->masks, 1, sizeof made);
     if (!mask) return 0;
     *mask = made;
     return *known = (int)limit->masks.count++;
@@ -3623,28 +3625,33 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
     return across;
 }
 
-// Without an order: all neighbours, then all vertices across.
-static int *sdv_add_loose_ring(const sdv_level *level, int v, int loop, int *point)
-{
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        *point++ = sdv_point_at(level, sdv_next(level, h));
-    for (int h = level->vertex_first[v]; h >= 0 && !loop; h = level->vertex_next[h])
-        *point++ = sdv_point_at(level, sdv_next(level, sdv_next(level, h)));
-    return point;
-}
-
-// The faces on one side of a crease at the vertex of h: how many, and the first of them. 0 if the
-// same edge bounds them twice.
+// The faces on one side of a crease at the vertex of h: how many, and the first of them. 0 if they
+// close to a ring or the same edge bounds them twice.
 static int sdv_find_span(const sdv_level *level, int h, int *first)
 {
-    int count = 1, last = h;
+    int count = 1, last = h, at;
     *first = h;
-    for (int i = sdv_clockwise(level, h); i >= 0 && i != h; i = sdv_clockwise(level, i), count++)
-        *first = i;
-    for (int i = sdv_counter_clockwise(level, h); i >= 0 && i != h;
-         i = sdv_counter_clockwise(level, i), count++)
-        last = i;
+    for (at = sdv_clockwise(level, h); at >= 0 && at != h; at = sdv_clockwise(level, at), count++)
+        *first = at;
+    if (at == h) return 0;
+    for (at = sdv_counter_clockwise(level, h); at >= 0; at = sdv_counter_clockwise(level, at), count++)
+        last = at;
     return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
+}
+
+// A tip: the two neighbours in the face of h; then, for the position, those along the crease or all.
+static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
+{
+    int v = level->face_vertices[h];
+    *point++ = sdv_point_at(level, sdv_next(level, h));
+    *point++ = sdv_point_at(level, sdv_previous(level, h));
+    if (kind == SDV_LOOSE_CREASE) return sdv_add_neighbours(level, v, SDV_CREASE, 1, point);
+    if (kind == SDV_TIP) return point;
+    for (int i = level->vertex_first[v]; i >= 0; i = level->vertex_next[i])
+        *point++ = sdv_point_at(level, sdv_next(level, i));
+    for (int i = level->vertex_first[v]; i >= 0 && !loop; i = level->vertex_next[i])
+        *point++ = sdv_point_at(level, sdv_next(level, sdv_next(level, i)));
+    return point;
 }
 
 // The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
@@ -3655,27 +3662,20 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     const sdv_level *level = limit->level;
     sdv_writer *writer = limit->writer;
     int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
-    int faces = level->vertex_faces[v], *start = writer->row + 2, *point = start;
+    int faces = level->vertex_faces[v], span = 0, *point = writer->row + 2;
     sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     sdv_limit_kind kind = SDV_TIP;
-    *point++ = level->first_point + v;
-    if (rule == SDV_CREASE && (faces = sdv_find_span(level, h, &first)) > 0) {
-        kind = SDV_SPAN;
-        point = sdv_add_fan(level, first, faces, 1, loop, point);
-    } else if (rule == SDV_CREASE) {
-        kind = SDV_LOOSE_CREASE;
-        point = sdv_add_neighbours(level, v, rule, 1, point);
-    } else if (rule == SDV_CORNER) {
-        faces = 0;
-        *point++ = sdv_point_at(level, sdv_next(level, h));
-        *point++ = sdv_point_at(level, sdv_previous(level, h));
-    } else if (sdv_ring_closes(level, h)) {
-        kind = SDV_RING;
-        point = sdv_add_fan(level, h, faces, 0, loop, point);
-    } else {
-        kind = SDV_LOOSE_RING;
-        point = sdv_add_loose_ring(level, v, loop, point);
+    if (rule == SDV_CREASE) {
+        span = sdv_find_span(level, h, &first);
+        kind = span ? SDV_SPAN : SDV_LOOSE_CREASE;
+    } else if (rule != SDV_CORNER) {
+        kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
     }
+    *point++ = level->first_point + v;
+    if (kind == SDV_RING) point = sdv_add_fan(level, h, faces, 0, loop, point);
+    else if (kind == SDV_SPAN) point = sdv_add_fan(level, first, span, 1, loop, point);
+    else point = sdv_add_tip(level, h, kind, loop, point);
+    if (rule >= SDV_CREASE) faces = span;
     writer->row[0] = sdv_find_limit_mask(limit, kind, faces);
     writer->row[1] = target;
     writer->row = point;
@@ -4967,8 +4967,8 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, char *base, sdv_extras extras)
     return size;
 }
 
-// A mesh like the model, with room for positions, faces and extras; the lists that the model has are
-// copied.
+// A mesh like the model, with room for positions, faces and extras; the lists that the model has
+// are copied.
 static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
                          sdv_extras extras)
 {
