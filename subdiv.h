@@ -49,7 +49,8 @@
    --------
    Public:   >>config    macros you may define        >>types      mesh, options, errors
              >>refine    the one call, in two steps   >>animation  new values, same topology
-             >>creases   from angles, groups, seams   >>inspect    what a cage is made of, what
+             >>limit     points and normals of the    >>creases    from angles, groups, seams
+                         limit surface                >>inspect    what a cage is made of, what
              >>obj       reading and writing OBJ                   is odd about it
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
@@ -62,6 +63,7 @@
              >>patches   regular faces: their control points
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
+             >>limit-surface  the same in the limit, with tangents and normals
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
              >>numbers  >>obj-read  >>obj-write  >>cleanup
    A student needs the three sections with a star and may skip the rest.
@@ -108,20 +110,24 @@
 
    WHAT IT DOES NOT DO (yet)
    -------------------------
-   UVs and other face-varying data, limit positions and normals, evaluation at (u, v). Never: GPU
-   code, hierarchical edits, threads of its own, global state, printing, exit().
+   UVs and other face-varying data, evaluation at (u, v). Never: GPU code, hierarchical edits,
+   threads of its own, global state, printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    --------------------------------
    * Chaikin creasing: an edge with sharpness > 1 whose end turns smooth is weighted by at most 1;
      OpenSubdiv extrapolates (its weight there is the sharpness itself).
+   * Limit: theirs leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents at a
+     crease or boundary are not the surface's unless there are 1 or 2 faces (Loop: 1 to 3) on the
+     side, and are written out of bounds where a vertex has more faces than edges.
    * The boundary default is edge, theirs is none. Indices are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
    -----------------------
-   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists
-   that it adds to yours; arrays that you filled in are never written nor freed. The library keeps
-   no state: different threads may work at once, and one call uses the threads that you lend it.
+   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists and
+   normals that it adds to yours; arrays that you filled in are never written nor freed. The
+   library keeps no state: different threads may work at once, and one call uses the threads that
+   you lend it.
    The same input gives the same bits, on any number of threads, with SIMD and without. (gcc fuses
    multiplications and additions where the target has such instructions, in its default gnu modes:
    -ffp-contract=off.) Up to 2^31-1 vertices and faces in a result, 2^30 face-vertices in a cage;
@@ -133,6 +139,8 @@
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
    [DKT98] DeRose, Kass, Truong: Subdivision surfaces in character animation
+   [HKD93] Halstead, Kass, DeRose: Efficient, fair interpolation using Catmull-Clark surfaces
+   [BLZ00] Biermann, Levin, Zorin: Piecewise smooth subdivision surfaces with normal control
    [Stam98] Stam: Evaluation of Loop subdivision surfaces
    [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent
 
@@ -377,7 +385,8 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // The surface that refinement tends to. With opt->limit, subdiv_refine moves every point of the
 // result to where it would end up and gives fine its unit normals. In two steps: a surface that was
 // prepared with opt->limit makes such meshes, and every evaluation of it gives limit values, of any
-// channels. The function below gives positions, normals and tangents in one pass.
+// channels. (Streamed OBJ has the positions alone.) The function below gives positions, normals
+// and tangents in one pass.
 //
 // Sharpness that is left on the last level counts as infinite, as in OpenSubdiv: with a crease of
 // 2.5, ask for 3 levels or more. On level 0 what matters is what is left on level 1. The result is
@@ -3460,8 +3469,8 @@ static const int sdv_corner_triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
 
 static int sdv_vertex_target(const sdv_targets *targets, int h, int i)
 {
-    const int *at = targets->order->loop ? sdv_corner_triangle[i] : sdv_corner_quad[i];
-    return targets->level->places ? sdv_target(targets, at[0], at[1])
+    const int (*at)[2] = targets->order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    return targets->level->places ? sdv_target(targets, at[i][0], at[i][1])
                                   : targets->level->face_vertices[h];
 }
 
@@ -3631,15 +3640,14 @@ static int sdv_find_span(const sdv_level *level, int h, int *first)
 {
     int count = 1, last = h, at;
     *first = h;
-    for (at = sdv_clockwise(level, h); at >= 0 && at != h; at = sdv_clockwise(level, at), count++)
-        *first = at;
+    for (; (at = sdv_clockwise(level, *first)) >= 0 && at != h; count++) *first = at;
     if (at == h) return 0;
-    for (at = sdv_counter_clockwise(level, h); at >= 0; at = sdv_counter_clockwise(level, at), count++)
-        last = at;
+    for (; (at = sdv_counter_clockwise(level, last)) >= 0; count++) last = at;
     return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
 }
 
-// A tip: the two neighbours in the face of h; then, for the position, those along the crease or all.
+// A tip: the two neighbours in the face of h; then, for the position, those along the crease, or
+// all.
 static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
 {
     int v = level->face_vertices[h];
@@ -4495,17 +4503,22 @@ typedef struct sdv_limit_window {       // a part of the result, as sdv_window
     int first, end;
 } sdv_limit_window;
 
-// The unit vector along a x b, or 0. In doubles, whose range holds the squares of all floats.
+// A vector made 1 long, or 0.
+static void sdv_make_unit(const double *n, float *unit)
+{
+    double squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    double scale = squares > 0 ? 1 / sqrt(squares) : 0;
+    for (int k = 0; k < 3; k++) unit[k] = (float)(n[k] * scale);
+}
+
+// Along a x b. In doubles, whose range holds the squares of products of all floats.
 static void sdv_unit_normal(const float *a, const float *b, float *normal)
 {
-    double n[3], squares = 0;
-    for (int k = 0; k < 3; k++) {
-        int i = k < 2 ? k + 1 : 0, j = k > 0 ? k - 1 : 2;
-        n[k] = (double)a[i] * (double)b[j] - (double)a[j] * (double)b[i];
-        squares += n[k] * n[k];
-    }
-    double scale = squares > 0 ? 1 / sqrt(squares) : 0;
-    for (int k = 0; k < 3; k++) normal[k] = (float)(n[k] * scale);
+    double n[3];
+    n[0] = (double)a[1] * (double)b[2] - (double)a[2] * (double)b[1];
+    n[1] = (double)a[2] * (double)b[0] - (double)a[0] * (double)b[2];
+    n[2] = (double)a[0] * (double)b[1] - (double)a[1] * (double)b[0];
+    sdv_make_unit(n, normal);
 }
 
 static void sdv_put_limit(const sdv_limit_window *window, int index, sdv_four p, sdv_four along,
@@ -5242,14 +5255,15 @@ static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *gene
     return context->result;
 }
 
-// The normal of a face by Newell's method, of length 1. A face that is so thin that rounding of
-// its coordinates could have made it so has none: 0.
+// The normal of a face by Newell's method, as long as twice its area. Returns how long rounding of
+// the coordinates could make it: by FLT_EPSILON / 2 of their size each.
 //
 //     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
-static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+static double sdv_area_normal(const float *positions, const int *vertices, int size, double n[3])
 {
     const float *o = positions + 3 * (size_t)vertices[0];
-    double n[3] = { 0, 0, 0 }, p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
+    double p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
+    n[0] = n[1] = n[2] = 0;
     for (int i = 0; i < size; i++) {
         const float *next = positions + 3 * (size_t)vertices[i + 1 < size ? i + 1 : 0];
         double q[3], squares = 0;
@@ -5263,10 +5277,50 @@ static void sdv_face_normal(const float *positions, const int *vertices, int siz
         memcpy(p, q, sizeof p);
         perimeter += sqrt(squares);
     }
-    // Coordinates that are off by FLT_EPSILON / 2 of their size make no more than this of nothing.
-    double error = 2 * (double)FLT_EPSILON * largest * perimeter;
+    return 2 * (double)FLT_EPSILON * largest * perimeter;
+}
+
+// Of length 1. A face that is so thin that rounding could have made it so has none: 0.
+static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+{
+    double n[3], error = sdv_area_normal(positions, vertices, size, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
+}
+
+// sums: [3 * vertex_count], the normals before they are made 1 long.
+static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
+{
+    const int *v = mesh->face_vertices;
+    memset(sums, 0, 3 * (size_t)mesh->vertex_count * sizeof(double));
+    for (int f = 0; f < mesh->face_count; f++) {
+        int size = sdv_face_size(mesh, f);
+        double n[3];
+        sdv_area_normal(mesh->positions, v, size, n);
+        for (int i = 0; i < size; i++)
+            for (int k = 0; k < 3; k++) sums[3 * (size_t)v[i] + (size_t)k] += n[k];
+        v += size;
+    }
+}
+
+SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_all(&context, mesh);
+    if (context.result) return context.result;
+    sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
+    size_t count = 3 * (size_t)mesh->vertex_count;
+    owned.blocks = (sdv_block *)mesh->memory;
+    double *sums = SDV_NEW(&context, &scratch, double, count);
+    float *normals = mesh->normals ? mesh->normals : SDV_NEW(&context, &owned, float, count);
+    if (!context.result) {
+        sdv_sum_normals(mesh, sums);
+        for (size_t i = 0; i < count; i += 3) sdv_make_unit(sums + i, normals + i);
+        mesh->normals = normals;
+        mesh->memory = owned.blocks;
+    }
+    sdv_arena_free(&scratch);
+    return context.result;
 }
 
 // By atan2, which is exact for all angles, where a cosine blurs the small ones.
