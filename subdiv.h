@@ -4499,12 +4499,20 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
 // derivatives, along the rows and across; elsewhere rows have weights for them.
 
 typedef struct sdv_limit_window {       // a part of the result, as sdv_window
-    subdiv_limit out;                   // its arrays start at point first
-    int first, end;
+    float *positions, *normals, *tangents;      // of point first, or NULL
+    size_t stride, tangent_stride;      // floats from point to point
+    int    first, end;
 } sdv_limit_window;
 
+static sdv_limit_window sdv_window_of_limit(const subdiv_limit *out, int first, int end)
+{
+    sdv_limit_window window = { out->positions, out->normals, out->tangents, 3, 6, first, end };
+    if (out->stride) window.stride = window.tangent_stride = (size_t)out->stride;
+    return window;
+}
+
 // A vector made 1 long, or 0.
-static void sdv_make_unit(const double *n, float *unit)
+static inline void sdv_make_unit(const double *n, float *unit)
 {
     double squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     double scale = squares > 0 ? 1 / sqrt(squares) : 0;
@@ -4512,7 +4520,7 @@ static void sdv_make_unit(const double *n, float *unit)
 }
 
 // Along a x b. In doubles, whose range holds the squares of products of all floats.
-static void sdv_unit_normal(const float *a, const float *b, float *normal)
+static inline void sdv_unit_normal(const float *a, const float *b, float *normal)
 {
     double n[3];
     n[0] = (double)a[1] * (double)b[2] - (double)a[2] * (double)b[1];
@@ -4521,18 +4529,19 @@ static void sdv_unit_normal(const float *a, const float *b, float *normal)
     sdv_make_unit(n, normal);
 }
 
-static void sdv_put_limit(const sdv_limit_window *window, int index, sdv_four p, sdv_four along,
-                          sdv_four across)
+static inline void sdv_put_limit(const sdv_limit_window *out, int index, sdv_four p,
+                                 sdv_four along, sdv_four across)
 {
-    const subdiv_limit *out = &window->out;
-    float t[6];
-    if (index < window->first || index >= window->end) return;
-    size_t i = (size_t)(index - window->first), stride = (size_t)out->stride;
-    if (out->positions) sdv_store_three(out->positions + (stride ? stride : 3) * i, p);
-    sdv_store_three(t, along);
-    sdv_store_three(t + 3, across);
-    if (out->normals) sdv_unit_normal(t, t + 3, out->normals + (stride ? stride : 3) * i);
-    if (out->tangents) memcpy(out->tangents + (stride ? stride : 6) * i, t, sizeof t);
+    float t[8];
+    if (index < out->first || index >= out->end) return;
+    size_t i = (size_t)(index - out->first);
+    if (out->positions) sdv_store_three(out->positions + out->stride * i, p);
+    sdv_store(t, along);
+    sdv_store(t + 4, across);
+    if (out->normals) sdv_unit_normal(t, t + 4, out->normals + out->stride * i);
+    if (!out->tangents) return;
+    sdv_store_three(out->tangents + out->tangent_stride * i, along);
+    sdv_store_three(out->tangents + out->tangent_stride * i + 3, across);
 }
 
 static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work, int face, int end,
@@ -4556,7 +4565,8 @@ static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work,
     }
 }
 
-// The derivative of a polynomial across its rows, of what sdv_row_curve looks at.
+// The derivative of a polynomial across its rows, of what sdv_row_curve looks at. Both it and the
+// one along a row are cubics in x, at most.
 static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
 {
     static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
@@ -4578,6 +4588,14 @@ static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
     for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
 }
 
+static inline void sdv_put_curve_limit(const sdv_limit_window *out, int index,
+                                       const sdv_curve *curve, const sdv_curve *along,
+                                       const sdv_curve *across, float x)
+{
+    sdv_put_limit(out, index, sdv_curve_point(curve, x), sdv_horner3(along->a, sdv_all(x)),
+                  sdv_horner3(across->a, sdv_all(x)));
+}
+
 // Row r of a patch of n segments: what sdv_put_row writes, with tangents.
 static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
                               const sdv_patch *patch, const sdv_polynomial *q,
@@ -4594,15 +4612,13 @@ static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
     sdv_row_curve(q, (float)r * h, &curve);
     sdv_row_curve(rise, (float)r * h, &across);
     sdv_along_row(&curve, &along);
-    for (int i = 0; i <= last; i++) {
-        int end = i == 0 || i == last;
-        if (!(i == 0 ? left : i == last ? right : inside)) continue;
-        float x = (float)i * h;
-        int index = end ? sdv_grid_index(grid, row, column + step * i)
-                        : line.first + line.step * (column + step * i);
-        sdv_put_limit(out, index, sdv_curve_point(&curve, x), sdv_curve_point(&along, x),
-                      sdv_curve_point(&across, x));
-    }
+    if (left) sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, 0);
+    for (int i = 1; i < last && inside; i++)
+        sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
+                            &across, (float)i * h);
+    if (right)
+        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column + step * last), &curve, &along,
+                            &across, (float)last * h);
 }
 
 static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
@@ -4722,7 +4738,7 @@ static void sdv_face_job(void *context, int job)
     int face = e->first_face + sdv_share(faces, job, e->jobs);
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     if (e->limit) {
-        sdv_limit_window out = { *e->limit, e->first_point, e->end_point };
+        sdv_limit_window out = sdv_window_of_limit(e->limit, e->first_point, e->end_point);
         sdv_make_limit_faces(surface, e->work, face, end, &out);
         return;
     }
