@@ -49,7 +49,8 @@
    --------
    Public:   >>config    macros you may define        >>types      mesh, options, errors
              >>refine    the one call, in two steps   >>animation  new values, same topology
-             >>creases   from angles, groups, seams   >>inspect    what a cage is made of, what
+             >>limit     points and normals of the    >>creases    from angles, groups, seams
+                         limit surface                >>inspect    what a cage is made of, what
              >>obj       reading and writing OBJ                   is odd about it
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
@@ -63,6 +64,7 @@
              >>face-varying  UVs: a topology of their own
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
+             >>limit-surface  the same in the limit, with tangents and normals
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
              >>numbers  >>obj-read  >>obj-write  >>cleanup
    A student needs the three sections with a star and may skip the rest.
@@ -109,20 +111,24 @@
 
    WHAT IT DOES NOT DO (yet)
    -------------------------
-   Limit positions and normals, evaluation at (u, v). Never: GPU code, hierarchical edits, threads
-   of its own, global state, printing, exit().
+   Evaluation at (u, v). Never: GPU code, hierarchical edits, threads of its own, global state,
+   printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    --------------------------------
    * Chaikin creasing: an edge with sharpness > 1 whose end turns smooth is weighted by at most 1;
      OpenSubdiv extrapolates (its weight there is the sharpness itself).
+   * Limit: theirs leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents at a
+     crease or boundary are not the surface's unless there are 1 or 2 faces (Loop: 1 to 3) on the
+     side, and are written out of bounds where a vertex has more faces than edges.
    * The boundary default is edge, theirs is none. Indices are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
    -----------------------
-   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists
-   that it adds to yours; arrays that you filled in are never written nor freed. The library keeps
-   no state: different threads may work at once, and one call uses the threads that you lend it.
+   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists and
+   normals that it adds to yours; arrays that you filled in are never written nor freed. The
+   library keeps no state: different threads may work at once, and one call uses the threads that
+   you lend it.
    The same input gives the same bits, on any number of threads, with SIMD and without. (gcc fuses
    multiplications and additions where the target has such instructions, in its default gnu modes:
    -ffp-contract=off.) Up to 2^31-1 vertices and faces in a result, 2^30 face-vertices in a cage;
@@ -134,6 +140,8 @@
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
    [DKT98] DeRose, Kass, Truong: Subdivision surfaces in character animation
+   [HKD93] Halstead, Kass, DeRose: Efficient, fair interpolation using Catmull-Clark surfaces
+   [BLZ00] Biermann, Levin, Zorin: Piecewise smooth subdivision surfaces with normal control
    [Stam98] Stam: Evaluation of Loop subdivision surfaces
    [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent
 
@@ -249,7 +257,7 @@ typedef struct subdiv_mesh {
     float *uvs;                       // [2 * uv_count]       u v
     int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
     float *colors;                    // [3 * vertex_count]   r g b, or NULL
-    float *normals;                   // [3 * vertex_count]   of length 1, or NULL
+    float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
     int    statement_count;           // OBJ's g, o, usemtl, mtllib and s, as they stand in the file
     int   *statement_faces;           // [statement_count]    the face each stands before, rising
     char **statements;                // [statement_count]    such as "usemtl stone"
@@ -285,6 +293,7 @@ typedef struct subdiv_options {
     int           triangulate;        // Loop: cut larger faces into fans instead of refusing them
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
     int           linear;             // split only: points stay on the cage's faces and edges
+    int           limit;              // points on the limit surface, with normals (see >>limit)
     int           no_tags;            // OBJ: write no crease, corner, hole and rule tags
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
@@ -386,6 +395,52 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
                                                const subdiv_options *opt);
 SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face);
+
+// --------------------------------------------------------------------------------- >>limit
+// The surface that refinement tends to. With opt->limit, subdiv_refine moves every point of the
+// result to where it would end up and gives fine its unit normals. In two steps: a surface that was
+// prepared with opt->limit makes such meshes, and every evaluation of it gives limit values, of any
+// channels. (Streamed OBJ has the positions alone.) The function below gives positions, normals
+// and tangents in one pass.
+//
+// Sharpness that is left on the last level counts as infinite, as in OpenSubdiv: with a crease of
+// 2.5, ask for 3 levels or more. On level 0 what matters is what is left on level 1. The result is
+// no cage for more of the same: its points are those of a finer mesh than its own.
+//
+// A point has one normal and two tangents, the same ones from any call: on a crease those of the
+// surface on one side; at a corner, and where non-manifold faces are no fan between two creases,
+// those of the edges of one face there. The normal is 0 where there is none: without faces, between
+// two triangles back to back, and where both tangents are parallel or 0.
+
+// Where to put them: each an array of so many floats a point, or NULL.
+typedef struct subdiv_limit {
+    float *positions;                 // [3]  x y z
+    float *normals;                   // [3]  of length 1, or 0
+    float *tangents;                  // [6]  two, of any direction and length in the tangent plane;
+                                      //      the first x the second is along the normal
+    int    stride;                    // floats from point to point in all three; 0: they are dense
+} subdiv_limit;
+
+// Every point of the result, from positions in [in_stride * cage vertices], as subdiv_evaluate;
+// scratch: subdiv_scratch_size for 3 channels, or NULL. And the same in pieces: after
+// subdiv_evaluate_begin with 3 channels, as subdiv_evaluate_faces does; the arrays then start at
+// first_point. Errors: also ARGUMENT if the surface was prepared without opt->limit.
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
+                                               const float *in, int in_stride,
+                                               const subdiv_limit *out,
+                                               void *scratch, const subdiv_options *opt);
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surface,
+                                                     const void *scratch,
+                                                     int first_face, int face_count,
+                                                     int first_point, int point_count,
+                                                     const subdiv_limit *out,
+                                                     const subdiv_options *opt);
+
+// Normals of any mesh, on the limit surface or not: each vertex gets the sum of its faces' normals,
+// weighted by their areas, made 1 long; 0 if there is none. Fills mesh->normals; if that is NULL,
+// with a new array, which subdiv_mesh_free frees, also from a mesh whose other arrays are yours.
+// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
@@ -1228,6 +1283,7 @@ typedef struct sdv_rules {
     int loop;                           // faces split into 4 triangles, else into quads
     int linear;                         // nothing is smoothed
     int straight;                       // boundaries stay straight
+    int limit;                          // the result is on the limit surface
     subdiv_creasing creasing;
     subdiv_triangles triangles;
 } sdv_rules;
@@ -1975,6 +2031,117 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
                       sdv_catmull_clark_edge(faces);
     if (sharpness <= 0) return smooth;
     return sdv_blend(sharpness < 1 ? sharpness : 1, sdv_crease_edge(), smooth);
+}
+
+// Limit masks: where a vertex ends up when refinement goes on forever, and how the surface lies
+// there. They are the left eigenvectors of one step of refinement around the vertex: of the
+// eigenvalue 1 for the point; of the next ones for tangents, whose weights sum to 0. They are for
+// levels from 1 on, where all faces are quads (Loop: triangles). e: the neighbours, f: under
+// Catmull-Clark the vertices across the quads. Sharpness that is left counts as infinite [OSD].
+//
+// Smooth, Catmull-Clark, valence n [HKD93]. Regular: 4/9, 1/9, 1/36.
+//
+//     f----e----f
+//     |    |    |            P = (n^2 v + 4 (sum of e) + (sum of f)) / (n (n + 5))
+//     e----v----e
+//     |    |    |            (n = 2 as well, where OpenSubdiv takes P = v)
+//     f----e----f
+static sdv_mask sdv_catmull_clark_limit(int n)
+{
+    double w = 1.0 / (n * (n + 5.0));
+    sdv_mask mask = { n / (n + 5.0), 4 * w, w, 0 };
+    return mask;
+}
+
+// Smooth, Loop, valence n [Loop87], with the b of its vertex point. Regular: 1/2, 1/12.
+//
+//       e---e
+//      / \ / \               P = (1 - n w) v + w (sum of e)
+//     e---v---e
+//      \ / \ /               w = 1 / (n + 3 / (8 b))
+//       e---e
+static sdv_mask sdv_loop_limit(int n)
+{
+    double w = 1 / (n + 0.375 / sdv_loop_vertex(n).edge);
+    sdv_mask mask = { 1 - n * w, w, 0, 0 };
+    return mask;
+}
+
+// On a crease or boundary: the point of the cubic B-spline curve [HDD94].
+//
+//     1/6---2/3---1/6        P = (a + 4v + b) / 6
+static sdv_mask sdv_crease_limit(void)
+{
+    sdv_mask mask = { 2.0 / 3, 0, 0, 1.0 / 6 };
+    return mask;
+}
+
+// Tangents t0 t1, each the weights of v, the e and the f, counter-clockwise from any e; t0 x t1 is
+// along the normal, their lengths mean nothing. Smooth, valence n, a = 2 pi/n [HKD93], [Loop87]:
+//
+//     t0 = sum of  4 cos(i a) e_i + g (cos(i a) + cos((i+1) a)) f_i       t1: the same with sin
+//     g  = 1 / (4 L - 1)      L = (5 + cos a + cos(a/2) sqrt(2 (9 + cos a))) / 16, the eigenvalue
+//
+// f_i stands between e_i and e_(i+1); Loop: the e alone. Valence 2 has no two such waves. Two quads
+// back to back have no tangent plane; e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
+// triangles make a cusp, and have no t1.
+static double sdv_face_wave(double a)
+{
+    double c = cos(a);
+    return 4 / (1 + c + cos(a / 2) * sqrt(2 * (9 + c)));
+}
+
+static void sdv_smooth_tangents(int n, int loop, double *t0, double *t1)
+{
+    double a = 6.283185307179586477 / n, g = n > 2 ? sdv_face_wave(a) : 0;
+    t0[0] = t1[0] = 0;
+    for (int i = 0; i < n; i++) {
+        t0[1 + i] = 4 * cos(i * a);
+        t1[1 + i] = n > 2 ? 4 * sin(i * a) : 0;
+    }
+    for (int i = 0; i < n && !loop; i++) {
+        t0[1 + n + i] = g * (cos(i * a) + cos((i + 1) * a));
+        t1[1 + n + i] = n > 2 ? g * (sin(i * a) + sin((i + 1) * a)) : n == 2 ? 1 - 2 * i : 0;
+    }
+}
+
+// On a crease or boundary, for the side with k faces: e_0 and e_k are along the crease, and
+// t0 = e_0 - e_k; t1 leads across. It is half a wave, a = pi/k, with the weights of v and of the
+// two ends that make it an eigenvector (the faces of [BLZ00] and of [HDD94] refine otherwise):
+//
+//     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i, 0 < i < k for the e
+//          + w (e_0 + e_k) - (2 w + (4 + 2 g) r) v              r = (1 + cos a) / sin a
+//     w  = g ((1 + g) sin a - (2 + g) r)
+//     Loop:  t1 = (1 + 2 cos a) (sum of sin(i a) e_i) - r cos a (e_0 + e_k) - r v
+//
+// Regular is Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v, and Loop k = 3. A single face
+// fills a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
+static void sdv_crease_tangents(int k, int loop, double *t0, double *t1)
+{
+    double a = 3.14159265358979323846 / k, c = cos(a), r = (1 + c) / sin(a);
+    double g = sdv_face_wave(a), w = g * ((1 + g) * sin(a) - (2 + g) * r);
+    if (loop) w = -r * c;
+    for (int i = 0; i <= k; i++) {
+        t0[1 + i] = 0;
+        t1[1 + i] = (loop ? 1 + 2 * c : 4) * sin(i * a);
+    }
+    for (int i = 0; i < k && !loop; i++) {
+        t0[2 + k + i] = 0;
+        t1[2 + k + i] = k > 1 ? g * (sin(i * a) + sin((i + 1) * a)) : 0;
+    }
+    t0[0] = 0;
+    t0[1] = 1;
+    t0[1 + k] = -1;
+    t1[0] = k == 1 ? -2 : loop ? -r : -2 * w - (4 + 2 * g) * r;
+    t1[1] = t1[1 + k] = k == 1 ? 1 : w;
+}
+
+// The limit mask of a rule at a vertex with so many faces. A corner is where it ends up.
+static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
+{
+    if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
+    if (rule == SDV_CREASE) return sdv_crease_limit();
+    return rules->loop ? sdv_loop_limit(faces) : sdv_catmull_clark_limit(faces);
 }
 
 // ----------------------------------------------------------------------------------- >>order
@@ -2773,17 +2940,18 @@ static int sdv_control_points(const sdv_rules *rules)
 
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
-// sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading).
-static int sdv_stays(float sharpness, int levels, subdiv_creasing creasing)
+// sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading),
+// and in the limit.
+static int sdv_lasts(float sharpness, int levels, const sdv_rules *rules)
 {
     return sharpness >= SUBDIV_INFINITE ||
-           (creasing == SUBDIV_CREASING_UNIFORM && sharpness >= (float)levels);
+           (rules->creasing == SUBDIV_CREASING_UNIFORM && sharpness > (float)levels);
 }
 
-static int sdv_lasts(float sharpness, int levels, subdiv_creasing creasing)
+static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
 {
-    return sharpness >= SUBDIV_INFINITE ||
-           (creasing == SUBDIV_CREASING_UNIFORM && sharpness > (float)levels);
+    int just = rules->creasing == SUBDIV_CREASING_UNIFORM && sharpness == (float)levels;
+    return sdv_lasts(sharpness, levels, rules) || (just && !rules->limit);
 }
 
 // How the surface goes on at a vertex, down to the last level.
@@ -2814,12 +2982,12 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
             float t = level->sharpness[two[i]];
             if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
             sharp++;
-            stay += sdv_stays(t, levels, rules->creasing);
-            last += sdv_lasts(t, levels, rules->creasing);
+            stay += sdv_stays(t, levels, rules);
+            last += sdv_lasts(t, levels, rules);
         }
     }
-    if (last > 2 || sdv_lasts(s, levels, rules->creasing)) return SDV_PINNED;
-    if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules->creasing))) return SDV_ROUGH;
+    if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
+    if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
     return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
 }
@@ -2961,7 +3129,7 @@ static int sdv_find_fans(const sdv_level *level, const sdv_rules *rules,
 {
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
-        if (s > 0 && !sdv_stays(s, levels, rules->creasing)) return 0;
+        if (s > 0 && !sdv_stays(s, levels, rules)) return 0;
         patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
         fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
@@ -3187,17 +3355,17 @@ static void sdv_seam_edges(sdv_seams *seams)
 }
 
 // What the rule looks at, around a vertex of the cage.
-typedef struct sdv_around {
+typedef struct sdv_surroundings {
     int values;                         // how many different ones
     int faces;                          // with values
     int seam, boundary, nonmanifold;    // is it on one?
     int own[2];                         // the first two vertices of this topology
-} sdv_around;
+} sdv_surroundings;
 
-static sdv_around sdv_look_around(const sdv_seams *seams, int v)
+static sdv_surroundings sdv_look_around(const sdv_seams *seams, int v)
 {
     const sdv_level *cage = &seams->cage->level, *level = &seams->level;
-    sdv_around around = { 0, 0, 0, 0, 0, { -1, -1 } };
+    sdv_surroundings around = { 0, 0, 0, 0, 0, { -1, -1 } };
     around.nonmanifold = seams->cage->vertex_nonmanifold[v];
     for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
         int before = sdv_previous(cage, h), own = seams->own[h];
@@ -3228,7 +3396,7 @@ static int sdv_inner_crease(const sdv_level *level, int vertex)
 
 // Corner by the rules "plus 1" and "plus 2": where more than two values meet; where two meet and
 // one is a corner for another reason than its number of faces; by "plus 2" also for that reason.
-static int sdv_is_shared_corner(const sdv_seams *seams, const sdv_around *around)
+static int sdv_is_shared_corner(const sdv_seams *seams, const sdv_surroundings *around)
 {
     const sdv_level *level = &seams->level;
     if (around->values != 2) return around->values > 2;
@@ -3241,7 +3409,7 @@ static int sdv_is_shared_corner(const sdv_seams *seams, const sdv_around *around
 }
 
 // Is a value on a seam or boundary a corner, where around knows the others?
-static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_around *around, int vertex)
+static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_surroundings *around, int vertex)
 {
     const sdv_level *level = &seams->level;
     subdiv_uv_rule rule = seams->rule;
@@ -3263,7 +3431,7 @@ static void sdv_seam_sharpness(sdv_seams *seams)
     int plus = seams->rule == SUBDIV_UV_CORNERS_PLUS1 || seams->rule == SUBDIV_UV_CORNERS_PLUS2;
     for (int i = 0; i < level->vertex_count; i++) level->vertex_sharpness[i] = 0;
     for (int v = 0; v < cage->vertex_count; v++) {
-        sdv_around around = sdv_look_around(seams, v);
+        sdv_surroundings around = sdv_look_around(seams, v);
         for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
             int own = seams->own[h], vertex = own < 0 ? -1 : level->face_vertices[own];
             if (own < 0 || level->vertex_first[vertex] != own) continue;
@@ -3353,15 +3521,29 @@ typedef struct sdv_step {
     sdv_rows faces, vertices, edges;
 } sdv_step;
 
+// Rows that make points of the limit and their tangents from the last level: see sdv_limit_row.
+typedef struct sdv_limit_weights {
+    int    count;                       // points
+    size_t first;                       // where their weights start: for the position, then for
+} sdv_limit_weights;                       // either tangent
+
+typedef struct sdv_limit_rows {
+    sdv_rows        rows;
+    sdv_limit_weights *masks;
+    float          *weights;
+} sdv_limit_rows;
+
 struct subdiv_surface {
     sdv_arena arena;
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
-    sdv_step    *steps;                 // [levels] the last makes face points alone
+    sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
     sdv_patches *patches;               // [levels]
     sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
+    sdv_limit_rows limit;               // of a limit, instead of last
+    subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
     int       work_count;               // work points
     sdv_order order;
     int       face_count;               // all faces, also those without values
@@ -3608,10 +3790,12 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     sdv_arena_free(&scratch);
 }
 
-// Vertices that never move are copied: those without faces, corners that stay, all if linear.
+// Vertices that never move are copied: those without faces, corners that stay, all if linear. (In a
+// limit only the first: the others have tangents.)
 static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage, int v)
 {
-    if (surface->rules.linear || cage->vertex_faces[v] == 0) return 1;
+    if (cage->vertex_faces[v] == 0) return 1;
+    if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
@@ -3723,8 +3907,8 @@ static const int sdv_corner_triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
 
 static int sdv_vertex_target(const sdv_targets *targets, int h, int i)
 {
-    const int *at = targets->order->loop ? sdv_corner_triangle[i] : sdv_corner_quad[i];
-    return targets->level->places ? sdv_target(targets, at[0], at[1])
+    const int (*at)[2] = targets->order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    return targets->level->places ? sdv_target(targets, at[i][0], at[i][1])
                                   : targets->level->face_vertices[h];
 }
 
@@ -3793,6 +3977,214 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
     if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
 }
 
+// What the weights of a limit row depend on, with the number of faces: all those around a smooth
+// vertex; those between the two edges of a crease; of a corner none. Tips have the tangents of one
+// face's edges: a corner and, loose, a crease or smooth vertex whose faces are no such fan, which
+// takes a non-manifold crease or a vertex that is twice in a face.
+typedef enum sdv_limit_kind {
+    SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING, SDV_LIMIT_KINDS
+} sdv_limit_kind;
+
+// Writes limit rows. Masks are found by kind and number of faces.
+typedef struct sdv_limit_writer {
+    sdv_writer *writer;
+    const sdv_level *level;             // the last
+    const sdv_rules *rules;
+    sdv_array   masks, weights;         // sdv_limit_weights, floats
+    int         most;                   // faces at a vertex
+    int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
+    double     *tangents;               // [2 * (2 most + 2)]
+} sdv_limit_writer;
+
+static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
+{
+    static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER, SDV_CREASE,
+                                                     SDV_SMOOTH };
+    int loop = limit->rules->loop, tip = kind >= SDV_TIP, first = tip ? 3 : 1;
+    int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces + (kind == SDV_SPAN);
+    int across = loop || kind == SDV_TIP || kind == SDV_LOOSE_CREASE ? 0 : faces;
+    sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
+    sdv_limit_weights made = { first + edges + across, limit->weights.count };
+    double *t0 = limit->tangents, *t1 = t0 + made.count;
+    float *weights = (float *)sdv_array_room(limit->writer->context, &limit->weights,
+                                       3 * (size_t)made.count, sizeof(float));
+    if (!weights) return made;
+    for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
+    if (kind == SDV_RING) sdv_smooth_tangents(faces, loop, t0, t1);
+    if (kind == SDV_SPAN) sdv_crease_tangents(faces, loop, t0, t1);
+    if (tip) t0[1] = t1[2] = 1;
+    weights[0] = (float)mask.self;
+    for (int i = 1; i < first; i++) weights[i] = 0;
+    for (int i = 0; i < edges; i++)
+        weights[first + i] = (float)(i == 0 || i + 1 == edges ? mask.edge + mask.crease
+                                                              : mask.edge);
+    for (int i = 0; i < across; i++) weights[first + edges + i] = (float)mask.face;
+    for (int i = 0; i < 2 * made.count; i++) weights[made.count + i] = (float)t0[i];
+    limit->weights.count += 3 * (size_t)made.count;
+    return made;
+}
+
+// The number of a mask.
+static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
+{
+    int *known = &limit->known[(int)kind * (limit->most + 1) + faces];
+    if (*known >= 0) return *known;
+    sdv_limit_weights made = sdv_new_limit_mask(limit, kind, faces);
+    sdv_limit_weights *mask = (sdv_limit_weights *)sdv_array_room(limit->writer->context,
+                                                            &limit->masks, 1, sizeof made);
+    if (!mask) return 0;
+    *mask = made;
+    return *known = (int)limit->masks.count++;
+}
+
+// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge: a dart is
+// smooth. -1 if there is none.
+static int sdv_around(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h), across = level->across[before];
+    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
+                                                                                       : across;
+}
+
+// Do as many faces close around the vertex of h as it has?
+static int sdv_ring_closes(const sdv_level *level, int h)
+{
+    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
+    for (int i = 1; i < faces; i++) {
+        at = sdv_around(level, at);
+        if (at < 0 || at == h) return 0;
+    }
+    return sdv_around(level, at) == h;
+}
+
+// The points of count faces from h on, counter-clockwise: the neighbours, of a crease also the one
+// behind the last face, then the vertices across.
+static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
+{
+    int *across = point + count + crease;
+    for (int i = 0; i < count; i++) {
+        int next = sdv_next(level, h);
+        *point++ = sdv_point_at(level, next);
+        if (!loop) *across++ = sdv_point_at(level, sdv_next(level, next));
+        if (crease && i + 1 == count) *point = sdv_point_at(level, sdv_previous(level, h));
+        h = sdv_around(level, h);
+    }
+    return across;
+}
+
+// The faces on one side of a crease at the vertex of h: how many, and the first of them. 0 if they
+// close to a ring or the same edge bounds them twice.
+static int sdv_find_span(const sdv_level *level, int h, int *first)
+{
+    int count = 1, last = h, at;
+    *first = h;
+    for (; (at = sdv_clockwise(level, *first)) >= 0 && at != h; count++) *first = at;
+    if (at == h) return 0;
+    for (; (at = sdv_counter_clockwise(level, last)) >= 0; count++) last = at;
+    return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
+}
+
+// A tip: the two neighbours in the face of h; then, for the position, those along the crease, or
+// all.
+static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
+{
+    int v = level->face_vertices[h];
+    *point++ = sdv_point_at(level, sdv_next(level, h));
+    *point++ = sdv_point_at(level, sdv_previous(level, h));
+    if (kind == SDV_LOOSE_CREASE) return sdv_add_neighbours(level, v, SDV_CREASE, 1, point);
+    if (kind == SDV_TIP) return point;
+    for (int i = level->vertex_first[v]; i >= 0; i = level->vertex_next[i])
+        *point++ = sdv_point_at(level, sdv_next(level, i));
+    for (int i = level->vertex_first[v]; i >= 0 && !loop; i = level->vertex_next[i])
+        *point++ = sdv_point_at(level, sdv_next(level, sdv_next(level, i)));
+    return point;
+}
+
+// The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
+// the vertex, its neighbours and, under Catmull-Clark, the vertices across its faces. h is the face
+// whose surface counts at a crease and whose edges at a corner.
+static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
+{
+    const sdv_level *level = limit->level;
+    sdv_writer *writer = limit->writer;
+    int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
+    int faces = level->vertex_faces[v], span = 0, *point = writer->row + 2;
+    sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
+    sdv_limit_kind kind = SDV_TIP;
+    if (rule == SDV_CREASE) {
+        span = sdv_find_span(level, h, &first);
+        kind = span ? SDV_SPAN : SDV_LOOSE_CREASE;
+    } else if (rule != SDV_CORNER) {
+        kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
+    }
+    *point++ = level->first_point + v;
+    if (kind == SDV_RING) point = sdv_add_fan(level, h, faces, 0, loop, point);
+    else if (kind == SDV_SPAN) point = sdv_add_fan(level, first, span, 1, loop, point);
+    else point = sdv_add_tip(level, h, kind, loop, point);
+    if (rule >= SDV_CREASE) faces = span;
+    writer->row[0] = sdv_find_limit_mask(limit, kind, faces);
+    writer->row[1] = target;
+    writer->row = point;
+    writer->rows->count++;
+}
+
+// The points of the faces of the core that no patch makes, face by face.
+static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
+{
+    const sdv_level *level = limit->level;
+    int size = level->face_size, h_grid = -1;
+    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
+        sdv_place place = level->places[f];
+        if (!level->core[f]) continue;
+        if (place.h != h_grid) grid = sdv_grid_at(&surface->order, h_grid = place.h);
+        sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
+        for (int i = 0; i < size; i++) {
+            int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
+            unsigned char *done = &level->vertex_done[level->face_vertices[h]];
+            if (!*done) sdv_limit_row(limit, h, sdv_grid_index(&grid, place.row + place.step * up,
+                                                               place.column + place.step * right));
+            *done = 1;
+        }
+    }
+    if (!limit->writer->context->result) sdv_go_to_face(limit->writer, surface->cage_face_count);
+}
+
+static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const sdv_level *level)
+{
+    sdv_context *context = writer->context;
+    sdv_arena scratch = sdv_scratch();
+    sdv_limit_writer limit;
+    size_t size = 0, known;
+    memset(&limit, 0, sizeof limit);
+    limit.writer = writer;
+    limit.level = level;
+    limit.rules = &surface->rules;
+    for (int v = 0; v < level->vertex_count; v++) {
+        int faces = level->vertex_faces[v];
+        if (!level->vertex_done[v]) size += 5 + 2 * (size_t)faces;
+        if (faces > limit.most) limit.most = faces;
+    }
+    known = SDV_LIMIT_KINDS * ((size_t)limit.most + 1);
+    limit.known = SDV_NEW(context, &scratch, int, known);
+    limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
+    for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
+    sdv_begin_result(writer, &surface->arena, &surface->limit.rows, size,
+                     surface->cage_face_count);
+    sdv_write_limit(&limit, surface);
+    surface->limit.masks = SDV_NEW(context, &surface->arena, sdv_limit_weights, limit.masks.count);
+    surface->limit.weights = SDV_NEW(context, &surface->arena, float, limit.weights.count);
+    if (!context->result) {
+        sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
+                 sizeof(sdv_limit_weights));
+        sdv_copy(surface->limit.weights, sdv_items(&limit.weights), limit.weights.count,
+                 sizeof(float));
+    }
+    sdv_array_free(&limit.masks);
+    sdv_array_free(&limit.weights);
+    sdv_arena_free(&scratch);
+}
+
 // A level: its patches; then, of what is rough, the rows to the next level and the next level,
 // which has no faces if nothing is.
 static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int depth,
@@ -3802,7 +4194,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_context *context = writer->context;
     sdv_step *step = &surface->steps[depth];
     sdv_arena scratch = sdv_scratch();
-    int last = depth + 1 == surface->levels;
+    int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
     sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
@@ -3847,6 +4239,8 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
         next_arena = sdv_scratch();
         level = next;
     }
+    if (surface->rules.limit && level.face_count && !context->result)
+        sdv_prepare_limit(&writer, surface, &level);
     surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
     surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
     if (!context->result) {
@@ -3983,6 +4377,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->order.cage = seams.level;
     made->rules.linear |= values->rule == SUBDIV_UV_ALL;
     made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES;
+    made->rules.limit = 0;
     sdv_set_order(made);
     sdv_prepare_levels(context, made, &seams.level, &scratch);
 }
@@ -4129,8 +4524,11 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
+    made->rules.limit = opt && opt->limit;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result) sdv_keep_data(&context, made, cage);
+    if (!context.result && levels == 0 && made->rules.limit)
+        context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
@@ -4165,6 +4563,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
     if (!surface) return;
     subdiv_surface_free(surface->uv);
+    subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
     sdv_arena_free(&arena);
 }
@@ -4261,6 +4660,33 @@ static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const
     while (row < last) {
         const sdv_weights *mask = &masks->items[row[0]];
         sdv_put_point(out, row[1], sdv_row_sum(masks, mask, row + 2, work));
+        row += 2 + mask->count;
+    }
+}
+
+// A sum of limit weights: of a position or, without p0, of a tangent.
+static sdv_four sdv_limit_sum(const float *weights, int count, const int *points,
+                              const float *work, int position)
+{
+    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
+    for (int i = 1; i < count; i++) {
+        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
+        sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
+    }
+    return position ? sdv_plus(p0, sum) : sum;
+}
+
+static void sdv_apply_limit(const subdiv_surface *surface, const float *work, int face, int end,
+                            const sdv_window *out)
+{
+    const sdv_limit_rows *limit = &surface->limit;
+    if (limit->rows.count == 0) return;
+    const int *row = limit->rows.items + limit->rows.starts[face];
+    const int *last = limit->rows.items + limit->rows.starts[end];
+    while (row < last) {
+        const sdv_limit_weights *mask = &limit->masks[row[0]];
+        sdv_put_point(out, row[1], sdv_limit_sum(limit->weights + mask->first, mask->count,
+                                                 row + 2, work, 1));
         row += 2 + mask->count;
     }
 }
@@ -4519,10 +4945,9 @@ static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_
 
 // The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
 // along the rows.
-static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n, int linear,
+static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
                                 const float *work, sdv_polynomial *q)
 {
-    float h = 1.0f / (float)n;
     sdv_four p[16], up[4][4], x[4];
     q->degree = 3;
     sdv_load_points(points, 16, work, p);
@@ -4531,11 +4956,11 @@ static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, int n
     if (patch->sharp) sdv_mirror_quad(patch, p);
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], h * h, up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hh, up[i]);
     }
     for (int j = 0; j < 4; j++) {
         if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], h * h, x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hh, x);
         for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
     }
 }
@@ -4635,10 +5060,9 @@ static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
     q->c[0][1] = p[8];
 }
 
-static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int n, int linear,
+static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
                                     const float *work, sdv_polynomial *q)
 {
-    float h = 1.0f / (float)n;
     sdv_four p[12];
     q->degree = 4;
     sdv_load_points(points, 12, work, p);
@@ -4646,7 +5070,19 @@ static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, i
     for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
     sdv_mirror_triangle(patch, p);
     if (linear) sdv_plane(p, q);
-    else sdv_box_spline(p, h * h, q);
+    else sdv_box_spline(p, hh, q);
+}
+
+// Patch i: on the last level or, with h = 0, in the limit.
+static void sdv_patch_polynomial(const subdiv_surface *surface, const sdv_patches *patches, int i,
+                                 const float *work, sdv_polynomial *q)
+{
+    const sdv_patch *patch = &patches->items[i];
+    const sdv_rules *rules = &surface->rules;
+    const int *points = patches->points + (size_t)sdv_control_points(rules) * (size_t)i;
+    float h = rules->limit ? 0 : 1.0f / (float)(1 << patches->depth);
+    if (rules->loop) sdv_triangle_polynomial(patch, points, h * h, rules->linear, work, q);
+    else sdv_quad_polynomial(patch, points, h * h, rules->linear, work, q);
 }
 
 // The points that the patches of a level make for cage faces face to end - 1.
@@ -4663,12 +5099,11 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         const sdv_patch *patch = &patches->items[i];
         const int *points = patches->points + width * (size_t)i;
         if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-        if (!order->loop && n == 2) {
+        if (!order->loop && n == 2 && !surface->rules.limit) {
             sdv_put_nine(out, &grid, patch, points, linear, work);
             continue;
         }
-        if (order->loop) sdv_triangle_polynomial(patch, points, n, linear, work, &q);
-        else sdv_quad_polynomial(patch, points, n, linear, work, &q);
+        sdv_patch_polynomial(surface, patches, i, work, &q);
         sdv_put_outer_row(out, &grid, patch, &q, n, 0);
         sdv_put_inner_rows(out, &grid, patch, &q, n);
         sdv_put_outer_row(out, &grid, patch, &q, n, 1);
@@ -4683,11 +5118,165 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     for (int i = 0; i < surface->levels; i++)
         sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
     sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
+    sdv_apply_limit(surface, work, face, end, out);
+}
+
+// ------------------------------------------------------------------------- >>limit-surface
+// A limit's points with their tangents and normals. Where a patch is, its polynomial has
+// derivatives, along the rows and across; elsewhere rows have weights for them.
+
+typedef struct sdv_limit_window {       // a part of the result, as sdv_window
+    float *positions, *normals, *tangents;      // of point first, or NULL
+    size_t stride, tangent_stride;      // floats from point to point
+    int    first, end;
+} sdv_limit_window;
+
+static sdv_limit_window sdv_window_of_limit(const subdiv_limit *out, int first, int end)
+{
+    sdv_limit_window window = { out->positions, out->normals, out->tangents, 3, 6, first, end };
+    if (out->stride) window.stride = window.tangent_stride = (size_t)out->stride;
+    return window;
+}
+
+// A vector made 1 long, or 0.
+static inline void sdv_make_unit(const double *n, float *unit)
+{
+    double squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    double scale = squares > 0 ? 1 / sqrt(squares) : 0;
+    for (int k = 0; k < 3; k++) unit[k] = (float)(n[k] * scale);
+}
+
+// Along a x b. In doubles, whose range holds the squares of products of all floats.
+static inline void sdv_unit_normal(const float *a, const float *b, float *normal)
+{
+    double n[3];
+    n[0] = (double)a[1] * (double)b[2] - (double)a[2] * (double)b[1];
+    n[1] = (double)a[2] * (double)b[0] - (double)a[0] * (double)b[2];
+    n[2] = (double)a[0] * (double)b[1] - (double)a[1] * (double)b[0];
+    sdv_make_unit(n, normal);
+}
+
+static inline void sdv_put_limit(const sdv_limit_window *out, int index, sdv_four p,
+                                 sdv_four along, sdv_four across)
+{
+    float t[8];
+    if (index < out->first || index >= out->end) return;
+    size_t i = (size_t)(index - out->first);
+    if (out->positions) sdv_store_three(out->positions + out->stride * i, p);
+    sdv_store(t, along);
+    sdv_store(t + 4, across);
+    if (out->normals) sdv_unit_normal(t, t + 4, out->normals + out->stride * i);
+    if (!out->tangents) return;
+    sdv_store_three(out->tangents + out->tangent_stride * i, along);
+    sdv_store_three(out->tangents + out->tangent_stride * i + 3, across);
+}
+
+static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work, int face, int end,
+                               const sdv_limit_window *out)
+{
+    const sdv_rows *copies = &surface->copies, *rows = &surface->limit.rows;
+    const int *row = copies->count ? copies->items + copies->starts[face] : NULL;
+    const int *last = copies->count ? copies->items + copies->starts[end] : NULL;
+    for (; row < last; row += 3)
+        sdv_put_limit(out, row[1], sdv_load(work + 4 * (size_t)row[2]), sdv_all(0), sdv_all(0));
+    row = rows->count ? rows->items + rows->starts[face] : NULL;
+    last = rows->count ? rows->items + rows->starts[end] : NULL;
+    while (row < last) {
+        const sdv_limit_weights *mask = &surface->limit.masks[row[0]];
+        const float *weights = surface->limit.weights + mask->first;
+        size_t n = (size_t)mask->count;
+        sdv_put_limit(out, row[1], sdv_limit_sum(weights, mask->count, row + 2, work, 1),
+                      sdv_limit_sum(weights + n, mask->count, row + 2, work, 0),
+                      sdv_limit_sum(weights + 2 * n, mask->count, row + 2, work, 0));
+        row += 2 + mask->count;
+    }
+}
+
+// The derivative of a polynomial across its rows, of what sdv_row_curve looks at. Both it and the
+// one along a row are cubics in x, at most.
+static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
+{
+    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
+    const int *powers = q->degree == 3 ? cubic : quartic;
+    d->degree = q->degree;
+    d->origin = sdv_all(0);
+    for (int i = 0; i <= q->degree; i++) {
+        for (int j = 0; j < powers[i]; j++)
+            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
+        d->c[i][powers[i]] = sdv_all(0);
+    }
+}
+
+// And of a row along itself.
+static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
+{
+    d->degree = 3;
+    d->a[3] = sdv_all(0);
+    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
+}
+
+static inline void sdv_put_curve_limit(const sdv_limit_window *out, int index,
+                                       const sdv_curve *curve, const sdv_curve *along,
+                                       const sdv_curve *across, float x)
+{
+    sdv_four at = sdv_all(x);
+    sdv_put_limit(out, index, sdv_curve_point(curve, at), sdv_horner3(along->a, at),
+                  sdv_horner3(across->a, at));
+}
+
+// Row r of a patch of n segments: what sdv_put_row writes, with tangents.
+static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
+                              const sdv_patch *patch, const sdv_polynomial *q,
+                              const sdv_polynomial *rise, int n, int r)
+{
+    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
+    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
+    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
+    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
+    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
+    float h = 1.0f / (float)n;
+    sdv_side line = sdv_grid_line(grid, row);
+    sdv_curve curve, along, across;
+    sdv_row_curve(q, (float)r * h, &curve);
+    sdv_row_curve(rise, (float)r * h, &across);
+    sdv_along_row(&curve, &along);
+    if (left) sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, 0);
+    for (int i = 1; i < last && inside; i++)
+        sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
+                            &across, (float)i * h);
+    if (right)
+        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column + step * last), &curve, &along,
+                            &across, (float)last * h);
+}
+
+static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
+                              const float *work, int face, int end, const sdv_limit_window *out)
+{
+    const sdv_order *order = &surface->order;
+    int n = 1 << patches->depth, h = -1, last = sdv_first_patch(order, patches, end);
+    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    sdv_polynomial q, rise;
+    for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
+        const sdv_patch *patch = &patches->items[i];
+        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        sdv_patch_polynomial(surface, patches, i, work, &q);
+        sdv_across_rows(&q, &rise);
+        for (int r = 0; r <= n; r++) sdv_put_limit_row(out, &grid, patch, &q, &rise, n, r);
+    }
+}
+
+static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
+                                 int end, const sdv_limit_window *out)
+{
+    for (int i = 0; i < surface->levels; i++)
+        sdv_limit_patches(surface, &surface->patches[i], work, face, end, out);
+    sdv_limit_rows_out(surface, work, face, end, out);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
 typedef struct sdv_evaluation {
     const subdiv_surface *surface;
+    const subdiv_limit *limit;          // or NULL: then the values go to out
     int          channels;
     const float *in;                    // channels a vertex
     size_t       in_stride;
@@ -4777,6 +5366,11 @@ static void sdv_face_job(void *context, int job)
     int faces = e->end_face - e->first_face;
     int face = e->first_face + sdv_share(faces, job, e->jobs);
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
+    if (e->limit) {
+        sdv_limit_window out = sdv_window_of_limit(e->limit, e->first_point, e->end_point);
+        sdv_make_limit_faces(surface, e->work, face, end, &out);
+        return;
+    }
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
         sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point,
@@ -4834,8 +5428,15 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
     return sdv_first_inside(&surface->order, cage_face);
 }
 
+// What makes the points: the surface, but for a limit on level 0.
+static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
+{
+    return surface->at_level_1 ? surface->at_level_1 : surface;
+}
+
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
+    surface = sdv_maker(surface);
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
 
@@ -4860,13 +5461,39 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     if (context.result) return context.result;
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
-    evaluation.surface = surface;
+    evaluation.surface = sdv_maker(surface);
     evaluation.channels = channels;
     evaluation.in = in;
     evaluation.in_stride = (size_t)in_stride;
     evaluation.work = (float *)scratch;
     sdv_make_work(&evaluation, opt);
     return SUBDIV_OK;
+}
+
+static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
+                            int first_face, int face_count, int first_point, int point_count)
+{
+    int faces = surface->cage_face_count, points = surface->fine.vertex_count;
+    if (first_face < 0 || face_count < 0 || first_face > faces - face_count)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "the cage has %d faces", faces);
+    if (first_point < 0 || point_count < 0 || first_point > points - point_count)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "the result has %d points", points);
+}
+
+static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
+                                        const void *scratch, int first_face, int face_count,
+                                        int first_point, int point_count)
+{
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.surface = sdv_maker(surface);
+    evaluation.channels = channels;
+    evaluation.work = (float *)(size_t)scratch;     // only read
+    evaluation.first_point = first_point;
+    evaluation.end_point = first_point + point_count;
+    evaluation.first_face = first_face;
+    evaluation.end_face = first_face + face_count;
+    return evaluation;
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, int channels,
@@ -4879,25 +5506,13 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
     sdv_context context = sdv_begin(opt);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_values(&context, surface, channels, scratch, &out_stride);
+    if (!context.result)
+        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
     if (context.result) return context.result;
-    if (first_face < 0 || face_count < 0 || first_face > surface->cage_face_count - face_count)
-        sdv_fail(&context, SUBDIV_ERROR_INDEX, "the cage has %d faces", surface->cage_face_count);
-    if (first_point < 0 || point_count < 0 ||
-        first_point > surface->fine.vertex_count - point_count)
-        sdv_fail(&context, SUBDIV_ERROR_INDEX, "the result has %d points",
-                 surface->fine.vertex_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation;
-    memset(&evaluation, 0, sizeof evaluation);
-    evaluation.surface = surface;
-    evaluation.channels = channels;
-    evaluation.work = (float *)(size_t)scratch;     // only read
+    sdv_evaluation evaluation = sdv_evaluation_of(surface, channels, scratch, first_face,
+                                                  face_count, first_point, point_count);
     evaluation.out = out;
     evaluation.out_stride = (size_t)out_stride;
-    evaluation.first_point = first_point;
-    evaluation.end_point = first_point + point_count;
-    evaluation.first_face = first_face;
-    evaluation.end_face = first_face + face_count;
     sdv_make_points(&evaluation, opt);
     return SUBDIV_OK;
 }
@@ -4923,6 +5538,61 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
     return context.result;
 }
 
+static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
+                            const subdiv_limit *out)
+{
+    if (!surface || !out) {
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+        return;
+    }
+    int least = out->tangents ? 6 : 3;
+    if (!surface->rules.limit)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
+    if (out->stride && out->stride < least)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d",
+                 out->stride, least);
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surface,
+                                                     const void *scratch,
+                                                     int first_face, int face_count,
+                                                     int first_point, int point_count,
+                                                     const subdiv_limit *out,
+                                                     const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_limit(&context, surface, out);
+    if (!scratch) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "scratch is NULL");
+    if (!context.result)
+        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
+    if (context.result) return context.result;
+    sdv_evaluation evaluation = sdv_evaluation_of(surface, 3, scratch, first_face, face_count,
+                                                  first_point, point_count);
+    evaluation.limit = out;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
+                                               const float *in, int in_stride,
+                                               const subdiv_limit *out,
+                                               void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    sdv_check_limit(&context, surface, out);
+    if (!context.result) sdv_check_values(&context, surface, 3, in, &in_stride);
+    if (context.result) return context.result;
+    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, 3), 1);
+    if (!context.result)
+        context.result = subdiv_evaluate_begin(surface, 3, in, in_stride, scratch, opt);
+    if (!context.result)
+        context.result = subdiv_evaluate_limit_faces(surface, scratch, 0, surface->cage_face_count,
+                                                     0, surface->fine.vertex_count, out, opt);
+    sdv_arena_free(&arena);
+    return context.result;
+}
+
 // Lays arrays out in one block: first called with base NULL to add up the size.
 static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
 {
@@ -4931,7 +5601,11 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
-static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base, int result)
+// What a new mesh has besides what its model has: a result, cage_faces; a limit, and normals.
+typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
+
+static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base,
+                             sdv_extras extras)
 {
     size_t size = 0, vertices = (size_t)model->vertex_count, faces = (size_t)model->face_count;
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
@@ -4941,7 +5615,7 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     mesh->positions = (float *)sdv_carve(base, &size, vertices, 3 * sizeof(float));
     mesh->face_vertices = (int *)sdv_carve(base, &size, face_vertices, sizeof(int));
     mesh->face_sizes = (int *)sdv_carve(base, &size, model->face_size ? 0 : faces, sizeof(int));
-    mesh->cage_faces = (int *)sdv_carve(base, &size, result ? faces : 0, sizeof(int));
+    mesh->cage_faces = (int *)sdv_carve(base, &size, extras >= SDV_RESULT ? faces : 0, sizeof(int));
     mesh->crease_vertices = (int *)sdv_carve(base, &size, creases, 2 * sizeof(int));
     mesh->crease_sharpness = (float *)sdv_carve(base, &size, creases, sizeof(float));
     mesh->corner_vertices = (int *)sdv_carve(base, &size, corners, sizeof(int));
@@ -4950,8 +5624,8 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     mesh->uvs = (float *)sdv_carve(base, &size, uvs, 2 * sizeof(float));
     mesh->face_uvs = (int *)sdv_carve(base, &size, uvs ? face_vertices : 0, sizeof(int));
     mesh->colors = (float *)sdv_carve(base, &size, model->colors ? vertices : 0, 3 * sizeof(float));
-    mesh->normals = (float *)sdv_carve(base, &size, model->normals ? vertices : 0,
-                                       3 * sizeof(float));
+    int normals = extras == SDV_LIMIT || model->normals;
+    mesh->normals = (float *)sdv_carve(base, &size, normals ? vertices : 0, 3 * sizeof(float));
     mesh->statement_faces = (int *)sdv_carve(base, &size, statements, sizeof(int));
     mesh->statements = (char **)sdv_carve(base, &size, statements, sizeof(char *));
     char *texts = (char *)sdv_carve(base, &size, text, 1);
@@ -4962,19 +5636,19 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     return size;
 }
 
-// A mesh like the model, with room for positions and faces, of a result also for cage_faces; what
-// else the model has is copied.
+// A mesh like the model, with room for positions, faces and extras; what else the model has is
+// copied.
 static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
-                         int result)
+                         sdv_extras extras)
 {
     *mesh = *model;
-    sdv_block *block = sdv_allocate(context, sdv_carve_mesh(mesh, model, NULL, result));
+    sdv_block *block = sdv_allocate(context, sdv_carve_mesh(mesh, model, NULL, extras));
     if (!block) {
         memset(mesh, 0, sizeof *mesh);
         return;
     }
     mesh->memory = block;
-    sdv_carve_mesh(mesh, model, (char *)(block + 1), result);
+    sdv_carve_mesh(mesh, model, (char *)(block + 1), extras);
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
     size_t vertices = (size_t)model->vertex_count, uvs = (size_t)model->uv_count;
     const struct { void *to; const void *from; size_t count, item; } lists[] = {
@@ -4985,8 +5659,8 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
         { mesh->corner_sharpness, model->corner_sharpness, corners, sizeof(float) },
         { mesh->uvs, model->uvs, uvs, 2 * sizeof(float) },
         { mesh->face_uvs, model->face_uvs, sdv_face_vertex_count(model), sizeof(int) },
-        { mesh->colors, result ? NULL : model->colors, vertices, 3 * sizeof(float) },
-        { mesh->normals, result ? NULL : model->normals, vertices, 3 * sizeof(float) },
+        { mesh->colors, extras ? NULL : model->colors, vertices, 3 * sizeof(float) },
+        { mesh->normals, extras ? NULL : model->normals, vertices, 3 * sizeof(float) },
         { mesh->statement_faces, model->statement_faces, (size_t)model->statement_count,
           sizeof(int) } };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
@@ -5120,11 +5794,16 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
     memset(&made, 0, sizeof made);
     sdv_arena arena = sdv_scratch();
     float factor = sdv_tame(&context, &arena, surface, &positions);
-    if (!context.result) sdv_new_mesh(&context, &made, &surface->fine, 1);
+    int limit = surface->rules.limit;
+    if (!context.result)
+        sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
+        subdiv_limit out = { made.positions, made.normals, NULL, 0 };
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
         sdv_fill_holes(surface, made.holes);
-        context.result = subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
+        context.result = limit ?
+            subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
+            subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
     if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
@@ -5258,14 +5937,15 @@ static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *gene
     return context->result;
 }
 
-// The normal of a face by Newell's method, of length 1. A face that is so thin that rounding of
-// its coordinates could have made it so has none: 0.
+// The normal of a face by Newell's method, as long as twice its area. Returns how long rounding of
+// the coordinates could make it: by FLT_EPSILON / 2 of their size each.
 //
 //     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
-static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+static double sdv_area_normal(const float *positions, const int *vertices, int size, double n[3])
 {
     const float *o = positions + 3 * (size_t)vertices[0];
-    double n[3] = { 0, 0, 0 }, p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
+    double p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
+    n[0] = n[1] = n[2] = 0;
     for (int i = 0; i < size; i++) {
         const float *next = positions + 3 * (size_t)vertices[i + 1 < size ? i + 1 : 0];
         double q[3], squares = 0;
@@ -5279,10 +5959,50 @@ static void sdv_face_normal(const float *positions, const int *vertices, int siz
         memcpy(p, q, sizeof p);
         perimeter += sqrt(squares);
     }
-    // Coordinates that are off by FLT_EPSILON / 2 of their size make no more than this of nothing.
-    double error = 2 * (double)FLT_EPSILON * largest * perimeter;
+    return 2 * (double)FLT_EPSILON * largest * perimeter;
+}
+
+// Of length 1. A face that is so thin that rounding could have made it so has none: 0.
+static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+{
+    double n[3], error = sdv_area_normal(positions, vertices, size, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
+}
+
+// sums: [3 * vertex_count], the normals before they are made 1 long.
+static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
+{
+    const int *v = mesh->face_vertices;
+    memset(sums, 0, 3 * (size_t)mesh->vertex_count * sizeof(double));
+    for (int f = 0; f < mesh->face_count; f++) {
+        int size = sdv_face_size(mesh, f);
+        double n[3];
+        sdv_area_normal(mesh->positions, v, size, n);
+        for (int i = 0; i < size; i++)
+            for (int k = 0; k < 3; k++) sums[3 * (size_t)v[i] + (size_t)k] += n[k];
+        v += size;
+    }
+}
+
+SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_all(&context, mesh);
+    if (context.result) return context.result;
+    sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
+    size_t count = 3 * (size_t)mesh->vertex_count;
+    owned.blocks = (sdv_block *)mesh->memory;
+    double *sums = SDV_NEW(&context, &scratch, double, count);
+    float *normals = mesh->normals ? mesh->normals : SDV_NEW(&context, &owned, float, count);
+    if (!context.result) {
+        sdv_sum_normals(mesh, sums);
+        for (size_t i = 0; i < count; i += 3) sdv_make_unit(sums + i, normals + i);
+        mesh->normals = normals;
+        mesh->memory = owned.blocks;
+    }
+    sdv_arena_free(&scratch);
+    return context.result;
 }
 
 // By atan2, which is exact for all angles, where a cosine blurs the small ones.
@@ -7126,7 +7846,7 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     sdv_finish_uvs(obj);
     sdv_finish_statements(obj);
     sdv_warn_skipped(obj);
-    if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, 0);
+    if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, SDV_PLAIN);
     if (obj->context->result) return;
     sdv_series_take(&obj->positions, out->positions);
     sdv_series_take(&obj->face_vertices, out->face_vertices);

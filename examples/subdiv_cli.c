@@ -56,7 +56,7 @@ static const option options[OPTION_COUNT] = {
     {'t', "triangles", "catmull-clark|smooth", "triangles of a Catmull-Clark cage"},
     {'u', "uv", "corners-only|corners-plus1|corners-plus2|boundaries|all|none",
      "not in this release"},
-    {'L', "limit", NULL, "not in this release"},
+    {'L', "limit", NULL, "put the points on the limit surface, with normals"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
     {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
     {0, "crease-smoothing-groups", NULL, "make the borders of smoothing groups sharp"},
@@ -188,8 +188,9 @@ static int read_command(command *cmd, int argc, char **argv)
         }
     }
     if (cmd->given[HELP] == 1 || cmd->given[VERSION] == 1) return DONE;
-    for (int id = UV; id <= LIMIT; id++)
-        if (cmd->given[id] >= 0) return misused("--%s is not in this release", options[id].name);
+    if (cmd->given[UV] >= 0) return misused("--%s is not in this release", options[UV].name);
+    if (cmd->given[LIMIT] == 1 && cmd->given[STREAM] == 1)
+        return misused("--stream writes no normals, so not with --limit");
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
     if (cmd->given[CREASE_SHARPNESS] == 1 && cmd->given[CREASE_ANGLE] < 0 &&
         cmd->given[CREASE_GROUPS] < 0 && cmd->given[CREASE_SEAMS] < 0)
@@ -598,7 +599,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report_cage(cmd, opt);
     end_step(w, "prepare");
     int vertex_count = subdiv_surface_vertex_count(w->surface);
-    int streams = cmd->given[STREAM] == 1 || vertex_count > LARGE;
+    int streams = cmd->given[STREAM] == 1 || (vertex_count > LARGE && !opt->limit);
     if (streams ? stream(w, cmd, opt) : refine_then_save(w, cmd, opt)) return FAILED;
     if (timed) print_times(w, vertex_count);
     return DONE;
@@ -631,6 +632,7 @@ int main(int argc, char **argv)
     subdiv_options opt = {0};
     opt.triangulate = cmd.given[TRIANGULATE] == 1;
     opt.keep_holes = cmd.given[KEEP_HOLES] == 1;
+    opt.limit = cmd.given[LIMIT] == 1;
     opt.error = &error;
     start_threads(&threads, cmd.given[THREADS], &opt);
     result = run(&w, &cmd, &opt);

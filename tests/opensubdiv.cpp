@@ -1,5 +1,6 @@
 // Compares subdiv_refine with OpenSubdiv, level by level: the faces and their order, the holes, the
-// map to the cage, the sharpness that is left, the positions, and UVs. Needs libosd (-losdCPU).
+// map to the cage, the sharpness that is left, the positions, UVs, and up to level 3 the limit.
+// Needs libosd (-losdCPU).
 //
 //     opensubdiv [--random N] [--seed S] [--levels a-b] [--scheme catmull-clark|loop|bilinear]
 //                [file.obj ...]
@@ -36,6 +37,7 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
 static const double position_tolerance = 1e-6;    // of the largest extent of the cage
+static const double normal_tolerance = 1e-5;      // and what rounded points can make of it
 static const double sharpness_tolerance = 1e-5;   // Chaikin adds up in the order of the edges
 static const long long largest_result = 2000000;  // faces
 
@@ -70,7 +72,8 @@ struct Reference {
 
 struct Totals {
     long long uvs = 0, vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0, put_right = 0;
-    double largest_error = 0;
+    long long limit_points = 0, limit_normals = 0, odd_sides = 0, no_normals = 0;
+    double largest_error = 0, largest_limit_error = 0;
     std::map<std::string, long> skips;
 };
 
@@ -421,7 +424,8 @@ static double largest_extent(const subdiv_mesh &mesh)
 }
 
 static void compare_positions(const Level &level, const std::vector<int> &ours,
-                              const subdiv_mesh &cage, const subdiv_mesh &fine)
+                              const subdiv_mesh &cage, const subdiv_mesh &fine,
+                              double &largest)
 {
     const double extent = largest_extent(cage);
     for (size_t v = 0; v < ours.size(); v++) {
@@ -434,7 +438,7 @@ static void compare_positions(const Level &level, const std::vector<int> &ours,
             TEST_REPORT("vertex %d is at (%.7g %.7g %.7g), OpenSubdiv's at (%.7g %.7g %.7g)",
                         ours[v], (double)p[0], (double)p[1], (double)p[2], q[0], q[1], q[2]);
         } else if (error > 0) {
-            totals.largest_error = std::max(totals.largest_error, error / extent);
+            largest = std::max(largest, error / extent);
         }
     }
 }
@@ -554,11 +558,200 @@ static void compare_result(const Reference &ref, const order &o, int l, const su
     if (test_bad) return;
     compare_faces(ref, o, l, fine, keep_holes);
     compare_sharpness(their_creases(ref, l, ours, keep_holes), their_corners(ref, l, ours), fine);
-    compare_positions(ref.levels[(size_t)l], ours, *o.cage, fine);
+    compare_positions(ref.levels[(size_t)l], ours, *o.cage, fine,
+                      totals.largest_error);
     if (o.cage->uv_count && !ref.odd_uvs && !ref.put_right)     // (their UVs are wrong there, too)
         compare_uvs(ref, o, l, fine, keep_holes);
     totals.vertices += fine.vertex_count;
     totals.faces += fine.face_count;
+}
+
+// ------------------------------------------------------------------------------------- limits
+//
+// What is left out: OpenSubdiv's tangents write out of bounds at a non-manifold vertex that has more
+// faces than edges; its masks at a smooth Catmull-Clark vertex of valence 2 leave the vertex where it
+// is; its tangents beside an irregular number of faces along a crease are not those of the surface
+// (see test_limit.c for ours). Of an interior crease it takes one side, of a corner one face; any
+// will do.
+
+struct Vector {
+    double p[3];
+};
+
+static Vector minus(const Point &a, const Point &b)
+{
+    return { { a.p[0] - b.p[0], a.p[1] - b.p[1], a.p[2] - b.p[2] } };
+}
+
+static Vector cross(const Vector &a, const Vector &b)
+{
+    return { { a.p[1] * b.p[2] - a.p[2] * b.p[1], a.p[2] * b.p[0] - a.p[0] * b.p[2],
+               a.p[0] * b.p[1] - a.p[1] * b.p[0] } };
+}
+
+static double length(const Vector &a)
+{
+    return std::sqrt(a.p[0] * a.p[0] + a.p[1] * a.p[1] + a.p[2] * a.p[2]);
+}
+
+// What may be the normal of a vertex: tangents, and whether all possible ones are there.
+struct Sides {
+    std::vector<std::pair<Vector, Vector>> tangents;
+    bool all = true;
+};
+
+typedef std::vector<std::pair<int, double>> Weights;
+
+static Vector weighed(const std::vector<Point> &points, const Weights &weights)
+{
+    Vector sum = {};
+    for (const auto &w : weights)
+        for (int k = 0; k < 3; k++) sum.p[k] += w.second * points[(size_t)w.first].p[k];
+    return sum;
+}
+
+static int other_end(const Far::TopologyLevel &level, int edge, int v)
+{
+    const Far::ConstIndexArray ends = level.GetEdgeVertices(edge);
+    return ends[0] == v ? ends[1] : ends[0];
+}
+
+// The tangents at v between edges i and i + k of its ring, a crease with a regular number of faces
+// or a single one, as OpenSubdiv has them for one of the sides.
+static void add_side(const Far::TopologyLevel &level, const std::vector<Point> &points, bool loop,
+                     int v, int i, int k, Sides &sides)
+{
+    const Far::ConstIndexArray edges = level.GetVertexEdges(v), faces = level.GetVertexFaces(v);
+    const auto end = [&](int j) { return other_end(level, edges[j % edges.size()], v); };
+    const int a = end(i), b = end(i + k);
+    Weights along = { { a, 1 }, { b, -1 } }, across;
+    if (k == 1) {
+        across = { { v, -2 }, { a, 1 }, { b, 1 } };
+    } else if (loop && k == 3) {
+        across = { { v, -2 }, { a, -1 }, { b, -1 }, { end(i + 1), 2 }, { end(i + 2), 2 } };
+    } else if (loop && k == 2) {
+        across = { { v, -1 }, { end(i + 1), 1 } };
+    } else if (!loop && k == 2) {
+        across = { { v, -4 }, { a, -1 }, { b, -1 }, { end(i + 1), 4 } };
+        for (int j = i; j < i + 2; j++) {
+            const Far::ConstIndexArray f = level.GetFaceVertices(faces[j % faces.size()]);
+            across.push_back({ f[(f.FindIndex(v) + 2) % 4], 1 });
+        }
+    } else {
+        sides.all = false;
+        return;
+    }
+    sides.tangents.push_back({ weighed(points, along), weighed(points, across) });
+}
+
+static Sides possible_sides(const Far::TopologyLevel &level, const std::vector<Point> &points,
+                            subdiv_scheme scheme, int v, const Point &t1, const Point &t2)
+{
+    const Far::ConstIndexArray edges = level.GetVertexEdges(v), faces = level.GetVertexFaces(v);
+    const Sdc::Crease::Rule rule = level.GetVertexRule(v);
+    Sides sides;
+    if (rule == Sdc::Crease::RULE_CORNER || scheme == SUBDIV_BILINEAR) {
+        for (int i = 0; i < faces.size(); i++) {
+            const Far::ConstIndexArray f = level.GetFaceVertices(faces[i]);
+            for (int j = 0, n = f.size(); j < n; j++)
+                if (f[j] == v)
+                    sides.tangents.push_back({ minus(points[(size_t)f[(j + 1) % n]],
+                                                     points[(size_t)v]),
+                                               minus(points[(size_t)f[(j + n - 1) % n]],
+                                                     points[(size_t)v]) });
+        }
+    } else if (rule == Sdc::Crease::RULE_CREASE) {
+        std::vector<int> sharp;
+        for (int i = 0; i < edges.size(); i++)
+            if (level.GetEdgeSharpness(edges[i]) > 0) sharp.push_back(i);
+        sides.all = sharp.size() == 2 && !level.IsVertexNonManifold(v);
+        if (!sides.all) return sides;
+        const int k = sharp[1] - sharp[0], n = edges.size();
+        const bool loop = scheme == SUBDIV_LOOP;
+        add_side(level, points, loop, v, sharp[0], k, sides);
+        if (!level.IsVertexBoundary(v)) add_side(level, points, loop, v, sharp[1], n - k, sides);
+    } else {
+        sides.all = faces.size() > 2;
+        const Point zero = {};
+        sides.tangents.push_back({ minus(t1, zero), minus(t2, zero) });
+    }
+    return sides;
+}
+
+// Is n the normal of one of the sides, as well as rounded points can tell?
+static bool has_normal(const Sides &sides, double extent, const float *n)
+{
+    for (const auto &t : sides.tangents) {
+        const Vector c = cross(t.first, t.second);
+        const double size = length(c), thin = (length(t.first) + length(t.second)) * extent;
+        double error = 0;
+        if (size <= 1e-5 * thin) return true;
+        for (int k = 0; k < 3; k++)
+            error = std::max(error, std::fabs((double)n[k] - c.p[k] / size));
+        if (error <= normal_tolerance + 4e-6 * thin / size) return true;
+    }
+    return false;
+}
+
+static Point valence_two(const Far::TopologyLevel &level, const std::vector<Point> &points, int v)
+{
+    const Far::ConstIndexArray edges = level.GetVertexEdges(v), faces = level.GetVertexFaces(v);
+    Point p = {};
+    p.AddWithWeight(points[(size_t)v], 4.0 / 14);
+    for (int i = 0; i < 2; i++) {
+        const Far::ConstIndexArray f = level.GetFaceVertices(faces[i]);
+        p.AddWithWeight(points[(size_t)other_end(level, edges[i], v)], 4.0 / 14);
+        p.AddWithWeight(points[(size_t)f[(f.FindIndex(v) + 2) % 4]], 1.0 / 14);
+    }
+    return p;
+}
+
+static void compare_limit(const Reference &ref, const order &o, int l, const subdiv_mesh &cage)
+{
+    const std::vector<int> ours = match_vertices(ref, o, l);
+    const std::vector<Point> &points = ref.levels[(size_t)l].points;
+    const std::unique_ptr<Far::TopologyRefiner> refiner(make_refiner(cage, l));
+    const Far::TopologyLevel &level = refiner->GetLevel(l);
+    const double extent = largest_extent(cage);
+    Level limit;
+    limit.points.resize(points.size());
+    std::vector<Point> t1(points.size()), t2(points.size());
+    bool tangents = true;
+    for (int v = 0; v < level.GetNumVertices(); v++)
+        tangents = tangents && level.GetVertexFaces(v).size() <= level.GetVertexEdges(v).size();
+    const Far::PrimvarRefinerReal<double> primvars(*refiner);
+    if (tangents) primvars.Limit(points, limit.points, t1, t2);
+    else primvars.Limit(points, limit.points);
+    for (int v = 0; v < level.GetNumVertices() && cage.scheme == SUBDIV_CATMULL_CLARK; v++)
+        if (level.GetVertexFaces(v).size() == 2 && level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE)
+            limit.points[(size_t)v] = valence_two(level, points, v);
+
+    subdiv_mesh fine = {};
+    subdiv_options opt = {};
+    opt.limit = 1;
+    if (subdiv_refine(&fine, &cage, l, &opt)) {
+        TEST_REPORT("subdiv_refine fails");
+        return;
+    }
+    compare_positions(limit, ours, cage, fine, totals.largest_limit_error);
+    for (int v = 0; v < level.GetNumVertices(); v++) {
+        const float *n = fine.normals + 3 * ours[(size_t)v];
+        const double size = std::sqrt((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+        if (!(size < 1e-30 || std::fabs(size - 1) < 1e-6))
+            TEST_REPORT("the normal of vertex %d is %g long", ours[(size_t)v], size);
+        totals.no_normals += size < 0.5;
+        const bool smooth = level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE;
+        if (level.GetVertexFaces(v).size() == 0 || (smooth && !tangents)) continue;
+        const Sides sides = possible_sides(level, points, cage.scheme, v, t1[(size_t)v],
+                                           t2[(size_t)v]);
+        const bool same = has_normal(sides, extent, n);
+        if (!same && sides.all)
+            TEST_REPORT("the normal of vertex %d is (%g %g %g)", ours[(size_t)v], (double)n[0],
+                        (double)n[1], (double)n[2]);
+        (same ? totals.limit_normals : totals.odd_sides)++;
+    }
+    totals.limit_points += (long long)points.size();
+    subdiv_mesh_free(&fine);
 }
 
 static void compare_level(const Reference &ref, const subdiv_mesh &cage, int l, bool keep_holes)
@@ -575,6 +768,7 @@ static void compare_level(const Reference &ref, const subdiv_mesh &cage, int l, 
         TEST_REPORT("subdiv_refine fails: %s", error.message);
     else
         compare_result(ref, o, l, fine, keep_holes);
+    if (!test_bad && l <= 3) compare_limit(ref, o, l, cage);
     if (test_bad) printf("    at level %d%s\n", l, keep_holes ? ", holes kept" : "");
     order_free(&o);
     subdiv_mesh_free(&fine);
@@ -761,6 +955,9 @@ static int report(void)
     printf("%d cages compared: %lld vertices, %lld faces, %lld creases, %lld corners, %lld faces hidden, "
            "largest error %.3g of the extent\n", test_passed + test_failed, totals.vertices,
            totals.faces, totals.creases, totals.corners, totals.hidden, totals.largest_error);
+    printf("%lld limit points, largest error %.3g of the extent; %lld normals, %lld beside creases where "
+           "OpenSubdiv's differ or are not to be had; %lld are 0\n", totals.limit_points,
+           totals.largest_limit_error, totals.limit_normals, totals.odd_sides, totals.no_normals);
     printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1\n",
            totals.put_right);
     for (const auto &skip : totals.skips)

@@ -13,7 +13,7 @@ static int mesh_is_zero(const subdiv_mesh *m)
            !m->statement_count && !m->statement_faces && !m->statements &&
            m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
            m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
-           m->uv_rule == (subdiv_uv_rule)0 && !m->cage_faces && !m->memory;
+           m->uv_rule == (subdiv_uv_rule)0 && !m->cage_faces && !m->normals && !m->memory;
 }
 
 static int size_of_face(const subdiv_mesh *m, int f)

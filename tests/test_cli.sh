@@ -320,12 +320,26 @@ says "needs a value"
 
 # ------------------------------------------------------------------------------------ not yet there
 
-for option in '--uv all' '-u none' '-ucorners-plus1' '--limit' '-L'; do
+for option in '--uv all' '-u none' '-ucorners-plus1'; do
     ends 2 $option box.obj form.obj
     says "not in this release"
 done
 ends 2 --uv blue box.obj
 says "corners-only"
+
+# ----------------------------------------------------------------------------------------- limit
+
+# The corner 0 0 0 of a cube has its limit at 1/4 1/4 1/4.
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n' > limit.obj
+printf 'f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n' >> limit.obj
+for level in 0 1 2; do
+    ends 0 --limit -l $level limit.obj form.obj
+    fine "--limit -l $level moves a corner" grep -q '^v 0\.25 0\.25 0\.25' form.obj
+    ends 0 -L -l $level -j 3 limit.obj threads.obj
+    same threads.obj form.obj
+done
+ends 2 --limit --stream limit.obj form.obj
+says "so not with --limit"
 
 # --------------------------------------------------------------------------------------- threads
 

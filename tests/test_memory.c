@@ -202,6 +202,41 @@ static subdiv_result call_prepare(const subdiv_mesh *cage, const subdiv_options 
     return result;
 }
 
+static subdiv_result limit_as(const subdiv_mesh *cage, subdiv_scheme scheme, int levels,
+                              const subdiv_options *opt)
+{
+    subdiv_options limit = *opt;
+    limit.limit = limit.triangulate = 1;
+    return refine_as(cage, scheme, levels, &limit);
+}
+
+static subdiv_result call_limit(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return limit_as(cage, SUBDIV_CATMULL_CLARK, 2, opt);
+}
+
+static subdiv_result call_limit_loop(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return limit_as(cage, SUBDIV_LOOP, 1, opt);
+}
+
+static subdiv_result call_limit_zero(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return limit_as(cage, SUBDIV_CATMULL_CLARK, 0, opt);
+}
+
+// For a copy of the cage; a failure has to leave it as it was.
+static subdiv_result call_normals(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_mesh mesh = *cage, before = mesh;
+    mesh.memory = before.memory = NULL;
+    subdiv_result result = subdiv_normals(&mesh, opt);
+    CHECK((mesh.normals != NULL) == (result == SUBDIV_OK));
+    if (result) CHECK(memcmp(&mesh, &before, sizeof mesh) == 0);
+    subdiv_mesh_free(&mesh);
+    return result;
+}
+
 static subdiv_result call_inspect(const subdiv_mesh *cage, const subdiv_options *opt)
 {
     subdiv_info info, zero;
@@ -327,6 +362,14 @@ static void test_refine(void)
     CHECK(check_call(call_chaikin) > 0);
 }
 
+static void test_limit(void)
+{
+    CHECK(check_call(call_limit) > 0);
+    CHECK(check_call(call_limit_loop) > 0);
+    CHECK(check_call(call_limit_zero) > 0);
+    CHECK_EQUAL(check_call(call_normals), 2);
+}
+
 static void test_prepare(void)
 {
     CHECK(check_call(call_prepare) > 1);
@@ -380,6 +423,7 @@ int main(void)
     make_obj_text();
     RUN(test_load);
     RUN(test_refine);
+    RUN(test_limit);
     RUN(test_prepare);
     RUN(test_inspect);
     RUN(test_creases);
