@@ -4664,16 +4664,26 @@ static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const
     }
 }
 
-// A sum of limit weights: of a position or, without p0, of a tangent.
-static sdv_four sdv_limit_sum(const float *weights, int count, const int *points,
-                              const float *work, int position)
+// The sums of a limit row: its position and, unless NULL, two tangents.
+static void sdv_limit_sums(const sdv_limit_rows *limit, const int *row, const float *work,
+                           sdv_four *position, sdv_four *tangents)
 {
-    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
-    for (int i = 1; i < count; i++) {
+    const sdv_limit_weights *mask = &limit->masks[row[0]];
+    const float *w = limit->weights + mask->first, *w0 = w + mask->count, *w1 = w0 + mask->count;
+    const int *points = row + 2;
+    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
+    sdv_four sum = sdv_all(0), t0 = sum, t1 = sum;
+    for (int i = 1; i < mask->count; i++) {
         sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
-        sum = sdv_plus(sum, sdv_times(sdv_all(weights[i]), d));
+        sum = sdv_plus(sum, sdv_times(sdv_all(w[i]), d));
+        if (!tangents) continue;
+        t0 = sdv_plus(t0, sdv_times(sdv_all(w0[i]), d));
+        t1 = sdv_plus(t1, sdv_times(sdv_all(w1[i]), d));
     }
-    return position ? sdv_plus(p0, sum) : sum;
+    *position = sdv_plus(p0, sum);
+    if (!tangents) return;
+    tangents[0] = t0;
+    tangents[1] = t1;
 }
 
 static void sdv_apply_limit(const subdiv_surface *surface, const float *work, int face, int end,
@@ -4683,11 +4693,10 @@ static void sdv_apply_limit(const subdiv_surface *surface, const float *work, in
     if (limit->rows.count == 0) return;
     const int *row = limit->rows.items + limit->rows.starts[face];
     const int *last = limit->rows.items + limit->rows.starts[end];
-    while (row < last) {
-        const sdv_limit_weights *mask = &limit->masks[row[0]];
-        sdv_put_point(out, row[1], sdv_limit_sum(limit->weights + mask->first, mask->count,
-                                                 row + 2, work, 1));
-        row += 2 + mask->count;
+    for (; row < last; row += 2 + limit->masks[row[0]].count) {
+        sdv_four p;
+        sdv_limit_sums(limit, row, work, &p, NULL);
+        sdv_put_point(out, row[1], p);
     }
 }
 
@@ -5181,14 +5190,10 @@ static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work,
         sdv_put_limit(out, row[1], sdv_load(work + 4 * (size_t)row[2]), sdv_all(0), sdv_all(0));
     row = rows->count ? rows->items + rows->starts[face] : NULL;
     last = rows->count ? rows->items + rows->starts[end] : NULL;
-    while (row < last) {
-        const sdv_limit_weights *mask = &surface->limit.masks[row[0]];
-        const float *weights = surface->limit.weights + mask->first;
-        size_t n = (size_t)mask->count;
-        sdv_put_limit(out, row[1], sdv_limit_sum(weights, mask->count, row + 2, work, 1),
-                      sdv_limit_sum(weights + n, mask->count, row + 2, work, 0),
-                      sdv_limit_sum(weights + 2 * n, mask->count, row + 2, work, 0));
-        row += 2 + mask->count;
+    for (; row < last; row += 2 + surface->limit.masks[row[0]].count) {
+        sdv_four p, t[2];
+        sdv_limit_sums(&surface->limit, row, work, &p, t);
+        sdv_put_limit(out, row[1], p, t[0], t[1]);
     }
 }
 

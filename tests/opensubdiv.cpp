@@ -706,6 +706,28 @@ static Point valence_two(const Far::TopologyLevel &level, const std::vector<Poin
     return p;
 }
 
+// The limit of the points of a level, which has to be the refiner's last, and unless it has no right
+// ones tangents.
+static Level find_limit(const Far::TopologyRefiner &refiner, const std::vector<Point> &points, int l,
+                        subdiv_scheme scheme, std::vector<Point> &t1, std::vector<Point> &t2)
+{
+    const Far::TopologyLevel &level = refiner.GetLevel(l);
+    const Far::PrimvarRefinerReal<double> primvars(refiner);
+    Level limit;
+    bool tangents = true;
+    limit.points.resize(points.size());
+    for (int v = 0; v < level.GetNumVertices(); v++)
+        tangents = tangents && level.GetVertexFaces(v).size() <= level.GetVertexEdges(v).size();
+    t1.resize(tangents ? points.size() : 0);
+    t2.resize(t1.size());
+    if (tangents) primvars.Limit(points, limit.points, t1, t2);
+    else primvars.Limit(points, limit.points);
+    for (int v = 0; v < level.GetNumVertices() && scheme == SUBDIV_CATMULL_CLARK; v++)
+        if (level.GetVertexFaces(v).size() == 2 && level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE)
+            limit.points[(size_t)v] = valence_two(level, points, v);
+    return limit;
+}
+
 static void compare_limit(const Reference &ref, const order &o, int l, const subdiv_mesh &cage)
 {
     const std::vector<int> ours = match_vertices(ref, o, l);
@@ -713,18 +735,8 @@ static void compare_limit(const Reference &ref, const order &o, int l, const sub
     const std::unique_ptr<Far::TopologyRefiner> refiner(make_refiner(cage, l));
     const Far::TopologyLevel &level = refiner->GetLevel(l);
     const double extent = largest_extent(cage);
-    Level limit;
-    limit.points.resize(points.size());
-    std::vector<Point> t1(points.size()), t2(points.size());
-    bool tangents = true;
-    for (int v = 0; v < level.GetNumVertices(); v++)
-        tangents = tangents && level.GetVertexFaces(v).size() <= level.GetVertexEdges(v).size();
-    const Far::PrimvarRefinerReal<double> primvars(*refiner);
-    if (tangents) primvars.Limit(points, limit.points, t1, t2);
-    else primvars.Limit(points, limit.points);
-    for (int v = 0; v < level.GetNumVertices() && cage.scheme == SUBDIV_CATMULL_CLARK; v++)
-        if (level.GetVertexFaces(v).size() == 2 && level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE)
-            limit.points[(size_t)v] = valence_two(level, points, v);
+    std::vector<Point> t1, t2;
+    const Level limit = find_limit(*refiner, points, l, cage.scheme, t1, t2);
 
     subdiv_mesh fine = {};
     subdiv_options opt = {};
@@ -741,9 +753,10 @@ static void compare_limit(const Reference &ref, const order &o, int l, const sub
             TEST_REPORT("the normal of vertex %d is %g long", ours[(size_t)v], size);
         totals.no_normals += size < 0.5;
         const bool smooth = level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE;
-        if (level.GetVertexFaces(v).size() == 0 || (smooth && !tangents)) continue;
-        const Sides sides = possible_sides(level, points, cage.scheme, v, t1[(size_t)v],
-                                           t2[(size_t)v]);
+        if (level.GetVertexFaces(v).size() == 0 || (smooth && t1.empty())) continue;
+        const Point t[2] = { t1.empty() ? Point() : t1[(size_t)v],
+                             t1.empty() ? Point() : t2[(size_t)v] };
+        const Sides sides = possible_sides(level, points, cage.scheme, v, t[0], t[1]);
         const bool same = has_normal(sides, extent, n);
         if (!same && sides.all)
             TEST_REPORT("the normal of vertex %d is (%g %g %g)", ours[(size_t)v], (double)n[0],
@@ -900,6 +913,12 @@ static void write_record(FILE *file, const Reference &ref, const subdiv_mesh &ca
     fprintf(file, "hidden %d\n", (int)std::count(ref.hidden.begin(), ref.hidden.end(), 1));
     for (size_t f = 0; f < ref.hidden.size(); f++)
         if (ref.hidden[f]) fprintf(file, "%zu\n", f);
+
+    std::vector<Point> t1, t2;
+    const Level limit = find_limit(*ref.refiner, level.points, recorded_level, cage.scheme, t1, t2);
+    for (size_t v = 0; v < ours.size(); v++) points[(size_t)ours[v]] = limit.points[v];
+    fprintf(file, "limit %zu\n", points.size());
+    for (const Point &q : points) fprintf(file, "%.9g %.9g %.9g\n", q.p[0], q.p[1], q.p[2]);
     order_free(&o);
 }
 

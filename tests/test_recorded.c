@@ -40,9 +40,9 @@ static double largest_extent(const subdiv_mesh *mesh)
     return largest;
 }
 
-static void check_positions(FILE *file, const subdiv_mesh *fine, double extent)
+static void check_positions(FILE *file, const char *name, const subdiv_mesh *fine, double extent)
 {
-    const int count = read_count(file, "vertices");
+    const int count = read_count(file, name);
     CHECK_EQUAL(fine->vertex_count, count);
     for (int v = 0; v < count && !test_bad; v++) {
         for (int k = 0; k < 3; k++) {
@@ -150,6 +150,7 @@ static void check_cage(const char *directory, const char *name)
 {
     char path[512];
     subdiv_mesh cage = { 0 }, fine = { 0 };
+    subdiv_options opt = { 0 };
     snprintf(path, sizeof path, "%s/%s.obj", directory, name);
     CHECK_EQUAL(subdiv_load_obj(&cage, path, NULL), SUBDIV_OK);
     if (strncmp(name, "loop_", 5) == 0) cage.scheme = SUBDIV_LOOP;
@@ -159,10 +160,14 @@ static void check_cage(const char *directory, const char *name)
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     FILE *file = fopen(path, "r");
     CHECK(file != NULL);
-    if (!test_bad) check_positions(file, &fine, largest_extent(&cage));
+    if (!test_bad) check_positions(file, "vertices", &fine, largest_extent(&cage));
     if (!test_bad) check_creases(file, &fine);
     if (!test_bad) check_corners(file, &fine);
     if (!test_bad) check_faces(file, &fine, &cage);
+    subdiv_mesh_free(&fine);
+    opt.limit = 1;
+    CHECK_EQUAL(subdiv_refine(&fine, &cage, LEVELS, &opt), SUBDIV_OK);
+    if (!test_bad) check_positions(file, "limit", &fine, largest_extent(&cage));
     if (file) fclose(file);
     subdiv_mesh_free(&fine);
     subdiv_mesh_free(&cage);
