@@ -55,7 +55,7 @@ static const option options[OPTION_COUNT] = {
     {'c', "creasing", "uniform|chaikin", "how sharpness fades"},
     {'t', "triangles", "catmull-clark|smooth", "triangles of a Catmull-Clark cage"},
     {'u', "uv", "corners-only|corners-plus1|corners-plus2|boundaries|all|none",
-     "not in this release"},
+     "what happens to UVs at seams and boundaries"},
     {'L', "limit", NULL, "put the points on the limit surface, with normals"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
     {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
@@ -188,7 +188,6 @@ static int read_command(command *cmd, int argc, char **argv)
         }
     }
     if (cmd->given[HELP] == 1 || cmd->given[VERSION] == 1) return DONE;
-    if (cmd->given[UV] >= 0) return misused("--%s is not in this release", options[UV].name);
     if (cmd->given[LIMIT] == 1 && cmd->given[STREAM] == 1)
         return misused("--stream writes no normals, so not with --limit");
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
@@ -468,6 +467,7 @@ static subdiv_result load(subdiv_mesh *cage, const command *cmd, const subdiv_op
     if (given[BOUNDARY] >= 0) cage->boundary = (subdiv_boundary)given[BOUNDARY];
     if (given[CREASING] >= 0) cage->creasing = (subdiv_creasing)given[CREASING];
     if (given[TRIANGLES] >= 0) cage->triangles = (subdiv_triangles)given[TRIANGLES];
+    if (given[UV] >= 0) cage->uv_rule = (subdiv_uv_rule)given[UV];
     return result;
 }
 

@@ -278,8 +278,8 @@ static void find_uvs(Reference &ref, const subdiv_mesh &cage, int l)
     primvars.InterpolateFaceVarying(l, ref.levels[(size_t)l - 1].uvs, to, 0);
 }
 
-// With the rules "plus 1" and "plus 2" OpenSubdiv keeps a value that is semi-sharp merely along with
-// another one sharp for a level too long if a seam there is semi-sharp itself.
+// With the rules "plus 1" and "plus 2" OpenSubdiv keeps a value that is semi-sharp merely along
+// with another one sharp for a level too long if a seam there is semi-sharp itself.
 static bool has_semi_sharp_seam(const subdiv_mesh &cage, const Far::TopologyLevel &level)
 {
     if (cage.uv_rule != SUBDIV_UV_CORNERS_PLUS1 && cage.uv_rule != SUBDIV_UV_CORNERS_PLUS2)

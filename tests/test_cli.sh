@@ -318,12 +318,38 @@ says "takes no value"
 ends 2 bare.obj --crease-angle
 says "needs a value"
 
-# ------------------------------------------------------------------------------------ not yet there
+# --------------------------------------------------------------------------------------------- UVs
 
-for option in '--uv all' '-u none' '-ucorners-plus1'; do
-    ends 2 $option box.obj form.obj
-    says "not in this release"
+# A strip of two quads whose UVs are cut apart: sharp corners stay, smooth ones move.
+cat > seam.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 2 0 0
+v 0 1 0
+v 1 1 0
+v 2 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+vt 5 0
+vt 6 0
+vt 6 1
+vt 5 1
+f 1/1 2/2 5/3 4/4
+f 2/5 3/6 6/7 5/8
+END
+for option in '--uv corners-only' '-u corners-plus1' '-ucorners-plus2' '--uv=boundaries' '-u all'; do
+    ends 0 -l 2 $option seam.obj uv.obj
+    fine "$option: two islands of 25 UVs" test "$(grep -c '^vt ' uv.obj)" = 50
+    fine "$option: UVs on all faces" test "$(grep -c '^f [0-9]*/[0-9]' uv.obj)" = 32
+    fine "$option: corners stay" test "$(grep -c -e '^vt 0 0$' -e '^vt 6 1$' uv.obj)" = 2
 done
+ends 0 -l 2 -u none seam.obj uv.obj
+fine "-u none: two islands of 25 UVs" test "$(grep -c '^vt ' uv.obj)" = 50
+fine "-u none: no corner stays" test "$(grep -c -e '^vt 0 0$' -e '^vt 6 1$' uv.obj)" = 0
+ends 0 --stream -l 2 -u none seam.obj streamed.obj
+same streamed.obj uv.obj
 ends 2 --uv blue box.obj
 says "corners-only"
 
