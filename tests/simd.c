@@ -41,6 +41,20 @@ static unsigned long long add_cage(unsigned long long sum, const subdiv_mesh *m,
     return sum;
 }
 
+// Positions and normals on the limit surface.
+static unsigned long long add_limit(unsigned long long sum, const subdiv_mesh *m, unsigned seed)
+{
+    subdiv_mesh fine;
+    subdiv_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.limit = 1;
+    if (subdiv_refine(&fine, m, (int)(seed % 4), &opt)) abort();
+    sum = add_bits(sum, fine.positions, 3 * (size_t)fine.vertex_count);
+    sum = add_bits(sum, fine.normals, 3 * (size_t)fine.vertex_count);
+    subdiv_mesh_free(&fine);
+    return sum;
+}
+
 int main(void)
 {
     unsigned long long sum = 14695981039346656037u;
@@ -51,6 +65,7 @@ int main(void)
         for (int i = 0; i < 3 * c->mesh.vertex_count; i++)
             c->positions[i] = floorf(c->positions[i] * 4096) / 4096;
         sum = add_cage(sum, &c->mesh, seed);
+        sum = add_limit(sum, &c->mesh, seed);
         random_cage_free(c);
     }
     printf("%016llx\n", sum);
