@@ -256,7 +256,7 @@ typedef struct subdiv_mesh {
     int    uv_count;
     float *uvs;                       // [2 * uv_count]       u v
     int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
-    float *colors;                    // [3 * vertex_count]   r g b, or NULL
+    float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
     float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
     int    statement_count;           // OBJ's g, o, usemtl, mtllib and s, as they stand in the file
     int   *statement_faces;           // [statement_count]    the face each stands before, rising
