@@ -3357,7 +3357,7 @@ static void sdv_seam_edges(sdv_seams *seams)
 // What the rule looks at, around a vertex of the cage.
 typedef struct sdv_surroundings {
     int values;                         // how many different ones
-    int faces;                          // with values
+    int faces, all;                     // those with values, and all
     int seam, boundary, nonmanifold;    // is it on one?
     int own[2];                         // the first two vertices of this topology
 } sdv_surroundings;
@@ -3365,7 +3365,8 @@ typedef struct sdv_surroundings {
 static sdv_surroundings sdv_look_around(const sdv_seams *seams, int v)
 {
     const sdv_level *cage = &seams->cage->level, *level = &seams->level;
-    sdv_surroundings around = { 0, 0, 0, 0, 0, { -1, -1 } };
+    sdv_surroundings around = { 0, 0, 0, 0, 0, 0, { -1, -1 } };
+    around.all = cage->vertex_faces[v];
     around.nonmanifold = seams->cage->vertex_nonmanifold[v];
     for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
         int before = sdv_previous(cage, h), own = seams->own[h];
@@ -3414,7 +3415,7 @@ static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_surroundings *arou
     const sdv_level *level = &seams->level;
     subdiv_uv_rule rule = seams->rule;
     int both = rule == SUBDIV_UV_CORNERS_PLUS1 || rule == SUBDIV_UV_CORNERS_PLUS2;
-    int dart = around->values == 1 && !around->boundary;
+    int dart = around->values == 1 && !around->boundary && around->faces == around->all;
     if (rule == SUBDIV_UV_BOUNDARIES && (around->seam || around->boundary)) return 1;
     if (rule != SUBDIV_UV_NONE && around->faces == 1 && around->boundary) return 1;
     if (!around->seam) return 0;

@@ -1,0 +1,599 @@
+// Face-varying values: what refinement must do with UVs by every rule, over random cages. The main
+// oracle is a cage of its own, made of the values: what is true of positions is true of UVs there.
+#define SUBDIV_IMPLEMENTATION
+#include "subdiv.h"
+#include "cages.h"
+#include "random_cage.h"
+#include "same.h"
+#include "test.h"
+
+enum { RULES = 6 };
+
+// ----------------------------------------------------------------------------------- the cages
+
+// Checks so many random cages that have UVs, each by every rule.
+static void for_cages(unsigned count, int features, void (*check)(subdiv_mesh *, unsigned))
+{
+    static char context[64];
+    int seen = 0;
+    test_context = context;
+    for (unsigned seed = 1; seed <= count; seed++) {
+        random_cage *c = random_cage_new(seed, features);
+        if (!c) abort();
+        for (int rule = 0; rule < RULES && c->mesh.uv_count; rule++, seen++) {
+            sprintf(context, "random cage %u, rule %d", seed, rule);
+            c->mesh.uv_rule = (subdiv_uv_rule)rule;
+            check(&c->mesh, seed);
+        }
+        random_cage_free(c);
+    }
+    CHECK(seen > 0);
+}
+
+static subdiv_options keep_holes(void)
+{
+    subdiv_options opt = {0};
+    opt.keep_holes = 1;
+    return opt;
+}
+
+// Refines with holes kept, so that the result has all its faces.
+static int refine(subdiv_mesh *fine, const subdiv_mesh *m, int levels)
+{
+    subdiv_options opt = keep_holes();
+    CHECK_EQUAL(subdiv_refine(fine, m, levels, &opt), SUBDIV_OK);
+    return fine->vertex_count > 0;
+}
+
+static void *array(int count, size_t size)
+{
+    void *made = calloc((size_t)count + 1, size);
+    if (!made) abort();
+    return made;
+}
+
+// The value of a face-vertex in one direction.
+static double uv_at(const subdiv_mesh *m, int h, int d)
+{
+    return (double)m->uvs[2 * m->face_uvs[h] + d];
+}
+
+// Takes the values of some faces away.
+static void drop_values(subdiv_mesh *m, unsigned seed)
+{
+    for (int f = (int)(seed % 4); f < m->face_count; f += 5)
+        for (int i = 0; i < face_size(m, f); i++)
+            m->face_uvs[face_vertices(m, f) - m->face_vertices + i] = -1;
+}
+
+// --------------------------------------------------------------------------------- affine maps
+
+static void check_affine(subdiv_mesh *m, unsigned seed)
+{
+    // The second map makes all values the same.
+    static const double maps[2][6] = {{0.5, -0.4, 0.25, 0.3, 0.6, -0.5}, {0, 0, 0.7, 0, 0, -0.3}};
+    const double *a = maps[seed % 2];
+    int levels = 1 + (int)(seed % 3);
+    subdiv_mesh moved = *m, fine = {0}, other = {0};
+    moved.uvs = array(2 * m->uv_count, sizeof(float));
+    for (int i = 0; i < m->uv_count; i++)
+        for (int d = 0; d < 2; d++)
+            moved.uvs[2 * i + d] = (float)(a[3 * d] * (double)m->uvs[2 * i] +
+                                           a[3 * d + 1] * (double)m->uvs[2 * i + 1] + a[3 * d + 2]);
+    if (refine(&fine, m, levels) && refine(&other, &moved, levels)) {
+        CHECK_EQUAL(fine.uv_count, other.uv_count);
+        for (int i = 0; i < 2 * fine.uv_count; i++) {
+            const float *p = fine.uvs + i / 2 * 2;
+            const double *b = a + 3 * (i % 2);
+            CHECK_NEAR(other.uvs[i], b[0] * (double)p[0] + b[1] * (double)p[1] + b[2], 1e-6);
+        }
+    }
+    subdiv_mesh_free(&fine);
+    subdiv_mesh_free(&other);
+    free(moved.uvs);
+}
+
+static void test_affine_maps(void)
+{
+    for_cages(100, RANDOM_ALL, check_affine);
+}
+
+// ----------------------------------------------------------------------------------- positions
+
+// UVs without seams, two of the coordinates, go where the positions go.
+static void check_positions(subdiv_mesh *m, unsigned seed)
+{
+    int levels = 1 + (int)(seed % 3), skip = (int)(seed % 2), corners;
+    subdiv_mesh cage = *m, fine = {0};
+    if (m->uv_rule != SUBDIV_UV_NONE && m->uv_rule != SUBDIV_UV_CORNERS_ONLY) return;
+    corners = m->uv_rule == SUBDIV_UV_CORNERS_ONLY;
+    cage.boundary = corners ? SUBDIV_BOUNDARY_EDGE_AND_CORNER : SUBDIV_BOUNDARY_EDGE;
+    cage.uv_count = m->vertex_count;
+    cage.face_uvs = m->face_vertices;
+    cage.uvs = array(2 * m->vertex_count, sizeof(float));
+    for (int i = 0; i < 2 * m->vertex_count; i++)
+        cage.uvs[i] = m->positions[3 * (i / 2) + skip + i % 2];
+    if (refine(&fine, &cage, levels)) {
+        CHECK_EQUAL(fine.uv_count, fine.vertex_count);
+        for (int h = 0; h < face_vertex_count(&fine); h++)
+            for (int d = 0; d < 2; d++)
+                CHECK_NEAR(uv_at(&fine, h, d),
+                           fine.positions[3 * fine.face_vertices[h] + skip + d], 1e-5);
+    }
+    subdiv_mesh_free(&fine);
+    free(cage.uvs);
+}
+
+static void test_like_positions(void)
+{
+    for_cages(150, RANDOM_MANIFOLD | RANDOM_UVS, check_positions);
+}
+
+// ------------------------------------------------------------------------------ a cage of values
+
+// The faces that have values, with the values as vertices at (u, v, 0), and the tags of the cage.
+typedef struct value_cage {
+    test_cage cage;
+    int vertex[RANDOM_MAX_UVS];       // of each value, or -1
+} value_cage;
+
+// Returns 0 if two vertices share a value, or it does not fit.
+static int value_vertices(value_cage *c, const subdiv_mesh *m)
+{
+    if (m->uv_count > CAGE_VERTICES) return 0;
+    for (int i = 0; i < m->uv_count; i++) {
+        c->vertex[i] = -1;
+        cage_vertex(&c->cage, (double)m->uvs[2 * i], (double)m->uvs[2 * i + 1], 0);
+    }
+    for (int h = 0; h < face_vertex_count(m); h++) {
+        int value = m->face_uvs[h];
+        if (value < 0) continue;
+        if (c->vertex[value] >= 0 && c->vertex[value] != m->face_vertices[h]) return 0;
+        c->vertex[value] = m->face_vertices[h];
+    }
+    return 1;
+}
+
+static int value_cage_make(value_cage *c, const subdiv_mesh *m)
+{
+    cage_clear(&c->cage, m->scheme);
+    c->cage.mesh.triangles = m->triangles;
+    if (!value_vertices(c, m)) return 0;
+    for (int f = 0; f < m->face_count; f++) {
+        const int *values = m->face_uvs + (face_vertices(m, f) - m->face_vertices);
+        int size = face_size(m, f);
+        if (values[0] < 0) continue;
+        cage_face(&c->cage, size, values);
+        for (int i = 0; i < size; i++) {
+            int a = values[i], b = values[(i + 1) % size];
+            float sharpness = crease_sharpness(m, c->vertex[a], c->vertex[b]);
+            if (sharpness > 0) cage_crease(&c->cage, a, b, (double)sharpness);
+        }
+    }
+    for (int i = 0; i < m->uv_count; i++) {
+        float sharpness = c->vertex[i] < 0 ? 0 : corner_sharpness(m, c->vertex[i]);
+        if (sharpness > 0) cage_corner(&c->cage, i, (double)sharpness);
+    }
+    return c->cage.mesh.face_count > 0;
+}
+
+// The vertices at edges of one face.
+static int *on_boundary(const subdiv_mesh *m)
+{
+    edge_list e = edges_make(m);
+    int *on = int_array(m->vertex_count, 0);
+    for (int i = 0; i < e.count; i++)
+        if (e.faces[i] == 1) on[e.ends[2 * i]] = on[e.ends[2 * i + 1]] = 1;
+    edges_free(&e);
+    return on;
+}
+
+// The fine faces with values are those of the cage of values, in the same order, with its points;
+// those without have none anywhere. Unless which is NULL, only such points of it.
+static void check_same_values(const subdiv_mesh *fine, const subdiv_mesh *m,
+                              const subdiv_mesh *values, const int *which)
+{
+    int size = fine->face_size, k = 0;
+    for (int f = 0; f < fine->face_count; f++) {
+        int at = (int)(face_vertices(m, fine->cage_faces[f]) - m->face_vertices);
+        int has = m->face_uvs[at] >= 0;
+        for (int i = 0; i < size; i++) {
+            int h = f * size + i, v = has && k < values->face_count
+                                      ? values->face_vertices[k * size + i] : -1;
+            CHECK_EQUAL(fine->face_uvs[h] >= 0, has);
+            if (v < 0 || fine->face_uvs[h] < 0 || (which && !which[v])) continue;
+            CHECK_NEAR(uv_at(fine, h, 0), values->positions[3 * v], 2e-6);
+            CHECK_NEAR(uv_at(fine, h, 1), values->positions[3 * v + 1], 2e-6);
+        }
+        k += has;
+    }
+    CHECK_EQUAL(k, values->face_count);
+}
+
+// By the rule boundaries all points there are where straight lines lead.
+static void check_straight(const subdiv_mesh *fine, const subdiv_mesh *m, const subdiv_mesh *values,
+                           int levels)
+{
+    subdiv_options opt = {0};
+    subdiv_mesh linear = {0};
+    opt.linear = 1;
+    CHECK_EQUAL(subdiv_refine(&linear, values, levels, &opt), SUBDIV_OK);
+    int *on = on_boundary(&linear);
+    check_same_values(fine, m, &linear, on);
+    free(on);
+    subdiv_mesh_free(&linear);
+}
+
+// Islands are cages: smooth boundaries by the rule none, sharp vertices of one face by the rule
+// corners only, sharp vertices all along by the rule boundaries, nothing smooth by the rule all.
+static void check_islands(subdiv_mesh *m, unsigned seed)
+{
+    static value_cage c;
+    int levels = 1 + (int)(seed % 2), rule = (int)m->uv_rule;
+    subdiv_mesh fine = {0}, values = {0};
+    subdiv_options opt = {0};
+    if (rule == SUBDIV_UV_CORNERS_PLUS1 || rule == SUBDIV_UV_CORNERS_PLUS2) return;
+    if (seed % 3 == 0) drop_values(m, seed);
+    m->boundary = SUBDIV_BOUNDARY_EDGE;
+    m->creasing = SUBDIV_CREASING_UNIFORM;              // Chaikin's averages reach across seams
+    if (!value_cage_make(&c, m)) return;
+    if (rule == SUBDIV_UV_CORNERS_ONLY) c.cage.mesh.boundary = SUBDIV_BOUNDARY_EDGE_AND_CORNER;
+    opt.linear = rule == SUBDIV_UV_ALL;
+    int *on = on_boundary(&c.cage.mesh);
+    for (int v = 0; v < c.cage.mesh.vertex_count && rule == SUBDIV_UV_BOUNDARIES; v++)
+        if (on[v]) cage_corner(&c.cage, v, SUBDIV_INFINITE);
+    free(on);
+    CHECK_EQUAL(subdiv_refine(&values, &c.cage.mesh, levels, &opt), SUBDIV_OK);
+    if (refine(&fine, m, levels)) {
+        check_same_values(&fine, m, &values, NULL);
+        if (rule == SUBDIV_UV_BOUNDARIES) check_straight(&fine, m, &c.cage.mesh, levels);
+    }
+    subdiv_mesh_free(&values);
+    subdiv_mesh_free(&fine);
+}
+
+static void test_islands(void)
+{
+    for_cages(250, RANDOM_MANIFOLD | RANDOM_UVS, check_islands);
+}
+
+// -------------------------------------------------------------------------------- what must hold
+
+static void check_indices(subdiv_mesh *m, unsigned seed)
+{
+    subdiv_mesh fine = {0};
+    if (seed % 2) drop_values(m, seed);
+    for (int levels = 0; levels < 3; levels++) {
+        if (!refine(&fine, m, levels)) return;
+        CHECK(fine.uv_count >= m->uv_count);
+        CHECK_EQUAL(fine.uv_rule, m->uv_rule);
+        for (int h = 0; h < face_vertex_count(&fine); h++)
+            CHECK(fine.face_uvs[h] >= -1 && fine.face_uvs[h] < fine.uv_count);
+        subdiv_mesh_free(&fine);
+    }
+}
+
+static void test_indices(void)
+{
+    for_cages(150, RANDOM_ALL, check_indices);
+}
+
+// The face-vertex of a cage face's fine faces whose position is nearest.
+static int find_nearest(const subdiv_mesh *fine, int cage_face, const float *p)
+{
+    int best = 0;
+    double least = 1e30;
+    for (int f = 0; f < fine->face_count; f++) {
+        if (fine->cage_faces[f] != cage_face) continue;
+        for (int h = f * fine->face_size; h < (f + 1) * fine->face_size; h++) {
+            const float *q = fine->positions + 3 * fine->face_vertices[h];
+            double x = (double)(p[0] - q[0]), y = (double)(p[1] - q[1]), z = (double)(p[2] - q[2]);
+            if (x * x + y * y + z * z >= least) continue;
+            least = x * x + y * y + z * z;
+            best = h;
+        }
+    }
+    CHECK(least < 1e-8);
+    return best;
+}
+
+// Refining by 2 is refining by 1 twice: in each face of the cage the same UVs at the same points.
+static void check_steps(subdiv_mesh *m, unsigned seed)
+{
+    int count = face_vertex_count(m), *kept = NULL;
+    subdiv_mesh once = {0}, half = {0}, twice = {0};
+    // By the rule plus 2 a point inside an edge to a face without values looks like the end of a
+    // seam to the second call.
+    if (seed % 4 == 0 && m->uv_rule != SUBDIV_UV_CORNERS_PLUS2) {
+        kept = array(count, sizeof(int));
+        memcpy(kept, m->face_uvs, sizeof(int) * (size_t)count);
+        drop_values(m, seed);
+    }
+    if (refine(&once, m, 2) && refine(&half, m, 1) && refine(&twice, &half, 1)) {
+        CHECK_EQUAL(once.face_count, twice.face_count);
+        for (int h = 0; h < face_vertex_count(&twice); h++) {
+            int f = half.cage_faces[twice.cage_faces[h / twice.face_size]];
+            int g = find_nearest(&once, f, twice.positions + 3 * twice.face_vertices[h]);
+            CHECK_EQUAL(once.face_uvs[g] < 0, twice.face_uvs[h] < 0);
+            for (int d = 0; d < 2 && once.face_uvs[g] >= 0 && twice.face_uvs[h] >= 0; d++)
+                CHECK_NEAR(uv_at(&twice, h, d), uv_at(&once, g, d), 1e-5);
+        }
+    }
+    subdiv_mesh_free(&once);
+    subdiv_mesh_free(&half);
+    subdiv_mesh_free(&twice);
+    if (kept) memcpy(m->face_uvs, kept, sizeof(int) * (size_t)count);
+    free(kept);
+}
+
+static void test_steps(void)
+{
+    for_cages(150, RANDOM_MANIFOLD | RANDOM_UVS, check_steps);
+}
+
+// Without its holes a result has the other faces' UVs unchanged.
+static void check_holes(subdiv_mesh *m, unsigned seed)
+{
+    subdiv_mesh all = {0}, seen = {0};
+    int k = 0;
+    (void)seed;
+    if (!refine(&all, m, 1)) return;
+    CHECK_EQUAL(subdiv_refine(&seen, m, 1, NULL), SUBDIV_OK);
+    CHECK_EQUAL(seen.uv_count, all.uv_count);
+    CHECK(same_bytes(seen.uvs, all.uvs, 2 * all.uv_count, sizeof(float)));
+    for (int f = 0; f < all.face_count; f++) {
+        int size = all.face_size;
+        if (is_hole(&all, f)) continue;
+        if (k < seen.face_count)
+            CHECK(same_bytes(seen.face_uvs + k * size, all.face_uvs + f * size, size, sizeof(int)));
+        k++;
+    }
+    CHECK_EQUAL(k, seen.face_count);
+    subdiv_mesh_free(&all);
+    subdiv_mesh_free(&seen);
+}
+
+static void test_holes(void)
+{
+    for_cages(100, RANDOM_ALL, check_holes);
+}
+
+// ------------------------------------------------------------------------------ the second door
+
+enum { WIDTH = 5 };
+
+// Runs the jobs in the opposite order.
+static void run_backwards(void *user, void (*job)(void *context, int i), void *context, int count)
+{
+    (void)user;
+    while (count-- > 0) job(context, count);
+}
+
+// The faces backwards and in small pieces.
+static void evaluate_pieces(const subdiv_surface *surface, const float *in, float *out)
+{
+    int faces = subdiv_surface_cage_face_count(surface);
+    int points = subdiv_surface_vertex_count(surface);
+    void *scratch = array(1, subdiv_scratch_size(surface, WIDTH));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, WIDTH, in, 0, scratch, NULL), SUBDIV_OK);
+    for (int f = faces - 1; f >= 0; f--)
+        CHECK_EQUAL(subdiv_evaluate_faces(surface, WIDTH, scratch, f, 1, 0, points, out, 0, NULL),
+                    SUBDIV_OK);
+    free(scratch);
+}
+
+// Channels 1 and 2 of the surface are the UVs of the mesh, bit by bit, and its faces are its own.
+static void check_surface(const subdiv_surface *surface, const subdiv_mesh *m,
+                          const subdiv_mesh *fine)
+{
+    int points = subdiv_surface_vertex_count(surface), count = face_vertex_count(fine);
+    float *in = array(WIDTH * m->uv_count, sizeof(float));
+    float *out = array(WIDTH * points, sizeof(float));
+    float *other = array(WIDTH * points, sizeof(float));
+    int *faces = array(count, sizeof(int));
+    subdiv_options opt = {0};
+    opt.run = run_backwards;
+    for (int i = 0; i < WIDTH * m->uv_count; i++)
+        in[i] = i % WIDTH == 1 || i % WIDTH == 2 ? m->uvs[i / WIDTH * 2 + i % WIDTH - 1] : (float)i;
+    CHECK_EQUAL(points, fine->uv_count);
+    CHECK_EQUAL(subdiv_surface_face_count(surface), fine->face_count);
+    CHECK_EQUAL(subdiv_surface_faces(surface, faces, NULL, NULL), SUBDIV_OK);
+    CHECK(same_bytes(faces, fine->face_uvs, count, sizeof(int)));
+    CHECK_EQUAL(subdiv_evaluate(surface, WIDTH, in, 0, out, 0, NULL, NULL), SUBDIV_OK);
+    for (int i = 0; i < points; i++)
+        CHECK(same_bytes(out + WIDTH * i + 1, fine->uvs + 2 * i, 2, sizeof(float)));
+    CHECK_EQUAL(subdiv_evaluate(surface, WIDTH, in, 0, other, 0, NULL, &opt), SUBDIV_OK);
+    CHECK(same_bytes(out, other, WIDTH * points, sizeof(float)));
+    memset(other, 0, sizeof(float) * WIDTH * (size_t)points);
+    evaluate_pieces(surface, in, other);
+    if (subdiv_surface_cage_face_count(surface) > 0)
+        CHECK(same_bytes(out, other, WIDTH * points, sizeof(float)));
+    free(in), free(out), free(other), free(faces);
+}
+
+static void check_channels(subdiv_mesh *m, unsigned seed)
+{
+    int levels = 1 + (int)(seed % 3);
+    subdiv_surface *surface = NULL;
+    subdiv_mesh fine = {0};
+    subdiv_options opt = {0};
+    if (seed % 4 == 0) drop_values(m, seed);
+    opt.keep_holes = (int)(seed % 2);
+    CHECK_EQUAL(subdiv_refine(&fine, m, levels, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_prepare_face_varying(&surface, m, m->uv_count, m->face_uvs, m->uv_rule,
+                                            levels, &opt), SUBDIV_OK);
+    if (surface && fine.uv_count) check_surface(surface, m, &fine);
+    subdiv_surface_free(surface);
+    subdiv_mesh_free(&fine);
+}
+
+static void test_channels(void)
+{
+    for_cages(120, RANDOM_ALL, check_channels);
+}
+
+// --------------------------------------------------------------------------------- triangulate
+
+// UVs are cut with the faces: as if the cage had been cut by hand.
+static void check_cut(subdiv_mesh *m, unsigned seed)
+{
+    subdiv_mesh cut, fine = {0}, other = {0};
+    subdiv_options opt = {0};
+    int count = face_vertex_count(m), k = 0;
+    (void)seed;
+    m->scheme = SUBDIV_LOOP;
+    m->hole_count = 0;
+    cut = *m;
+    cut.face_vertices = array(3 * count, sizeof(int));
+    cut.face_uvs = array(3 * count, sizeof(int));
+    cut.face_size = 3;
+    for (int f = 0, start = 0; f < m->face_count; start += face_size(m, f++)) {
+        for (int i = 2; i < face_size(m, f); i++) {
+            const int from[] = {start, start + i - 1, start + i};
+            for (int j = 0; j < 3; j++, k++) {
+                cut.face_vertices[k] = m->face_vertices[from[j]];
+                cut.face_uvs[k] = m->face_uvs[from[j]];
+            }
+        }
+    }
+    cut.face_count = k / 3;
+    opt.triangulate = 1;
+    CHECK_EQUAL(subdiv_refine(&fine, m, 1, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refine(&other, &cut, 1, NULL), SUBDIV_OK);
+    CHECK(same_mesh(&fine, &other));
+    subdiv_mesh_free(&fine);
+    subdiv_mesh_free(&other);
+    free(cut.face_vertices), free(cut.face_uvs);
+}
+
+static void test_triangulate(void)
+{
+    for_cages(100, RANDOM_MANIFOLD | RANDOM_UVS, check_cut);
+}
+
+// ---------------------------------------------------------------------- colours and statements
+
+static void check_colors(subdiv_mesh *m, unsigned seed)
+{
+    subdiv_mesh fine = {0};
+    if (m->uv_rule != SUBDIV_UV_CORNERS_ONLY) return;
+    m->colors = m->positions;
+    if (refine(&fine, m, (int)(seed % 4))) {
+        CHECK(fine.colors != NULL && fine.colors != fine.positions);
+        for (int i = 0; i < 3 * fine.vertex_count && fine.colors; i++)
+            CHECK_NEAR(fine.colors[i], fine.positions[i], 0);
+    }
+    subdiv_mesh_free(&fine);
+    m->colors = NULL;
+    if (refine(&fine, m, 1)) CHECK(fine.colors == NULL);
+    subdiv_mesh_free(&fine);
+}
+
+static void test_colors(void)
+{
+    for_cages(100, RANDOM_ALL, check_colors);
+}
+
+// Statements stand before the first fine face of their face, also where faces before it are holes.
+static void test_statements(void)
+{
+    static test_cage c;
+    static char one[] = "g one", two[] = "usemtl two", three[] = "s off", last[] = "o end";
+    char *statements[] = {one, two, three, last};
+    int faces[] = {0, 3, 3, 6};
+    subdiv_mesh fine = {0};
+    build_prism(&c, 4);
+    cage_hole(&c, 1);
+    c.mesh.statement_count = 4;
+    c.mesh.statement_faces = faces;
+    c.mesh.statements = statements;
+    for (int levels = 1; levels < 4; levels++) {
+        int each = 1 << (2 * levels);
+        CHECK_EQUAL(subdiv_refine(&fine, &c.mesh, levels, NULL), SUBDIV_OK);
+        CHECK_EQUAL(fine.statement_count, 4);
+        for (int i = 0; i < fine.statement_count; i++) {
+            int holes = faces[i] > 1;
+            CHECK_TEXT(fine.statements[i], statements[i]);
+            CHECK(fine.statements[i] != statements[i]);
+            CHECK_EQUAL(fine.statement_faces[i], (faces[i] - holes) * each);
+        }
+        subdiv_mesh_free(&fine);
+    }
+}
+
+// -------------------------------------------------------------------------------------- errors
+
+static void check_refused(const subdiv_mesh *m, subdiv_result expected, const char *text)
+{
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    subdiv_mesh fine;
+    opt.error = &error;
+    memset(&fine, 1, sizeof fine);
+    CHECK_EQUAL(subdiv_refine(&fine, m, 1, &opt), expected);
+    CHECK_EQUAL(error.code, expected);
+    if (!strstr(error.message, text)) TEST_REPORT("no \"%s\" in \"%s\"", text, error.message);
+    CHECK(mesh_is_zero(&fine));
+}
+
+static void check_door_refused(const subdiv_mesh *m, int count, const int *indices, int rule,
+                               subdiv_result expected)
+{
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    static int other;
+    subdiv_surface *surface = (subdiv_surface *)(void *)&other;
+    opt.error = &error;
+    CHECK_EQUAL(subdiv_prepare_face_varying(&surface, m, count, indices, (subdiv_uv_rule)rule, 1,
+                                            &opt), expected);
+    CHECK_EQUAL(error.code, expected);
+    CHECK(error.message[0] != 0);
+    CHECK(surface == NULL);
+}
+
+static void test_errors(void)
+{
+    static test_cage c;
+    float uvs[16] = {0};
+    int values[24];
+    subdiv_mesh bad;
+    build_prism(&c, 4);
+    memcpy(values, c.face_vertices, sizeof values);
+    c.mesh.uv_count = 8;
+    c.mesh.uvs = uvs;
+    c.mesh.face_uvs = values;
+    values[9] = 8;
+    check_refused(&c.mesh, SUBDIV_ERROR_INDEX, "face 2");
+    check_door_refused(&c.mesh, 8, values, 0, SUBDIV_ERROR_INDEX);
+    values[9] = -2;
+    check_refused(&c.mesh, SUBDIV_ERROR_INDEX, "-2");
+    check_door_refused(&c.mesh, 8, values, 0, SUBDIV_ERROR_INDEX);
+    values[9] = 0;
+    uvs[7] = (float)NAN;
+    check_refused(&c.mesh, SUBDIV_ERROR_NOT_FINITE, "UV 3");
+    uvs[7] = 0;
+    bad = c.mesh, bad.uvs = NULL;
+    check_refused(&bad, SUBDIV_ERROR_ARGUMENT, "uvs");
+    bad = c.mesh, bad.face_uvs = NULL;
+    check_refused(&bad, SUBDIV_ERROR_ARGUMENT, "face_uvs");
+    check_door_refused(&c.mesh, 8, NULL, 0, SUBDIV_ERROR_ARGUMENT);
+    check_door_refused(&c.mesh, 0, values, 0, SUBDIV_ERROR_ARGUMENT);
+    check_door_refused(&c.mesh, 8, values, RULES, SUBDIV_ERROR_ARGUMENT);
+    check_door_refused(NULL, 8, values, 0, SUBDIV_ERROR_ARGUMENT);
+}
+
+int main(void)
+{
+    RUN(test_affine_maps);
+    RUN(test_like_positions);
+    RUN(test_islands);
+    RUN(test_indices);
+    RUN(test_steps);
+    RUN(test_holes);
+    RUN(test_channels);
+    RUN(test_triangulate);
+    RUN(test_colors);
+    RUN(test_statements);
+    RUN(test_errors);
+    return test_end("uv");
+}
