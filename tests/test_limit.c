@@ -257,6 +257,55 @@ static void test_crease_vertices(void)
     }
 }
 
+// A crease that ends is smooth there, although it is sharp.
+static void test_darts(void)
+{
+    static test_cage c;
+    for (int n = 3; n < 20; n++) {
+        build_fan(&c, n & 1 ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK, n / 2 + 3, 1);
+        shake(&c, (unsigned)n);
+        cage_crease(&c, 0, 2, 1.5);
+        ring r = fan_ring(&c.mesh, 0, n / 2 + 3, 1);
+        check_fan(&c.mesh, &r, NULL);
+    }
+}
+
+// Three fins along a line through the middle of a closed fan: their crease moves the middle, while
+// the fan is no side of it, so that the edges of one of its faces count.
+static void test_fan_on_a_crease(void)
+{
+    static test_cage c;
+    for (int loop = 0; loop <= 1; loop++) {
+        subdiv_mesh fine = {0}, one = {0};
+        subdiv_options opt = {0};
+        build_fan(&c, loop ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK, 5, 1);
+        int a = cage_vertex(&c, 0, -1, 2), b = cage_vertex(&c, 0, 1, 2);
+        for (int i = 0; i < 3; i++) {
+            int p = cage_vertex(&c, i, -1, 3), q = cage_vertex(&c, i, 0, 3);
+            cage_quad(&c, a, 0, q, p);
+            cage_quad(&c, 0, b, cage_vertex(&c, i, 1, 3), q);
+        }
+        shake(&c, 7);
+        opt.limit = 1;
+        CHECK_EQUAL(subdiv_refine(&fine, &c.mesh, 1, &opt), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_refine(&one, &c.mesh, 1, NULL), SUBDIV_OK);
+        edge_list e = edges_make(&c.mesh);
+        const float *p = one.positions, *points = p + 3 * c.mesh.vertex_count;
+        vec v = of_floats(p), limit = add(v, 1 / 6.0, of_floats(points + 3 * edges_find(&e, 0, a)));
+        limit = add(add(limit, 1 / 6.0, of_floats(points + 3 * edges_find(&e, 0, b))), -2 / 6.0, v);
+        CHECK_NEAR(largest_of(add(of_floats(fine.positions), -1, limit)), 0, 4e-7);
+        double error = 9;
+        for (int i = 0; i < 5; i++) {
+            vec next = add(of_floats(points + 3 * edges_find(&e, 0, 1 + i)), -1, v);
+            vec after = add(of_floats(points + 3 * edges_find(&e, 0, 1 + (i + 1) % 5)), -1, v);
+            error = fmin(error, normal_error(fine.normals, unit(cross(next, after))));
+        }
+        CHECK_NEAR(error, 0, 1e-5);
+        edges_free(&e);
+        subdiv_mesh_free(&fine), subdiv_mesh_free(&one);
+    }
+}
+
 // Two quads back to back, with the right limit and the normal in the middle of theirs.
 static void test_valence_two(void)
 {
@@ -586,6 +635,8 @@ int main(void)
     RUN(test_smooth_vertices);
     RUN(test_boundary_vertices);
     RUN(test_crease_vertices);
+    RUN(test_darts);
+    RUN(test_fan_on_a_crease);
     RUN(test_valence_two);
     RUN(test_planes_stay_planes);
     RUN(test_limit_of_other_levels);
