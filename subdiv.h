@@ -404,8 +404,10 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // and tangents in one pass.
 //
 // Sharpness that is left on the last level counts as infinite, as in OpenSubdiv: with a crease of
-// 2.5, ask for 3 levels or more. On level 0 what matters is what is left on level 1. The result is
-// no cage for more of the same: its points are those of a finer mesh than its own.
+// 2.5, ask for 3 levels or more. A dart is taken for smooth, as there: on an infinite crease it is
+// near the limit, and nearer with each level. On level 0 what matters is what is left on level 1.
+// The result is no cage for more of the same: its points are those of a finer mesh than its own.
+// Its UVs are those of the refined mesh, not moved.
 //
 // A point has one normal and two tangents, the same ones from any call: on a crease those of the
 // surface on one side; at a corner, and where non-manifold faces are no fan between two creases,
@@ -5246,7 +5248,8 @@ static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
     sdv_row_curve(q, (float)r * h, &curve);
     sdv_row_curve(rise, (float)r * h, &across);
     sdv_along_row(&curve, &along);
-    if (left) sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, 0);
+    if (left)
+        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, 0);
     for (int i = 1; i < last && inside; i++)
         sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
                             &across, (float)i * h);

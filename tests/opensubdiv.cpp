@@ -568,11 +568,11 @@ static void compare_result(const Reference &ref, const order &o, int l, const su
 
 // ------------------------------------------------------------------------------------- limits
 //
-// What is left out: OpenSubdiv's tangents write out of bounds at a non-manifold vertex that has more
-// faces than edges; its masks at a smooth Catmull-Clark vertex of valence 2 leave the vertex where it
-// is; its tangents beside an irregular number of faces along a crease are not those of the surface
-// (see test_limit.c for ours). Of an interior crease it takes one side, of a corner one face; any
-// will do.
+// What is left out: OpenSubdiv's tangents write out of bounds at a non-manifold vertex that has
+// more faces than edges; its masks at a smooth Catmull-Clark vertex of valence 2 leave the vertex
+// where it is; its tangents beside an irregular number of faces along a crease are not those of the
+// surface (see test_limit.c for ours). Of an interior crease it takes one side, of a corner one
+// face; any will do.
 
 struct Vector {
     double p[3];
@@ -706,10 +706,11 @@ static Point valence_two(const Far::TopologyLevel &level, const std::vector<Poin
     return p;
 }
 
-// The limit of the points of a level, which has to be the refiner's last, and unless it has no right
-// ones tangents.
-static Level find_limit(const Far::TopologyRefiner &refiner, const std::vector<Point> &points, int l,
-                        subdiv_scheme scheme, std::vector<Point> &t1, std::vector<Point> &t2)
+// The limit of the points of a level, which has to be the refiner's last; and tangents, unless it
+// has no right ones.
+static Level find_limit(const Far::TopologyRefiner &refiner, const std::vector<Point> &points,
+                        int l, subdiv_scheme scheme, std::vector<Point> &t1,
+                        std::vector<Point> &t2)
 {
     const Far::TopologyLevel &level = refiner.GetLevel(l);
     const Far::PrimvarRefinerReal<double> primvars(refiner);
@@ -723,7 +724,8 @@ static Level find_limit(const Far::TopologyRefiner &refiner, const std::vector<P
     if (tangents) primvars.Limit(points, limit.points, t1, t2);
     else primvars.Limit(points, limit.points);
     for (int v = 0; v < level.GetNumVertices() && scheme == SUBDIV_CATMULL_CLARK; v++)
-        if (level.GetVertexFaces(v).size() == 2 && level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE)
+        if (level.GetVertexFaces(v).size() == 2 &&
+            level.GetVertexRule(v) < Sdc::Crease::RULE_CREASE)
             limit.points[(size_t)v] = valence_two(level, points, v);
     return limit;
 }
@@ -974,8 +976,8 @@ static int report(void)
     printf("%d cages compared: %lld vertices, %lld faces, %lld creases, %lld corners, %lld faces hidden, "
            "largest error %.3g of the extent\n", test_passed + test_failed, totals.vertices,
            totals.faces, totals.creases, totals.corners, totals.hidden, totals.largest_error);
-    printf("%lld limit points, largest error %.3g of the extent; %lld normals, %lld beside creases where "
-           "OpenSubdiv's differ or are not to be had; %lld are 0\n", totals.limit_points,
+    printf("%lld limit points, largest error %.3g of the extent; %lld normals, %lld beside creases "
+           "where OpenSubdiv's differ or are not to be had; %lld are 0\n", totals.limit_points,
            totals.largest_limit_error, totals.limit_normals, totals.odd_sides, totals.no_normals);
     printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1\n",
            totals.put_right);

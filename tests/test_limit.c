@@ -72,8 +72,8 @@ static ring refine_quads(const ring *r)
     for (int i = 0; i < r->edges; i++) {
         int before = (i + n - 1) % n, smooth = r->closed || (i > 0 && i < n);
         vec middle = add(add(zero, 0.5, r->v), 0.5, r->e[i]);
-        out.e[i] = smooth ? add(add(add(zero, 0.5, middle), 0.25, out.f[before]), 0.25, out.f[i % n])
-                          : middle;
+        vec faces = add(add(zero, 0.25, out.f[before]), 0.25, out.f[i % n]);
+        out.e[i] = smooth ? add(faces, 0.5, middle) : middle;
         sum = add(add(sum, 2.0 / n, middle), 1.0 / n, out.f[i % n]);
     }
     if (r->closed) out.v = add(add(zero, 1.0 / n, sum), (n - 3.0) / n, r->v);
@@ -134,8 +134,8 @@ static void shrink_ring(ring *r)
     centre_ring(r);
 }
 
-// Smooth: what is left lies in the tangent plane. On a crease one tangent is along it, and shrinks at
-// another rate than what is the same on both halves of the faces.
+// Smooth: what is left lies in the tangent plane. On a crease one tangent is along it, and shrinks
+// at another rate than what is the same on both halves of the faces.
 static vec ring_normal(ring r)
 {
     vec sum = { { 0, 0, 0 } }, along = add(r.e[0], -1, r.e[r.faces]);
@@ -182,7 +182,8 @@ static ring fan_ring(const subdiv_mesh *cage, int first, int faces, int closed)
         r.e[i] = of_floats(fine.positions +
                            3 * (points + edges_find(&e, 0, 1 + (first + i) % spokes)));
     for (int i = 0; i < faces && !r.loop; i++)
-        r.f[i] = of_floats(fine.positions + 3 * (points + e.count + (first + i) % cage->face_count));
+        r.f[i] = of_floats(fine.positions +
+                           3 * (points + e.count + (first + i) % cage->face_count));
     edges_free(&e);
     subdiv_mesh_free(&fine);
     return r;

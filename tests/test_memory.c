@@ -76,8 +76,8 @@ static void write_line(const char *format, int a, int b, int c)
     obj_size += (size_t)n;
 }
 
-// A strip of coloured quads with UVs that ends in a pentagon and a triangle without, with statements,
-// two warnings, and tags of each kind.
+// A strip of coloured quads with UVs that ends in a pentagon and a triangle without, with
+// statements, two warnings, and tags of each kind.
 static void make_obj_text(void)
 {
     enum { COUNT = 3000 };

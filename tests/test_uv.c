@@ -302,9 +302,7 @@ static void check_steps(subdiv_mesh *m, unsigned seed)
 {
     int count = face_vertex_count(m), *kept = NULL;
     subdiv_mesh once = {0}, half = {0}, twice = {0};
-    // By the rule plus 2 a point inside an edge to a face without values looks like the end of a
-    // seam to the second call.
-    if (seed % 4 == 0 && m->uv_rule != SUBDIV_UV_CORNERS_PLUS2) {
+    if (seed % 4 == 0) {
         kept = array(count, sizeof(int));
         memcpy(kept, m->face_uvs, sizeof(int) * (size_t)count);
         drop_values(m, seed);
