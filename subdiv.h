@@ -147,7 +147,7 @@
 
    VERSION LOG
    -----------
-   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, OBJ. */
+   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, OBJ. */
 
 #ifndef SUBDIV_H
 #define SUBDIV_H
@@ -535,17 +535,20 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 
 // ----------------------------------------------------------------------------------- >>obj
 
-// Reads the v and f of a Wavefront OBJ file in all their forms, polygons of any size, lines of any
-// length, and OpenSubdiv's tags (counted from 0):
+// Reads the v, vt and f of a Wavefront OBJ file in all their forms, polygons of any size, lines of
+// any length, vertex colours (v x y z r g b; white where there is none), the statements g, o,
+// usemtl, mtllib and s with the face they stand before, and OpenSubdiv's tags (counted from 0):
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
 //     t corner 1/1/0 v sharpness           t creasemethod 0/0/1 chaikin
 //     t interpolateboundary 1/0/0 k        k: 0 none, 1 edge and corner, 2 edge
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
-// UVs, normals, groups and materials are passed over. Faces with fewer than three vertices and
-// tags that make no sense are skipped with a warning; what would change the mesh is an error that
-// names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE, EMPTY, TOO_LARGE, MEMORY.
+// A face some of whose vertices have no UV keeps none: -1 at all of them, with one warning for all
+// such faces. Normals are passed over; lines, points, free-form and unknown statements are counted
+// and skipped with a warning, as are faces with fewer than three vertices and tags that make no
+// sense; what would change the mesh is an error that names line and token. Errors: IO, SYNTAX,
+// INDEX, NOT_FINITE, EMPTY, TOO_LARGE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt);
 
@@ -555,8 +558,9 @@ typedef size_t (*subdiv_read)(void *user, void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read read, void *user,
                                                   const subdiv_options *opt);
 
-// Writes v, f and, if there is anything to tell, the tags. Numbers have the fewest digits that
-// read back as the same float, in any locale. Errors: ARGUMENT, INDEX, FACE, NOT_FINITE, IO.
+// Writes v (with colours), vt, vn, statements, f and, if there is anything to tell, the tags.
+// Numbers have the fewest digits that read back as the same float, in any locale. Errors: ARGUMENT,
+// INDEX, FACE, NOT_FINITE, IO.
 //
 // To memory: *size becomes the bytes of the whole text, without a terminating 0. Call with
 // capacity 0 for the size alone; a capacity that is too small is error TOO_LARGE.
@@ -5693,8 +5697,8 @@ static void sdv_fine_faces_job(void *context, int job)
         int first = surface->first_face[f], last = surface->first_face[f + 1];
         int own = surface->own_face ? surface->own_face[f] : f;
         size_t size = (size_t)surface->fine.face_size;
-        int *vertices = out->face_vertices + (size_t)first * size;
         if (first == last) continue;
+        int *vertices = out->face_vertices + (size_t)first * size;
         if (own >= 0) sdv_fine_faces(&surface->order, own, vertices);
         for (size_t i = 0; own < 0 && i < (size_t)(last - first) * size; i++) vertices[i] = -1;
         int cage_face = surface->cage_face ? surface->cage_face[f] : f;
