@@ -807,11 +807,11 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
     if (context->result) return NULL;
-    if (count > (size_t)PTRDIFF_MAX / item - 15) {
+    if (count > (size_t)PTRDIFF_MAX / item - 16) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
         return NULL;
     }
-    size_t size = (count * item + 15) / 16 * 16;
+    size_t size = (count * item + 16) / 16 * 16;
     sdv_reserve(context, arena, size);
     if (context->result) return NULL;
     char *array = arena->free;

@@ -33,6 +33,7 @@ static inline int face_size(const subdiv_mesh *m, int f)
 static inline const int *face_vertices(const subdiv_mesh *m, int f)
 {
     size_t start = 0;
+    if (!m->face_vertices) return NULL;
     if (m->face_size) return m->face_vertices + (size_t)m->face_size * (size_t)f;
     for (int i = 0; i < f; i++) start += (size_t)m->face_sizes[i];
     return m->face_vertices + start;
