@@ -4263,31 +4263,34 @@ static const char *sdv_read_any_number(const char *p, float *out)
     return p;
 }
 
-// The same, mostly at once: up to 17 digits, no exponent, and the same float a little below and a
-// little above the double.
-static inline const char *sdv_read_number(const char *p, float *out)
+// Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a little
+// above the double. NULL for others.
+static inline const char *sdv_read_short_number(const char *p, float *out)
 {
     static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
-                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17 };
+                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18 };
     static const double signs[] = { 1, -1 };
     const double error = 2e-15;
-    int negative = *p == '-';
-    const char *first = p + negative, *end = first;
+    size_t negative = *p == '-', count = 0, decimals = 0;
     uint64_t head = 0, digit;
-    for (; (digit = (unsigned char)*end - (uint64_t)'0') < 10; end++) head = head * 10 + digit;
-    ptrdiff_t count = end - first, decimals = 0;
-    if (*end == '.') {
-        const char *point = ++end;
-        for (; (digit = (unsigned char)*end - (uint64_t)'0') < 10; end++) head = head * 10 + digit;
-        decimals = end - point;
-        count += decimals;
+    for (p += negative; (digit = (unsigned char)p[count] - (uint64_t)'0') < 10; count++)
+        head = head * 10 + digit;
+    p += count;
+    if (*p == '.') {
+        for (p++; (digit = (unsigned char)p[decimals] - (uint64_t)'0') < 10; decimals++)
+            head = head * 10 + digit;
+        p += decimals;
     }
-    if (count > 0 && count <= 17 && (*end | 32) != 'e') {
-        double d = (double)(int64_t)head * units[decimals] * signs[negative];
-        *out = (float)(d * (1 - error));
-        if (*out == (float)(d * (1 + error))) return end;
-    }
-    return sdv_read_any_number(p, out);
+    if (count + decimals - 1 > 17) return NULL;
+    double d = (double)(int64_t)head * units[decimals] * signs[negative];
+    *out = (float)(d * (1 - error));
+    return *out == (float)(d * (1 + error)) ? p : NULL;
+}
+
+static const char *sdv_read_number(const char *p, float *out)
+{
+    const char *end = sdv_read_short_number(p, out);
+    return end && *end != 'e' && *end != 'E' ? end : sdv_read_any_number(p, out);
 }
 
 // The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
@@ -5184,11 +5187,11 @@ static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_ser
 {
     float *numbers = (float *)sdv_series_room(obj->context, series, 3);
     if (!numbers) return NULL;
+    while (*p == ' ' && p[1] == ' ') p++;
     for (int i = 0; i < count; i++) {
         if (*p != ' ') return NULL;
-        while (*p == ' ') p++;
-        p = sdv_read_number(p, &numbers[i]);
-        if (!p || fabs((double)numbers[i]) > FLT_MAX) return NULL;
+        p = sdv_read_short_number(p + 1, &numbers[i]);
+        if (!p) return NULL;
     }
     p = sdv_plain_end(obj, p);
     if (p) sdv_series_add(series, (size_t)count);
