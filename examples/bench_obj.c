@@ -106,7 +106,7 @@ static double raw_write(void)
 }
 
 // The time to read the file into memory that is in use, and to find its lines.
-static double raw_read(int *lines)
+static double raw_read(const subdiv_mesh *mesh)
 {
     double start = now();
     int file = open(path, O_RDONLY);
@@ -114,10 +114,13 @@ static double raw_read(int *lines)
     for (ssize_t got = 1; got > 0 && at < text_size; at += got > 0 ? (size_t)got : 0)
         got = read(file, text + at, text_size - at);
     expect(at == text_size && close(file) == 0, "reading");
-    *lines = 0;
+    int lines = 0;
     for (char *p = text; (p = (char *)memchr(p, '\n', (size_t)(text + at - p))) != NULL; p++)
-        ++*lines;
-    return now() - start;
+        lines++;
+    double end = now();
+    expect(lines == mesh->vertex_count * (mesh->normals ? 2 : 1) + mesh->uv_count + mesh->face_count,
+           "counting");
+    return end - start;
 }
 
 static double our_write(const subdiv_mesh *mesh)
@@ -158,7 +161,6 @@ static void print_row(const char *name, times *t)
 static void measure(const subdiv_mesh *mesh, const char *write_name, const char *read_name)
 {
     times reading, writing;
-    int lines;
     expect(subdiv_save_obj_memory(mesh, NULL, 0, &text_size, NULL) == SUBDIV_OK, "saving");
     text = (char *)allocate(text_size);
     expect(subdiv_save_obj_memory(mesh, text, text_size, &text_size, NULL) == SUBDIV_OK, "saving");
@@ -167,7 +169,7 @@ static void measure(const subdiv_mesh *mesh, const char *write_name, const char 
         writing.ours[run] = our_write(mesh);
     }
     for (int run = 0; run < RUNS; run++) {
-        reading.limit[run] = raw_read(&lines);
+        reading.limit[run] = raw_read(mesh);
         reading.ours[run] = our_read(mesh);
     }
     print_row(write_name, &writing);
