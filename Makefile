@@ -48,6 +48,9 @@ else
 	$(CC) $(FLAGS) $(BENCH) -o $@ $(THREADS) -lm
 endif
 
+build/bench_obj: examples/bench_obj.c subdiv.h | build
+	$(CC) $(FLAGS) -O3 $< -o $@ -lm
+
 build:
 	mkdir -p build
 
@@ -59,8 +62,9 @@ examples: $(EXAMPLES:%=build/%)
 test: build/subdiv examples $(TESTS:%=build/test_%)
 	CC="$(CC)" CXX="$(CXX)" sh tests/run.sh $(TESTS:%=build/test_%)
 
-bench: build/bench
+bench: build/bench build/bench_obj
 	build/bench $(MESHES)
+	build/bench_obj
 
 check:
 	sh tests/check.sh

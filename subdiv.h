@@ -258,9 +258,11 @@ typedef struct subdiv_mesh {
     int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
     float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
     float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
-    int    statement_count;           // OBJ's g, o, usemtl, mtllib and s, as they stand in the file
-    int   *statement_faces;           // [statement_count]    the face each stands before, rising
-    char **statements;                // [statement_count]    such as "usemtl stone"
+    int    statement_count;           // OBJ's g, o, s, usemtl and mtllib, as they stand in the file
+    int   *statement_faces;           // [statement_count]    the face each stands before, rising;
+                                      //                      face_count: behind all faces
+    char **statements;                // [statement_count]    such as "usemtl stone", one blank
+                                      //                      behind the keyword
 
     subdiv_scheme    scheme;
     subdiv_boundary  boundary;
@@ -535,20 +537,27 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 
 // ----------------------------------------------------------------------------------- >>obj
 
-// Reads the v, vt and f of a Wavefront OBJ file in all their forms, polygons of any size, lines of
-// any length, vertex colours (v x y z r g b; white where there is none), the statements g, o,
-// usemtl, mtllib and s with the face they stand before, and OpenSubdiv's tags (counted from 0):
+// Reads Wavefront OBJ, block by block and without ever going back:
+//
+//     v x y z [w], v x y z r g b [a]       w and a are ignored; vertices without a colour are white
+//                                          if others have one
+//     vt u [v [w]]                         v is 0 if it is missing, w is ignored
+//     f v/vt/vn ...                        in all forms, with negative indices, before or behind
+//                                          what it names; any number of vertices
+//     g o s usemtl mtllib                  kept as they stand, with the face that follows
+//     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
 //     t corner 1/1/0 v sharpness           t creasemethod 0/0/1 chaikin
 //     t interpolateboundary 1/0/0 k        k: 0 none, 1 edge and corner, 2 edge
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
-// A face some of whose vertices have no UV keeps none: -1 at all of them, with one warning for all
-// such faces. Normals are passed over; lines, points, free-form and unknown statements are counted
-// and skipped with a warning, as are faces with fewer than three vertices and tags that make no
-// sense; what would change the mesh is an error that names line and token. Errors: IO, SYNTAX,
-// INDEX, NOT_FINITE, EMPTY, TOO_LARGE, MEMORY.
+// The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
+// all of theirs, with one warning for all such faces. Normals are passed over, their indices too.
+// Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
+// are skipped, and how many points and lines, free-form and unknown statements were. What would
+// change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
+// EMPTY, TOO_LARGE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt);
 
@@ -558,9 +567,10 @@ typedef size_t (*subdiv_read)(void *user, void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read read, void *user,
                                                   const subdiv_options *opt);
 
-// Writes v (with colours), vt, vn, statements, f and, if there is anything to tell, the tags.
-// Numbers have the fewest digits that read back as the same float, in any locale. Errors: ARGUMENT,
-// INDEX, FACE, NOT_FINITE, IO.
+// Writes v (with colours), vt, vn, f between the statements, and the tags if there is anything to
+// tell. Faces without UVs have no vt; normals are numbered as the vertices. Numbers have the
+// fewest digits that read back as the same float, in any locale. Errors: ARGUMENT, EMPTY, INDEX,
+// FACE, NOT_FINITE, IO, MEMORY.
 //
 // To memory: *size becomes the bytes of the whole text, without a terminating 0. Call with
 // capacity 0 for the size alone; a capacity that is too small is error TOO_LARGE.
@@ -580,6 +590,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
 
+// Paths are UTF-8, on Windows too.
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);
@@ -1109,12 +1120,35 @@ static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
     return f;
 }
 
+// Numbers are checked by the block, without a branch for each: bit 31 tells.
+#define SDV_CHECKED 256
+
 // The first number that is not at least low and below high; count if there is none.
 static size_t sdv_find_outside(const int *numbers, size_t count, int low, int high)
 {
-    unsigned span = (unsigned)high - (unsigned)low;
     size_t i = 0;
-    while (i < count && (unsigned)numbers[i] - (unsigned)low < span) i++;
+    for (unsigned bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
+        for (size_t k = 0; k < SDV_CHECKED; k++)
+            bad |= ((unsigned)numbers[i + k] - (unsigned)low) |
+                   ((unsigned)high - 1 - (unsigned)numbers[i + k]);
+        if (bad >> 31) break;
+    }
+    while (i < count && numbers[i] >= low && numbers[i] < high) i++;
+    return i;
+}
+
+// The first float that is infinite or not a number; count if there is none.
+static size_t sdv_find_endless(const float *numbers, size_t count)
+{
+    size_t i = 0;
+    for (uint32_t bad = 0, bits; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
+        for (size_t k = 0; k < SDV_CHECKED; k++) {
+            memcpy(&bits, &numbers[i + k], sizeof bits);
+            bad |= (bits & 0x7fffffff) + 0x800000;              // the exponent is 255
+        }
+        if (bad >> 31) break;
+    }
+    while (i < count && numbers[i] - numbers[i] == 0) i++;
     return i;
 }
 
@@ -1205,13 +1239,11 @@ static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, int
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
-    for (size_t i = 0, n = (size_t)width * (size_t)count; i < n; i++)
-        if (!(values[i] - values[i] == 0)) {
-            int v = (int)(i / (size_t)width);
-            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, width == 3 ? v : -1,
-                          "%s %d: number %d is not finite", what, v, (int)(i % (size_t)width));
-            return;
-        }
+    size_t all = (size_t)width * (size_t)count, i = sdv_find_endless(values, all);
+    if (i == all) return;
+    int v = (int)(i / (size_t)width);
+    sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, width == 3 ? v : -1,
+                  "%s %d: number %d is not finite", what, v, (int)(i % (size_t)width));
 }
 
 static void sdv_check_positions(sdv_context *context, const float *positions, int count)
@@ -6756,31 +6788,34 @@ static const char *sdv_read_any_number(const char *p, float *out)
     return p;
 }
 
-// The same, mostly at once: up to 17 digits, no exponent, and the same float a little below and a
-// little above the double.
-static inline const char *sdv_read_number(const char *p, float *out)
+// Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
+// little above the double. NULL for others.
+static inline const char *sdv_read_short_number(const char *p, float *out)
 {
     static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
-                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17 };
+                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18 };
     static const double signs[] = { 1, -1 };
     const double error = 2e-15;
-    int negative = *p == '-';
-    const char *first = p + negative, *end = first;
+    size_t negative = *p == '-', count = 0, decimals = 0;
     uint64_t head = 0, digit;
-    for (; (digit = (unsigned char)*end - (uint64_t)'0') < 10; end++) head = head * 10 + digit;
-    ptrdiff_t count = end - first, decimals = 0;
-    if (*end == '.') {
-        const char *point = ++end;
-        for (; (digit = (unsigned char)*end - (uint64_t)'0') < 10; end++) head = head * 10 + digit;
-        decimals = end - point;
-        count += decimals;
+    for (p += negative; (digit = (unsigned char)p[count] - (uint64_t)'0') < 10; count++)
+        head = head * 10 + digit;
+    p += count;
+    if (*p == '.') {
+        for (p++; (digit = (unsigned char)p[decimals] - (uint64_t)'0') < 10; decimals++)
+            head = head * 10 + digit;
+        p += decimals;
     }
-    if (count > 0 && count <= 17 && (*end | 32) != 'e') {
-        double d = (double)(int64_t)head * units[decimals] * signs[negative];
-        *out = (float)(d * (1 - error));
-        if (*out == (float)(d * (1 + error))) return end;
-    }
-    return sdv_read_any_number(p, out);
+    if (count + decimals - 1 > 17) return NULL;
+    double d = (double)(int64_t)head * units[decimals] * signs[negative];
+    *out = (float)(d * (1 - error));
+    return *out == (float)(d * (1 + error)) ? p : NULL;
+}
+
+static const char *sdv_read_number(const char *p, float *out)
+{
+    const char *end = sdv_read_short_number(p, out);
+    return end && *end != 'e' && *end != 'E' ? end : sdv_read_any_number(p, out);
 }
 
 // The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
@@ -6946,10 +6981,9 @@ static inline char *sdv_write_index(const sdv_figures *figures, char *p, int num
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = 0;
-    if (number < 10000) zeros = sdv_zeros_before(text);         // neighbours have as many digits
-    else if (number < 100000) zeros = 3;
-    else if (number < 1000000) zeros = 2;
+    int zeros = 0;                          // by comparing, as neighbours have as many digits
+    if (number < 10000) zeros = sdv_zeros_before(text);
+    else if (number < 1000000) zeros = 2 + (number < 100000);
     else if (number < 10000000) zeros = 1;
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
@@ -7643,11 +7677,11 @@ static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_ser
 {
     float *numbers = (float *)sdv_series_room(obj->context, series, 3);
     if (!numbers) return NULL;
+    while (*p == ' ' && p[1] == ' ') p++;
     for (int i = 0; i < count; i++) {
         if (*p != ' ') return NULL;
-        while (*p == ' ') p++;
-        p = sdv_read_number(p, &numbers[i]);
-        if (!p || fabs((double)numbers[i]) > FLT_MAX) return NULL;
+        p = sdv_read_short_number(p + 1, &numbers[i]);
+        if (!p) return NULL;
     }
     p = sdv_plain_end(obj, p);
     if (p) sdv_series_add(series, (size_t)count);
@@ -8024,17 +8058,22 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
         sdv_write_tag(out, "t hole 1/0/0", &mesh->holes[i], 1, NULL);
 }
 
+static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
+{
+    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, numbers[i]);
+    return p;
+}
+
 // Lines of so many numbers, and behind each 3 of more unless that is NULL: v x y z r g b.
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
-    int all = width + (more ? 3 : 0);
-    for (int i = 0; i < count && !out->context->result; i++) {
+    for (int i = 0; i < count && !out->context->result; i++, values += width) {
         char *p = sdv_room(out);
         *p++ = keyword[0];
         if (keyword[1]) *p++ = keyword[1];
-        for (int j = 0; j < all; j++)
-            p = sdv_write_float(out->figures, p, j < width ? *values++ : *more++);
+        p = sdv_write_floats(out->figures, p, values, width);
+        if (more) p = sdv_write_floats(out->figures, p, more + 3 * (size_t)i, 3);
         *p++ = '\n';
         sdv_end(out, p);
     }
@@ -8415,6 +8454,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 // ------------------------------------------------------------------------------- >>cleanup
 #undef SDV_NEW
 #undef SDV_IMPLIED
+#undef SDV_CHECKED
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS

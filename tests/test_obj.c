@@ -196,6 +196,8 @@ static void test_vertex_forms(void)
         {"v 0 0 0 1 0 0 1\nv 1 0 0 .5 .25 1e-3 0.5\nv 1 1 0 1 1 1 0\nv 0 1 0 0 0 0 7\nf 1 2 3 4\n",
          RED},
         {"v 0 0 0 1 0 0\nv 1 0 0 .5 .25 .001\nv 1 1 0\nv 0 1 0 0 0 0\nf 1 2 3 4\n", RED},
+        {"v 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n",
+         "v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3 4\n"},
         {"v 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0 1 1 1\nf 1 2 3 4\n",
          "v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 1 1 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3 4\n"},
         {"v 0 0 0 1 0 0#red\nv 1 0 0 .5 .25 \\\n1e-3\nv 1 1 0 1 1 1 # white\n"
@@ -692,6 +694,8 @@ typedef struct refusal {
 
 static const refusal refusals[] = {
     {V4 "f 1 2 3 4\nf 1 2 9\n", SUBDIV_ERROR_INDEX, 6, {"9", "4"}},
+    {V4 "f 1 2 5\n", SUBDIV_ERROR_INDEX, 5, {"5", "4"}},
+    {V4 "vt 0 0\nf 1/1 2/2 3/1\n", SUBDIV_ERROR_INDEX, 6, {"vt 2", "1"}},
     {"f 1 2 5\n" V4, SUBDIV_ERROR_INDEX, 1, {"5", "4"}},
     {"f 1 2 3\n", SUBDIV_ERROR_EMPTY, 0, {"no vertices", ""}},
     {"v 0 0 0\nf -1 -2 -3\nv 1 0 0\nv 1 1 0\n", SUBDIV_ERROR_INDEX, 2, {"-2", "1"}},
