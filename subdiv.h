@@ -446,6 +446,87 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
+// STANDIN
+#define SUBDIV_EXACT (-1)
+typedef struct subdiv_location { int face, corner; float u, v; } subdiv_location;
+typedef struct subdiv_derivatives {
+    float *points, *du, *dv, *duu, *duv, *dvv;
+    float *normals;
+    int stride;
+} subdiv_derivatives;
+SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels, const void *scratch, int count, const subdiv_location *locations, const subdiv_derivatives *out, const subdiv_options *opt);
+// ENDSTANDIN
+// --------------------------------------------------------------------------- >>tessellation
+// A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
+// cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
+// the rates.
+//
+//     subdiv_tessellation how = {0};
+//     how.rate = 5;
+//     subdiv_tessellate(&fine, &cage, &how, &opt);
+
+// The rate of an edge, or 0: as if not asked. a, middle, b: points [3] of the edge on the limit, a
+// that of its lower-numbered vertex. Called once for each edge, in order, by the caller's thread.
+typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
+                                const float *b);
+
+// Zero it, fill what you want. What is 0 or NULL says nothing, and the next below decides:
+//     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
+//     a face     face_rates, the rates of its edges
+typedef struct subdiv_tessellation {
+    int  rate;                        // of everything
+    const int *edge_rates;            // [edge count] edges are numbered as in THE ORDER OF THE
+                                      // RESULT: subdiv_surface_edges lists them
+    const int *face_rates;            // [face_count of the cage]
+    subdiv_edge_rate edge_rate;
+    void *user;                       // handed to edge_rate
+    int   triangles;                  // cut quads, from their first vertex to their third
+} subdiv_tessellation;
+
+// fine: a mesh with limit positions, normals, cage_faces, UVs (seams respected) and colours, both
+// on their limit, and the statements; holes are left out, or with opt->keep_holes listed. It has
+// no creases and corners: it is no cage for more of the same.
+//
+// Its points are in THE ORDER OF THE RESULT, each edge with rate - 1 points inside. The inside of a
+// face is a grid: of a quad c x r pieces, c the larger rate of edges 0-1 and 2-3, r that of the
+// two others; of a triangle under Loop r pieces a side; of any other polygon r / 2, rounded up, a
+// side of each of its quads, r the largest rate of the edges; or in each case as face_rates says.
+// It has (c - 1) x (r - 1) points, and so on, row by row as there.
+//
+// A face whose edges are all cut as its grid is that grid, its faces as there, so that rate 2^k
+// gives the points and faces of subdiv_refine by k levels with opt->limit. (A polygon needs even
+// rates for that; at rate 1 it becomes a fan around its centre.) Any other face is the grid without
+// its outermost pieces (of which there have to be 2, in triangles 3, so the grid is made as fine as
+// that), then, side by side from edge 0-1 on, triangles and quads between the grid and the edge:
+//
+//     o-----o-----o-----o-----o       a quad of rates 3, 4, 4, 4, so of 4 x 4 pieces: 2 x 2 in the
+//     | \   |     |     |   / |       middle; at the bottom triangles and, where the middles of two
+//     o---+-----+-----+-----o         pieces meet, quads; at the other edges quads, and triangles
+//                                     at both ends
+//
+// Points of an edge are computed once, on the first face that has it; so a normal on a crease is
+// that of the surface on that side.
+//
+// fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
+// Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
+// faces.
+SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
+                                           const subdiv_tessellation *how,
+                                           const subdiv_options *opt);
+
+// The same from a surface prepared for SUBDIV_EXACT levels, as often as you like, for positions
+// [3 * cage vertex_count]. Error ARGUMENT: it was prepared for something else.
+SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
+                                                   const subdiv_surface *surface,
+                                                   const float *positions,
+                                                   const subdiv_tessellation *how,
+                                                   const subdiv_options *opt);
+
+// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
+// a surface of 0 levels. Under opt->triangulate, of the triangles.)
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
+
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
 // list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
@@ -4545,7 +4626,7 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
 {
     if (surface) *surface = NULL;
     else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
+    if (levels < -1) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
     if (!context->result) sdv_check_mesh(context, cage);
     if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
         sdv_check_triangles(context, cage);
@@ -4559,6 +4640,8 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
     if (!context.result && cage->colors)
         sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
+    int exact = levels == -1;
+    if (levels == -1) levels = 1;
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
@@ -4568,6 +4651,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
         context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
+    (void)exact;
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
@@ -5878,6 +5962,809 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     subdiv_surface_free(surface);
     *fine = out;
     return result;
+}
+
+// STANDIN
+SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels, const void *scratch, int count, const subdiv_location *locations, const subdiv_derivatives *out, const subdiv_options *opt)
+{
+    const float *w = (const float *)scratch;
+    const sdv_level *cage = &surface->order.cage;
+    (void)opt;
+    for (int i = 0; i < count; i++) {
+        int f = locations[i].face;
+        if (surface->own_face) f = surface->own_face[f];
+        int start = sdv_face_start(cage, f), size = sdv_face_end(cage, f) - start, k = locations[i].corner;
+        float u = locations[i].u, v = locations[i].v;
+        for (int c = 0; c < channels; c++) {
+            float x[4], middle = 0;
+            for (int j = 0; j < size; j++) middle += w[4 * cage->face_vertices[start + j] + c] / (float)size;
+#define AT(j) w[4 * cage->face_vertices[start + ((j) + size) % size] + c]
+            if (surface->rules.loop) {
+                out->points[i * channels + c] = AT(0) * (1 - u - v) + AT(1) * u + AT(2) * v;
+                continue;
+            }
+            for (int j = 0; j < 4; j++) x[j] = size == 4 ? AT(j) : 0;
+            if (size != 4) { x[0] = AT(k); x[1] = (AT(k) + AT(k + 1)) / 2; x[2] = middle; x[3] = (AT(k) + AT(k - 1)) / 2; }
+            out->points[i * channels + c] = (x[0] * (1 - u) + x[1] * u) * (1 - v) + (x[3] * (1 - u) + x[2] * u) * v;
+        }
+        for (int c = 0; c < channels && out->normals; c++) out->normals[i * channels + c] = c == 0;
+    }
+    return SUBDIV_OK;
+}
+// ENDSTANDIN
+// --------------------------------------------------------------------------- >>tessellation
+// THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
+// its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
+// other polygon one quad of columns x columns pieces for each of its vertices. Where the edges cut
+// their face as its grid does, the face is that grid. Elsewhere the grid loses its outermost
+// pieces, and a strip joins what is left of it, the ring, with each edge:
+//
+//     +--o-----o--+                ring: what is left, here 2 pieces
+//     | /|\   /|\ |                and corners, which are joined with those of the face
+//     |/ | \ / | \|
+//     o--+--o--+--o                edge: here 3 pieces
+
+typedef struct sdv_inside {
+    int columns, rows;
+    int margin;                         // 0: the grid reaches the edges; 1: strips do
+} sdv_inside;
+
+typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
+    const sdv_level *cage;
+    int         loop;
+    int        *edge_rates;             // [edge_count]
+    sdv_inside *insides;                // [face_count]
+    int        *starts;                 // [edge_count + face_count + 1] the first point inside each
+    int        *home;                   // [vertex_count + edge_count] where each is evaluated: a
+                                        // face-vertex, or -1
+    int        *number;                 // [face_count] of a face for subdiv_evaluate_at
+} sdv_tiling;
+
+// One face of it.
+typedef struct sdv_tile {
+    const sdv_tiling *tiling;
+    int first, sides;                   // its face-vertices
+    int inside;                         // its first point
+    int loop, ngon;
+    sdv_inside grid;
+} sdv_tile;
+
+static sdv_tile sdv_tile_at(const sdv_tiling *tiling, int f)
+{
+    const sdv_level *cage = tiling->cage;
+    sdv_tile tile;
+    tile.tiling = tiling;
+    tile.first = sdv_face_start(cage, f);
+    tile.sides = sdv_face_end(cage, f) - tile.first;
+    tile.inside = tiling->starts[cage->edge_count + f];
+    tile.loop = tiling->loop;
+    tile.ngon = !tile.loop && tile.sides != 4;
+    tile.grid = tiling->insides[f];
+    return tile;
+}
+
+static int sdv_edge_rate(const sdv_tile *tile, int side)
+{
+    return tile->tiling->edge_rates[tile->tiling->cage->face_edges[tile->first + side]];
+}
+
+// Pieces of the grid along a side.
+static int sdv_side_rate(const sdv_tile *tile, int side)
+{
+    if (tile->ngon) return 2 * tile->grid.columns;
+    return tile->loop || side % 2 == 0 ? tile->grid.columns : tile->grid.rows;
+}
+
+static int sdv_is_regular(const sdv_tile *tile)
+{
+    for (int i = 0; i < tile->sides; i++)
+        if (sdv_edge_rate(tile, i) != sdv_side_rate(tile, i)) return 0;
+    return 1;
+}
+
+// The grid of a face of such a rate; 0: that of its edges. Between a strip and the next there has
+// to be a point.
+static sdv_inside sdv_find_inside(sdv_tile tile, int rate)
+{
+    int most[2] = { 1, 1 };             // of the even sides, of the odd ones
+    for (int i = 0; i < tile.sides; i++) {
+        int *m = &most[tile.loop || tile.ngon ? 0 : i % 2], edge = sdv_edge_rate(&tile, i);
+        if (edge > *m) *m = edge;
+    }
+    tile.grid.columns = rate ? rate : most[0];
+    tile.grid.rows = rate ? rate : most[1];
+    if (tile.ngon) tile.grid.columns = tile.grid.columns / 2 + tile.grid.columns % 2;
+    tile.grid.margin = !sdv_is_regular(&tile);
+    int least = tile.grid.margin && !tile.ngon ? 2 + tile.loop : 1;
+    if (tile.grid.columns < least) tile.grid.columns = least;
+    if (tile.grid.rows < least) tile.grid.rows = least;
+    if (tile.loop || tile.ngon) tile.grid.rows = tile.grid.columns;
+    return tile.grid;
+}
+
+// How many points are inside a face.
+static uint64_t sdv_count_inside(const sdv_tile *tile)
+{
+    uint64_t columns = (uint64_t)tile->grid.columns, rows = (uint64_t)tile->grid.rows;
+    if (tile->loop) return (columns - 1) * (columns - 2) / 2;
+    if (!tile->ngon) return (columns - 1) * (rows - 1);
+    if (columns > 65536) return INT_MAX;                    // or the product would wrap
+    return 1 + (uint64_t)tile->sides * columns * (columns - 1);
+}
+
+// Point k on a side, from its first vertex: 0 that vertex, edge rate the next one.
+static int sdv_side_point(const sdv_tile *tile, int side, int k)
+{
+    const sdv_tiling *tiling = tile->tiling;
+    const int *vertices = tiling->cage->face_vertices + tile->first;
+    int a = vertices[side], b = vertices[side + 1 < tile->sides ? side + 1 : 0];
+    int e = tiling->cage->face_edges[tile->first + side], rate = tiling->edge_rates[e];
+    if (k == 0) return a;
+    if (k == rate) return b;
+    return tiling->starts[e] - 1 + (a > b ? rate - k : k);
+}
+
+// A point of the quad at vertex i of an n-gon: its last column is the spoke to edge i, backwards,
+// its last row that to the edge before.
+static int sdv_ngon_point(const sdv_tile *tile, int i, int row, int column)
+{
+    int m = tile->grid.columns, before = i ? i - 1 : tile->sides - 1, spokes = tile->inside + m;
+    if (row == 0) return sdv_side_point(tile, i, column);
+    if (column == 0) return sdv_side_point(tile, before, 2 * m - row);
+    if (row == m && column == m) return tile->inside;
+    if (column == m) return spokes + i * (m - 1) - row;
+    if (row == m) return spokes + before * (m - 1) - column;
+    return tile->inside + 1 + (tile->sides + i * (m - 1) + row - 1) * (m - 1) + column - 1;
+}
+
+// A point of the grid (of an n-gon: of its quad at vertex i). Row 0 and column 0, and what is
+// opposite, are the edges: not to be asked for if the grid has a margin.
+static int sdv_tile_point(const sdv_tile *tile, int i, int row, int column)
+{
+    int columns = tile->grid.columns, rows = tile->grid.rows;
+    if (tile->ngon) return sdv_ngon_point(tile, i, row, column);
+    if (row == 0) return sdv_side_point(tile, 0, column);
+    if (column == 0) return sdv_side_point(tile, tile->sides - 1, rows - row);
+    if (column == columns - (tile->loop ? row : 0)) return sdv_side_point(tile, 1, row);
+    if (!tile->loop && row == rows) return sdv_side_point(tile, 2, columns - column);
+    int cut = tile->loop ? row * (row - 1) / 2 : 0;
+    return tile->inside + (row - 1) * (columns - 1) - cut + column - 1;
+}
+
+// Point j of the ring along a side: from the corner of the ring at vertex 0 of that side on.
+static int sdv_ring_point(const sdv_tile *tile, int side, int j)
+{
+    int columns = tile->grid.columns, rows = tile->grid.rows, next = side + 1;
+    if (tile->ngon) {
+        if (j < columns) return sdv_ngon_point(tile, side, 1, j + 1);
+        return sdv_ngon_point(tile, next < tile->sides ? next : 0, 2 * columns - 1 - j, 1);
+    }
+    if (side == 0) return sdv_tile_point(tile, 0, 1, j + 1);
+    if (side == 1) return sdv_tile_point(tile, 0, j + 1, columns - 1 - (tile->loop ? j + 1 : 0));
+    if (tile->loop) return sdv_tile_point(tile, 0, rows - 2 - j, 1);
+    if (side == 2) return sdv_tile_point(tile, 0, rows - 1, columns - 1 - j);
+    return sdv_tile_point(tile, 0, rows - 1 - j, 1);
+}
+
+typedef struct sdv_faces_at {           // where faces are written, or if NULL, counted
+    int  triangles;                     // quads are cut
+    int *vertices;
+    int *sizes;                         // or NULL: all the same
+    size_t faces, face_vertices;
+} sdv_faces_at;
+
+static void sdv_put_face(sdv_faces_at *out, int size, const int *v)
+{
+    for (int i = 0; i < size && out->vertices; i++) out->vertices[out->face_vertices + (size_t)i] = v[i];
+    if (out->sizes) out->sizes[out->faces] = size;
+    out->faces++;
+    out->face_vertices += (size_t)size;
+}
+
+static void sdv_put_triangle(sdv_faces_at *out, int a, int b, int c)
+{
+    int v[3] = { a, b, c };
+    sdv_put_face(out, 3, v);
+}
+
+static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
+{
+    int v[4] = { a, b, c, d };
+    if (!out->triangles) {
+        sdv_put_face(out, 4, v);
+        return;
+    }
+    sdv_put_triangle(out, a, b, c);
+    sdv_put_triangle(out, a, c, d);
+}
+
+// A row of faces between columns first and last of its lower points:
+//
+//     d c        quads a b c d; or triangles a b d, and c d b turned by half, with none at the end
+//     a b
+static void sdv_put_row(const sdv_tile *tile, int i, int row, int first, int last,
+                        sdv_faces_at *out)
+{
+    int a = sdv_tile_point(tile, i, row, first), d = sdv_tile_point(tile, i, row + 1, first);
+    for (int column = first + 1; column <= last; column++) {
+        int b = sdv_tile_point(tile, i, row, column), c = -1;
+        if (!tile->loop || column < last) c = sdv_tile_point(tile, i, row + 1, column);
+        if (!tile->loop) sdv_put_quad(out, a, b, c, d);
+        if (tile->loop) sdv_put_triangle(out, a, b, d);
+        if (tile->loop && c >= 0) sdv_put_triangle(out, c, d, b);
+        a = b;
+        d = c;
+    }
+}
+
+static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
+{
+    int first = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
+    int far = tile->ngon ? 0 : first, last = tile->grid.columns - far;
+    for (int i = 0; i < grids; i++)
+        for (int row = first; row < tile->grid.rows - far; row++)
+            sdv_put_row(tile, i, row, first, tile->loop ? last - row : last, out);
+}
+
+// The same without their vertices.
+static void sdv_count_inside_faces(const sdv_tile *tile, sdv_faces_at *out)
+{
+    size_t columns = (size_t)tile->grid.columns, rows = (size_t)tile->grid.rows;
+    size_t margin = (size_t)tile->grid.margin, quads;
+    if (tile->ngon) quads = (size_t)tile->sides * (columns - margin) * (columns - margin);
+    else quads = (columns - 2 * margin) * (rows - 2 * margin);
+    if (tile->loop) quads = (columns - 3 * margin) * (columns - 3 * margin);
+    size_t faces = out->triangles && !tile->loop ? 2 * quads : quads, size = out->triangles ? 3 : 4;
+    for (size_t i = 0; i < faces && out->sizes; i++) out->sizes[out->faces + i] = (int)size;
+    out->faces += faces;
+    out->face_vertices += size * faces;
+}
+
+// The strip between the ring, above, and a side: whichever piece has its middle first is joined to
+// the point reached on the other line, and two at once are a quad. In halves of a piece, middle i
+// of n is 2i + 1 along the side, and those of the ring are 2 behind (in a triangle's, which is
+// narrower, 3).
+static void sdv_put_strip(const sdv_tile *tile, int side, sdv_faces_at *out)
+{
+    int pieces = sdv_edge_rate(tile, side), rate = sdv_side_rate(tile, side);
+    int ring = rate - 2 - tile->loop, a = sdv_side_point(tile, side, 0);
+    int d = sdv_ring_point(tile, side, 0);
+    for (int i = 0, j = 0; i < pieces || j < ring;) {
+        int64_t here = (2 * (int64_t)i + 1) * rate;
+        int64_t there = (2 * (int64_t)j + 3 + tile->loop) * pieces;
+        int on = i < pieces && (j == ring || here <= there);
+        int up = j < ring && (i == pieces || there <= here);
+        int b = on ? sdv_side_point(tile, side, i + 1) : a;
+        int c = up ? sdv_ring_point(tile, side, j + 1) : d;
+        if (on && up) sdv_put_quad(out, a, b, c, d);
+        else if (on) sdv_put_triangle(out, a, b, d);
+        else sdv_put_triangle(out, a, c, d);
+        a = b;
+        d = c;
+        i += on;
+        j += up;
+    }
+}
+
+static void sdv_put_strips(const sdv_tile *tile, sdv_faces_at *out)
+{
+    for (int i = 0; i < tile->sides && tile->grid.margin; i++) sdv_put_strip(tile, i, out);
+}
+
+// Where on its face a point k of rate on a side is.
+static subdiv_location sdv_side_location(const sdv_tile *tile, int side, int k, int rate)
+{
+    subdiv_location at = { 0, 0, 0, 0 };
+    float t = (float)k / (float)rate, back = (float)(rate - k) / (float)rate;
+    if (tile->ngon) {
+        int behind = k > rate - k, next = side + 1 < tile->sides ? side + 1 : 0;
+        at.corner = behind ? next : side;
+        if (behind) at.v = 2 * back;
+        else at.u = 2 * t;
+    } else if (tile->loop) {
+        at.u = side == 0 ? t : side == 1 ? back : 0;
+        at.v = side == 0 ? 0 : side == 1 ? t : back;
+    } else {
+        at.u = side == 0 ? t : side == 1 ? 1 : side == 2 ? back : 0;
+        at.v = side == 0 ? 0 : side == 1 ? t : side == 2 ? 1 : back;
+    }
+    return at;
+}
+
+// Where point k inside an n-gon is: its centre, the spokes, or the inside of its quads.
+static subdiv_location sdv_ngon_location(const sdv_tile *tile, int k)
+{
+    subdiv_location at = { 0, 0, 1, 1 };
+    int m = tile->grid.columns, line = (k - 1) / (m - 1 ? m - 1 : 1), left = k - 1 - line * (m - 1);
+    if (k == 0) return at;
+    if (line < tile->sides) {
+        at.corner = line;
+        at.v = (float)(m - 1 - left) / (float)m;
+        return at;
+    }
+    line -= tile->sides;
+    at.corner = line / (m - 1);
+    at.u = (float)(left + 1) / (float)m;
+    at.v = (float)(line % (m - 1) + 1) / (float)m;
+    return at;
+}
+
+// Where point k inside a face is. The rows of a triangle are counted from its last, of one point.
+static subdiv_location sdv_inside_location(const sdv_tile *tile, int k)
+{
+    subdiv_location at = { 0, 0, 0, 0 };
+    int columns = tile->grid.columns, rows = tile->grid.rows, row, column;
+    if (tile->ngon) return sdv_ngon_location(tile, k);
+    if (tile->loop) {
+        int64_t behind = (int64_t)(columns - 1) * (columns - 2) / 2 - 1 - k;
+        int from_last = (int)((sqrt(8 * (double)behind + 1) - 1) / 2);
+        row = columns - 2 - from_last;
+        column = columns - row - 1 - (int)(behind - (int64_t)from_last * (from_last + 1) / 2);
+    } else {
+        row = k / (columns - 1) + 1;
+        column = k % (columns - 1) + 1;
+    }
+    at.u = (float)column / (float)columns;
+    at.v = (float)row / (float)rows;
+    return at;
+}
+
+// The edge or, behind them all, the face with point p inside.
+static int sdv_find_item(const sdv_tiling *tiling, int p)
+{
+    int low = 0, high = tiling->cage->edge_count + tiling->cage->face_count;
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        if (tiling->starts[middle] <= p) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+// Where point p is evaluated; item is where to begin to look for what it is inside. Returns 0 for
+// a vertex without faces.
+static int sdv_find_location(const sdv_tiling *tiling, int *item, int p, subdiv_location *at)
+{
+    const sdv_level *cage = tiling->cage;
+    int vertex = p < cage->vertex_count, f, h, k = 0, rate = 1;
+    while (!vertex && tiling->starts[*item + 1] <= p) ++*item;
+    if (!vertex && *item >= cage->edge_count) {
+        f = *item - cage->edge_count;
+        sdv_tile tile = sdv_tile_at(tiling, f);
+        *at = sdv_inside_location(&tile, p - tile.inside);
+    } else {
+        h = tiling->home[vertex ? p : cage->vertex_count + *item];
+        if (h < 0) return 0;
+        if (!vertex) {
+            int from = cage->face_vertices[h], to = cage->face_vertices[sdv_next(cage, h)];
+            rate = tiling->edge_rates[*item];
+            k = p - tiling->starts[*item] + 1;
+            if (from > to) k = rate - k;
+        }
+        f = sdv_face_of(cage, h);
+        sdv_tile tile = sdv_tile_at(tiling, f);
+        *at = sdv_side_location(&tile, h - tile.first, k, rate);
+    }
+    at->face = tiling->number ? tiling->number[f] : f;
+    return 1;
+}
+
+// What a tessellation works on.
+typedef struct sdv_tessellator {
+    const subdiv_surface *surface;
+    const subdiv_tessellation *how;
+    const subdiv_options *opt;
+    sdv_arena  arena;
+    sdv_tiling points, uvs;
+    void      *work;                    // scratch memory of the positions
+    int        triangles;
+    size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
+    size_t    *first_face_vertex;       // [face_count + 1] face_vertices
+    subdiv_mesh mesh;                   // the result
+    int        jobs;
+} sdv_tessellator;
+
+static int sdv_user_face(const subdiv_surface *surface, int f)
+{
+    return surface->cage_face ? surface->cage_face[f] : f;
+}
+
+static void sdv_new_tiling(sdv_context *context, sdv_arena *arena, sdv_tiling *tiling,
+                           const sdv_level *cage, int loop)
+{
+    size_t edges = (size_t)cage->edge_count, faces = (size_t)cage->face_count;
+    size_t homes = (size_t)cage->vertex_count + edges;
+    tiling->cage = cage;
+    tiling->loop = loop;
+    tiling->edge_rates = SDV_NEW(context, arena, int, edges);
+    tiling->insides = SDV_NEW(context, arena, sdv_inside, faces);
+    tiling->starts = SDV_NEW(context, arena, int, edges + faces + 1);
+    tiling->home = SDV_NEW(context, arena, int, homes);
+    if (context->result) return;
+    memset(tiling->starts, 0, (edges + faces + 1) * sizeof(int));
+    memset(tiling->insides, 0, faces * sizeof(sdv_inside));
+    for (size_t i = 0; i < homes; i++) tiling->home[i] = -1;
+}
+
+// Vertices and edges are evaluated on the first face that has them and is no hole, if there is one.
+static void sdv_find_homes(sdv_tiling *tiling, const unsigned char *hole)
+{
+    const sdv_level *cage = tiling->cage;
+    for (int seen = 0; seen < 2; seen++) {
+        for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
+            int f = sdv_face_of(cage, h);
+            if (hole[tiling->number ? tiling->number[f] : f] == seen) continue;
+            tiling->home[cage->face_vertices[h]] = h;
+            tiling->home[cage->vertex_count + cage->face_edges[h]] = h;
+        }
+    }
+}
+
+// Where the points stand: those inside each edge, then those inside each face. Returns how many
+// there are.
+static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
+{
+    const sdv_level *cage = tiling->cage;
+    uint64_t count = (uint64_t)cage->vertex_count;
+    for (int i = 0; i < cage->edge_count + cage->face_count && count <= INT_MAX; i++) {
+        tiling->starts[i] = (int)count;
+        if (i < cage->edge_count) {
+            count += (uint64_t)tiling->edge_rates[i] - 1;
+        } else {
+            sdv_tile tile = sdv_tile_at(tiling, i - cage->edge_count);
+            count += sdv_count_inside(&tile);
+        }
+    }
+    if (count > INT_MAX) {
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                 "these rates make more than %d vertices", INT_MAX);
+        return 0;
+    }
+    tiling->starts[cage->edge_count + cage->face_count] = (int)count;
+    return (int)count;
+}
+
+// Points of a tiling and, unless NULL, their normals.
+typedef struct sdv_samples {
+    const sdv_tiling *tiling;
+    const subdiv_surface *surface;
+    const void  *work;
+    int          channels;
+    const float *in;                    // the values of the cage
+    float       *points, *normals;
+    int          count, jobs;
+} sdv_samples;
+
+#define SDV_SAMPLES 128                 // at once
+
+static void sdv_sample_job(void *context, int job)
+{
+    const sdv_samples *s = (const sdv_samples *)context;
+    subdiv_location at[SDV_SAMPLES];
+    int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
+    size_t width = (size_t)s->channels;
+    for (int item = sdv_find_item(s->tiling, p), n; p < end; p += n) {
+        subdiv_derivatives out;
+        memset(&out, 0, sizeof out);
+        out.points = s->points + width * (size_t)p;
+        if (s->normals) out.normals = s->normals + width * (size_t)p;
+        for (n = 0; n < SDV_SAMPLES && p + n < end; n++)
+            if (!sdv_find_location(s->tiling, &item, p + n, &at[n])) break;
+        if (n) {
+            subdiv_evaluate_at(s->surface, s->channels, s->work, n, at, &out, NULL);
+            continue;
+        }
+        int from = s->surface->source ? s->surface->source[p] : p;      // a vertex without faces
+        memcpy(out.points, s->in + width * (size_t)from, width * sizeof(float));
+        if (out.normals) memset(out.normals, 0, width * sizeof(float));
+        n = 1;
+    }
+}
+
+static void sdv_sample(sdv_samples *samples, const subdiv_options *opt)
+{
+    samples->jobs = sdv_jobs(samples->count, 1024);
+    sdv_run(opt, sdv_sample_job, samples, samples->jobs);
+}
+
+static void *sdv_new_work(sdv_context *context, sdv_tessellator *t, const subdiv_surface *surface,
+                          int channels, const float *in)
+{
+    void *work = sdv_new(context, &t->arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, channels, in, 0, work, t->opt);
+    return work;
+}
+
+// Asks the user for the rates of edges, by their ends and middles.
+static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, const float *positions,
+                               float factor)
+{
+    sdv_tiling *tiling = &t->points;
+    const sdv_level *cage = tiling->cage;
+    size_t vertices = (size_t)cage->vertex_count, edges = (size_t)cage->edge_count;
+    float *points = SDV_NEW(context, &t->arena, float, 3 * (vertices + edges));
+    int *rates = SDV_NEW(context, &t->arena, int, edges), *given = tiling->edge_rates;
+    if (context->result) return;
+    for (int i = 0; i <= cage->edge_count + cage->face_count; i++)
+        tiling->starts[i] = cage->vertex_count + (i < cage->edge_count ? i : cage->edge_count);
+    for (int e = 0; e < cage->edge_count; e++) rates[e] = 2;
+    tiling->edge_rates = rates;
+    sdv_samples samples = { tiling, t->surface, t->work, 3, positions, points, NULL,
+                            cage->vertex_count + cage->edge_count, 1 };
+    sdv_sample(&samples, t->opt);
+    tiling->edge_rates = given;
+    sdv_multiply(points, 3 * (vertices + edges), factor);
+    for (int e = 0; e < cage->edge_count && !context->result; e++) {
+        int h = tiling->home[vertices + (size_t)e], a = cage->face_vertices[h];
+        int b = cage->face_vertices[sdv_next(cage, h)], low = a < b ? a : b;
+        int rate = t->how->edge_rate(t->how->user, e, points + 3 * (size_t)low,
+                                     points + 3 * (vertices + (size_t)e),
+                                     points + 3 * (size_t)(a + b - low));
+        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+        if (rate) given[e] = rate;
+    }
+}
+
+// The rates of edges as they are given: one by one, or by the faces that have them, or for all.
+static void sdv_set_edge_rates(sdv_context *context, sdv_tessellator *t)
+{
+    const sdv_level *cage = t->points.cage;
+    const subdiv_tessellation *how = t->how;
+    int *rates = t->points.edge_rates, e, f;
+    for (e = 0; e < cage->edge_count; e++) rates[e] = 0;
+    for (int h = 0; h < cage->face_vertex_count && how->face_rates; h++) {
+        f = sdv_user_face(t->surface, sdv_face_of(cage, h));
+        int rate = how->face_rates[f], *edge = &rates[cage->face_edges[h]];
+        if (rate > *edge) *edge = rate;
+        if (rate < 0)
+            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
+                          "face %d: the rate is %d", f, rate);
+    }
+    for (e = 0; e < cage->edge_count; e++) {
+        int rate = how->edge_rates ? how->edge_rates[e] : 0;
+        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+        if (rate) rates[e] = rate;
+        if (!rates[e]) rates[e] = how->rate ? how->rate : 1;
+    }
+}
+
+static void sdv_set_insides(sdv_tessellator *t)
+{
+    const int *rates = t->how->face_rates;
+    for (int f = 0; f < t->points.cage->face_count; f++) {
+        int rate = rates ? rates[sdv_user_face(t->surface, f)] : 0;
+        t->points.insides[f] = sdv_find_inside(sdv_tile_at(&t->points, f), rate);
+    }
+}
+
+// UVs have the rates of the faces and edges that they are on.
+static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_surface *uv = t->surface->uv;
+    const sdv_level *from = t->points.cage, *to = &uv->order.cage;
+    sdv_new_tiling(context, &t->arena, &t->uvs, to, t->points.loop);
+    t->uvs.number = SDV_NEW(context, &t->arena, int, to->face_count);
+    if (context->result) return;
+    for (int f = 0; f < from->face_count; f++) {
+        int own = uv->own_face[f], start = sdv_face_start(from, f);
+        if (own < 0) continue;
+        t->uvs.number[own] = f;
+        t->uvs.insides[own] = t->points.insides[f];
+        for (int h = sdv_face_start(to, own), i = 0; h < sdv_face_end(to, own); h++, i++)
+            t->uvs.edge_rates[to->face_edges[h]] =
+                t->points.edge_rates[from->face_edges[start + i]];
+    }
+    sdv_find_homes(&t->uvs, t->surface->hole);
+    t->mesh.uv_count = sdv_place_points(context, &t->uvs);
+}
+
+// Is the face left out of the result?
+static int sdv_is_left_out(const sdv_tessellator *t, int f)
+{
+    return t->surface->hole[f] && !(t->opt && t->opt->keep_holes);
+}
+
+// How many faces each face of the cage gets and, if they are of several sizes, which.
+static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
+{
+    int faces = t->points.cage->face_count;
+    sdv_faces_at out = { t->triangles, NULL, t->mesh.face_sizes, 0, 0 };
+    t->mesh.hole_count = 0;
+    for (int f = 0; f < faces; f++) {
+        t->first_face[f] = out.faces;
+        t->first_face_vertex[f] = out.face_vertices;
+        if (sdv_is_left_out(t, f)) continue;
+        sdv_tile tile = sdv_tile_at(&t->points, f);
+        sdv_count_inside_faces(&tile, &out);
+        sdv_put_strips(&tile, &out);
+        if (out.faces > INT_MAX) {
+            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                     "these rates make more than %d faces", INT_MAX);
+            return;
+        }
+        if (t->surface->hole[f]) t->mesh.hole_count += (int)(out.faces - t->first_face[f]);
+    }
+    t->first_face[faces] = out.faces;
+    t->first_face_vertex[faces] = out.face_vertices;
+    t->mesh.face_count = (int)out.faces;
+}
+
+// What the result will be like, all but its numbers.
+static void sdv_plan_tiles(sdv_context *context, sdv_tessellator *t)
+{
+    size_t faces = (size_t)t->points.cage->face_count;
+    t->first_face = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    t->first_face_vertex = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    t->mesh.face_sizes = NULL;
+    if (!context->result) sdv_count_tiles(context, t);
+    if (context->result) return;
+    size_t count = t->first_face[faces], face_vertices = t->first_face_vertex[faces];
+    t->mesh.face_size = t->triangles ? 3 : face_vertices == 4 * count ? 4 : 0;
+    if (t->mesh.face_size) return;
+    t->mesh.face_sizes = SDV_NEW(context, &t->arena, int, count);
+    if (!context->result) sdv_count_tiles(context, t);
+}
+
+static void sdv_tile_job(void *context, int job)
+{
+    const sdv_tessellator *t = (const sdv_tessellator *)context;
+    const subdiv_surface *uv = t->surface->uv;
+    int faces = t->points.cage->face_count, end = sdv_share(faces, job + 1, t->jobs);
+    for (int f = sdv_share(faces, job, t->jobs); f < end; f++) {
+        if (sdv_is_left_out(t, f)) continue;
+        size_t first = t->first_face[f], at = t->first_face_vertex[f];
+        sdv_faces_at out = { t->triangles, t->mesh.face_vertices, NULL, first, at };
+        sdv_tile tile = sdv_tile_at(&t->points, f);
+        sdv_put_inside(&tile, &out);
+        sdv_put_strips(&tile, &out);
+        for (size_t i = first; i < t->first_face[f + 1]; i++)
+            t->mesh.cage_faces[i] = sdv_user_face(t->surface, f);
+        if (!uv) continue;
+        sdv_faces_at seams = { t->triangles, t->mesh.face_uvs, NULL, first, at };
+        for (size_t i = at; uv->own_face[f] < 0 && i < t->first_face_vertex[f + 1]; i++)
+            t->mesh.face_uvs[i] = -1;
+        if (uv->own_face[f] < 0) continue;
+        tile = sdv_tile_at(&t->uvs, uv->own_face[f]);
+        sdv_put_inside(&tile, &seams);
+        sdv_put_strips(&tile, &seams);
+    }
+}
+
+static void sdv_make_tiles(sdv_tessellator *t)
+{
+    int *hole = t->mesh.holes, faces = t->points.cage->face_count;
+    t->jobs = sdv_jobs(faces, 1);
+    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
+    for (int f = 0; f < faces && t->mesh.hole_count; f++)
+        for (size_t i = t->first_face[f]; i < t->first_face[f + 1] && t->surface->hole[f]; i++)
+            *hole++ = (int)i;
+}
+
+// The points of the result, its UVs and colours.
+static void sdv_make_samples(sdv_context *context, sdv_tessellator *t, const float *positions)
+{
+    const subdiv_surface *surface = t->surface, *uv = surface->uv;
+    int count = t->mesh.vertex_count;
+    sdv_samples samples = { &t->points, surface, t->work, 3, positions, t->mesh.positions,
+                            t->mesh.normals, count, 1 };
+    sdv_sample(&samples, t->opt);
+    if (surface->colors) {
+        void *work = sdv_new_work(context, t, surface, 3, surface->colors);
+        sdv_samples colors = { &t->points, surface, work, 3, surface->colors, t->mesh.colors,
+                               NULL, count, 1 };
+        if (!context->result) sdv_sample(&colors, t->opt);
+    }
+    if (uv) {
+        void *work = sdv_new_work(context, t, uv, 2, surface->uvs);
+        sdv_samples uvs = { &t->uvs, uv, work, 2, surface->uvs, t->mesh.uvs, NULL,
+                            t->mesh.uv_count, 1 };
+        if (!context->result) sdv_sample(&uvs, t->opt);
+    }
+}
+
+// Statements stand before the first face of their face, or of the next one that has any.
+static void sdv_move_statements(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_mesh *from = &t->surface->fine;
+    int *faces = SDV_NEW(context, &t->arena, int, from->statement_count);
+    for (int i = 0; i < from->statement_count && !context->result; i++)
+        faces[i] = 0;
+    t->mesh.statement_faces = faces;
+}
+
+static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float *positions,
+                           float factor)
+{
+    const subdiv_surface *surface = t->surface;
+    sdv_new_tiling(context, &t->arena, &t->points, &surface->order.cage, surface->rules.loop);
+    t->work = sdv_new_work(context, t, surface, 3, positions);
+    if (context->result) return;
+    sdv_find_homes(&t->points, surface->hole);
+    sdv_set_edge_rates(context, t);
+    if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, positions, factor);
+    if (context->result) return;
+    sdv_set_insides(t);
+    subdiv_mesh made, *mesh = &t->mesh;
+    *mesh = surface->fine;
+    mesh->crease_count = mesh->corner_count = 0;
+    mesh->vertex_count = sdv_place_points(context, &t->points);
+    if (surface->uv && !context->result) sdv_tile_uvs(context, t);
+    if (!context->result) sdv_plan_tiles(context, t);
+    if (!context->result) sdv_move_statements(context, t);
+    if (!context->result) sdv_new_mesh(context, &made, mesh, SDV_LIMIT);
+    if (context->result) return;
+    *mesh = made;
+    sdv_make_tiles(t);
+    sdv_make_samples(context, t, positions);
+    sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
+    if (context->result) subdiv_mesh_free(mesh);
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
+                                                   const subdiv_surface *surface,
+                                                   const float *positions,
+                                                   const subdiv_tessellation *how,
+                                                   const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_tessellation plain;
+    sdv_tessellator t;
+    memset(&plain, 0, sizeof plain);
+    memset(&t, 0, sizeof t);
+    if (!how) how = &plain;
+    if (fine) memset(fine, 0, sizeof *fine);
+    if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (surface->is_values)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
+    else if (surface->levels != 1)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared for SUBDIV_EXACT");
+    if (how->rate < 0) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the rate is %d", how->rate);
+    if (context.result) return context.result;
+
+    t.surface = surface;
+    t.how = how;
+    t.opt = opt;
+    t.arena = sdv_scratch();
+    t.triangles = how->triangles || surface->rules.loop;
+    float factor = sdv_tame(&context, &t.arena, surface, &positions);
+    if (!context.result) sdv_tessellate(&context, &t, positions, factor);
+    if (!context.result) *fine = t.mesh;
+    sdv_arena_free(&t.arena);
+    return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
+                                           const subdiv_tessellation *how,
+                                           const subdiv_options *opt)
+{
+    subdiv_mesh out;
+    subdiv_surface *surface = NULL;
+    memset(&out, 0, sizeof out);
+    sdv_context context = sdv_begin(opt);
+    if (!fine || fine == cage)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    if (!context.result) context.result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (!context.result)
+        context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
+    subdiv_surface_free(surface);
+    if (fine && fine != cage) *fine = out;
+    return context.result;
+}
+
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
+{
+    return surface->order.cage.edge_count;
+}
+
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
+{
+    const sdv_level *cage = &surface->order.cage;
+    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        ends[2 * cage->face_edges[h]] = a < b ? a : b;
+        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
+    }
 }
 
 // ---------------------------------------------------------------------------- >>generators
@@ -8455,6 +9342,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #undef SDV_NEW
 #undef SDV_IMPLIED
 #undef SDV_CHECKED
+#undef SDV_SAMPLES
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS
