@@ -1764,6 +1764,7 @@ static int sdv_is_boundary(const sdv_level *level, int h)
 }
 
 // Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole.
+#define SDV_DROPPED 2
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
@@ -1772,7 +1773,7 @@ static void sdv_open_boundary(sdv_cage *cage)
         int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
         for (int i = 0; i < 2; i++)
             for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
-                cage->hole[sdv_face_of(level, k)] = 1;
+                cage->hole[sdv_face_of(level, k)] = SDV_DROPPED;
     }
 }
 
@@ -5430,10 +5431,12 @@ static int sdv_share(int count, int i, int jobs)
     return (int)((int64_t)count * i / jobs);
 }
 
+#define SDV_MOST_JOBS 256
+
 static int sdv_jobs(int64_t work, int64_t least)
 {
     int64_t jobs = work / least;
-    return jobs > 256 ? 256 : jobs < 1 ? 1 : (int)jobs;
+    return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
 static void sdv_input_job(void *context, int job)
@@ -6017,7 +6020,8 @@ typedef struct sdv_tiling {             // points of a cage, or of the topology 
     int        *starts;                 // [edge_count + face_count + 1] the first point inside each
     int        *home;                   // [vertex_count + edge_count] where each is evaluated: a
                                         // face-vertex, or -1
-    int        *number;                 // [face_count] of a face for subdiv_evaluate_at
+    int        *number;                 // [face_count] of a face for subdiv_evaluate_at; NULL: same
+    const unsigned char *hole;          // [faces so numbered]
 } sdv_tiling;
 
 // One face of it.
@@ -6073,7 +6077,8 @@ static sdv_inside sdv_find_inside(sdv_tile tile, int rate)
     }
     tile.grid.columns = rate ? rate : most[0];
     tile.grid.rows = rate ? rate : most[1];
-    if (tile.ngon) tile.grid.columns = tile.grid.columns / 2 + tile.grid.columns % 2;
+    if (tile.ngon && tile.grid.columns == INT_MAX) tile.grid.columns--;     // too large either way
+    if (tile.ngon) tile.grid.columns = (tile.grid.columns + 1) / 2;
     tile.grid.margin = !sdv_is_regular(&tile);
     int least = tile.grid.margin && !tile.ngon ? 2 + tile.loop : 1;
     if (tile.grid.columns < least) tile.grid.columns = least;
@@ -6386,32 +6391,35 @@ static void sdv_new_tiling(sdv_context *context, sdv_arena *arena, sdv_tiling *t
     for (size_t i = 0; i < homes; i++) tiling->home[i] = -1;
 }
 
-// Vertices and edges are evaluated on the first face that has them and is no hole, if there is one.
+// Vertices and edges are evaluated on the first face that has them and is no hole, or else on the
+// first hole.
 static void sdv_find_homes(sdv_tiling *tiling, const unsigned char *hole)
 {
     const sdv_level *cage = tiling->cage;
-    for (int seen = 0; seen < 2; seen++) {
+    tiling->hole = hole;
+    for (int kind = 1; kind >= 0; kind--) {
         for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
             int f = sdv_face_of(cage, h);
-            if (hole[tiling->number ? tiling->number[f] : f] == seen) continue;
+            if (hole[tiling->number ? tiling->number[f] : f] != kind) continue;
             tiling->home[cage->face_vertices[h]] = h;
             tiling->home[cage->vertex_count + cage->face_edges[h]] = h;
         }
     }
 }
 
-// Where the points stand: those inside each edge, then those inside each face. Returns how many
-// there are.
+// Where the points stand: those inside each edge, then those inside each face; none where there is
+// no surface. Returns how many there are.
 static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
 {
     const sdv_level *cage = tiling->cage;
     uint64_t count = (uint64_t)cage->vertex_count;
     for (int i = 0; i < cage->edge_count + cage->face_count && count <= INT_MAX; i++) {
+        int f = i - cage->edge_count;
         tiling->starts[i] = (int)count;
-        if (i < cage->edge_count) {
+        if (f < 0 && tiling->home[cage->vertex_count + i] >= 0)
             count += (uint64_t)tiling->edge_rates[i] - 1;
-        } else {
-            sdv_tile tile = sdv_tile_at(tiling, i - cage->edge_count);
+        if (f >= 0 && tiling->hole[tiling->number ? tiling->number[f] : f] != SDV_DROPPED) {
+            sdv_tile tile = sdv_tile_at(tiling, f);
             count += sdv_count_inside(&tile);
         }
     }
@@ -6433,17 +6441,19 @@ typedef struct sdv_samples {
     const float *in;                    // the values of the cage
     float       *points, *normals;
     int          count, jobs;
+    const subdiv_options *opt;          // of each job
+    subdiv_result results[SDV_MOST_JOBS];
 } sdv_samples;
 
 #define SDV_SAMPLES 128                 // at once
 
 static void sdv_sample_job(void *context, int job)
 {
-    const sdv_samples *s = (const sdv_samples *)context;
+    sdv_samples *s = (sdv_samples *)context;
     subdiv_location at[SDV_SAMPLES];
     int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
     size_t width = (size_t)s->channels;
-    for (int item = sdv_find_item(s->tiling, p), n; p < end; p += n) {
+    for (int item = sdv_find_item(s->tiling, p), n; p < end && !s->results[job]; p += n) {
         subdiv_derivatives out;
         memset(&out, 0, sizeof out);
         out.points = s->points + width * (size_t)p;
@@ -6451,7 +6461,8 @@ static void sdv_sample_job(void *context, int job)
         for (n = 0; n < SDV_SAMPLES && p + n < end; n++)
             if (!sdv_find_location(s->tiling, &item, p + n, &at[n])) break;
         if (n) {
-            subdiv_evaluate_at(s->surface, s->channels, s->work, n, at, &out, NULL);
+            s->results[job] = subdiv_evaluate_at(s->surface, s->channels, s->work, n, at, &out,
+                                                 s->opt);
             continue;
         }
         int from = s->surface->source ? s->surface->source[p] : p;      // a vertex without faces
@@ -6461,10 +6472,30 @@ static void sdv_sample_job(void *context, int job)
     }
 }
 
-static void sdv_sample(sdv_samples *samples, const subdiv_options *opt)
+// points and, unless NULL, normals become those of a surface at the first count points of a tiling.
+static void sdv_sample(sdv_context *context, const sdv_tiling *tiling,
+                       const subdiv_surface *surface, int channels, const void *work,
+                       const float *in, float *points, float *normals, int count,
+                       const subdiv_options *opt)
 {
-    samples->jobs = sdv_jobs(samples->count, 1024);
-    sdv_run(opt, sdv_sample_job, samples, samples->jobs);
+    subdiv_options alone;
+    sdv_samples s;
+    memset(&alone, 0, sizeof alone);
+    memset(&s, 0, sizeof s);
+    alone.user = context->user;
+    s.tiling = tiling;
+    s.surface = surface;
+    s.work = work;
+    s.channels = channels;
+    s.in = in;
+    s.points = points;
+    s.normals = normals;
+    s.count = count;
+    s.opt = &alone;
+    s.jobs = sdv_jobs(count, 1024);
+    if (!context->result) sdv_run(opt, sdv_sample_job, &s, s.jobs);
+    for (int i = 0; i < s.jobs; i++)
+        if (s.results[i]) sdv_fail(context, s.results[i], subdiv_result_string(s.results[i]));
 }
 
 static void *sdv_new_work(sdv_context *context, sdv_tessellator *t, const subdiv_surface *surface,
@@ -6476,33 +6507,32 @@ static void *sdv_new_work(sdv_context *context, sdv_tessellator *t, const subdiv
     return work;
 }
 
-// Asks the user for the rates of edges, by their ends and middles.
+// Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
 static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, const float *positions,
                                float factor)
 {
-    sdv_tiling *tiling = &t->points;
-    const sdv_level *cage = tiling->cage;
-    size_t vertices = (size_t)cage->vertex_count, edges = (size_t)cage->edge_count;
-    float *points = SDV_NEW(context, &t->arena, float, 3 * (vertices + edges));
-    int *rates = SDV_NEW(context, &t->arena, int, edges), *given = tiling->edge_rates;
+    sdv_tiling halves = t->points;
+    const sdv_level *cage = halves.cage;
+    halves.edge_rates = SDV_NEW(context, &t->arena, int, cage->edge_count);
+    for (int e = 0; e < cage->edge_count && !context->result; e++) halves.edge_rates[e] = 2;
+    for (int f = 0; f < cage->face_count; f++)
+        halves.insides[f].columns = halves.insides[f].rows = 1;
+    if (!context->result) sdv_place_points(context, &halves);
     if (context->result) return;
-    for (int i = 0; i <= cage->edge_count + cage->face_count; i++)
-        tiling->starts[i] = cage->vertex_count + (i < cage->edge_count ? i : cage->edge_count);
-    for (int e = 0; e < cage->edge_count; e++) rates[e] = 2;
-    tiling->edge_rates = rates;
-    sdv_samples samples = { tiling, t->surface, t->work, 3, positions, points, NULL,
-                            cage->vertex_count + cage->edge_count, 1 };
-    sdv_sample(&samples, t->opt);
-    tiling->edge_rates = given;
-    sdv_multiply(points, 3 * (vertices + edges), factor);
+    int count = halves.starts[cage->edge_count];
+    float *points = SDV_NEW(context, &t->arena, float, 3 * (size_t)count);
+    sdv_sample(context, &halves, t->surface, 3, t->work, positions, points, NULL, count, t->opt);
+    if (!context->result) sdv_multiply(points, 3 * (size_t)count, factor);
     for (int e = 0; e < cage->edge_count && !context->result; e++) {
-        int h = tiling->home[vertices + (size_t)e], a = cage->face_vertices[h];
-        int b = cage->face_vertices[sdv_next(cage, h)], low = a < b ? a : b;
+        int h = halves.home[cage->vertex_count + e];
+        if (h < 0) continue;
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        int low = a < b ? a : b, high = a + b - low;
         int rate = t->how->edge_rate(t->how->user, e, points + 3 * (size_t)low,
-                                     points + 3 * (vertices + (size_t)e),
-                                     points + 3 * (size_t)(a + b - low));
+                                     points + 3 * (size_t)halves.starts[e],
+                                     points + 3 * (size_t)high);
         if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
-        if (rate) given[e] = rate;
+        if (rate) t->points.edge_rates[e] = rate;
     }
 }
 
@@ -6562,7 +6592,8 @@ static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
 // Is the face left out of the result?
 static int sdv_is_left_out(const sdv_tessellator *t, int f)
 {
-    return t->surface->hole[f] && !(t->opt && t->opt->keep_holes);
+    int hole = t->surface->hole[f];
+    return hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes));
 }
 
 // How many faces each face of the cage gets and, if they are of several sizes, which.
@@ -6646,20 +6677,17 @@ static void sdv_make_samples(sdv_context *context, sdv_tessellator *t, const flo
 {
     const subdiv_surface *surface = t->surface, *uv = surface->uv;
     int count = t->mesh.vertex_count;
-    sdv_samples samples = { &t->points, surface, t->work, 3, positions, t->mesh.positions,
-                            t->mesh.normals, count, 1 };
-    sdv_sample(&samples, t->opt);
+    sdv_sample(context, &t->points, surface, 3, t->work, positions, t->mesh.positions,
+               t->mesh.normals, count, t->opt);
     if (surface->colors) {
         void *work = sdv_new_work(context, t, surface, 3, surface->colors);
-        sdv_samples colors = { &t->points, surface, work, 3, surface->colors, t->mesh.colors,
-                               NULL, count, 1 };
-        if (!context->result) sdv_sample(&colors, t->opt);
+        sdv_sample(context, &t->points, surface, 3, work, surface->colors, t->mesh.colors, NULL,
+                   count, t->opt);
     }
     if (uv) {
         void *work = sdv_new_work(context, t, uv, 2, surface->uvs);
-        sdv_samples uvs = { &t->uvs, uv, work, 2, surface->uvs, t->mesh.uvs, NULL,
-                            t->mesh.uv_count, 1 };
-        if (!context->result) sdv_sample(&uvs, t->opt);
+        sdv_sample(context, &t->uvs, uv, 2, work, surface->uvs, t->mesh.uvs, NULL,
+                   t->mesh.uv_count, t->opt);
     }
 }
 
@@ -9342,6 +9370,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #undef SDV_NEW
 #undef SDV_IMPLIED
 #undef SDV_CHECKED
+#undef SDV_MOST_JOBS
 #undef SDV_SAMPLES
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
