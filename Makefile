@@ -13,9 +13,9 @@ FLAGS   = -std=c99 $(CFLAGS) $(WARN) -ffp-contract=off -I.
 THREADS = -pthread
 
 TESTS    = masks order invariants patches evaluate limit recorded creases check obj errors uv \
-           memory
+           tessellate memory
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
-           07_threads make_cages
+           07_threads 08_tessellate make_cages
 
 all: build/subdiv
 

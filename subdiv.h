@@ -65,6 +65,7 @@
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
+             >>tiles     grids and strips of triangles, see >>tessellation
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
              >>numbers  >>obj-read  >>obj-write  >>cleanup
    A student needs the three sections with a star and may skip the rest.
@@ -5995,7 +5996,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     return SUBDIV_OK;
 }
 // ENDSTANDIN
-// --------------------------------------------------------------------------- >>tessellation
+// ---------------------------------------------------------------------------------- >>tiles
 // THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
 // its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
 // other polygon one quad of columns x columns pieces for each of its vertices. Where the edges cut

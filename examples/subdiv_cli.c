@@ -33,7 +33,7 @@ enum { MAX_THREADS = 256 };
 // ------------------------------------------------------------------------------ command line
 
 enum {
-    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, THREADS,
+    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, TESSELLATE, THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
     STREAM, TRIANGULATE, KEEP_HOLES, INFO, TIME, HELP, VERSION, OPTION_COUNT
 };
@@ -57,6 +57,7 @@ static const option options[OPTION_COUNT] = {
     {'u', "uv", "corners-only|corners-plus1|corners-plus2|boundaries|all|none",
      "what happens to UVs at seams and boundaries"},
     {'L', "limit", NULL, "put the points on the limit surface, with normals"},
+    {0, "tessellate", "N", "instead of levels: cut every edge into N pieces, on the limit surface"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
     {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
     {0, "crease-smoothing-groups", NULL, "make the borders of smoothing groups sharp"},
@@ -143,7 +144,7 @@ static int set_option(command *cmd, int id, const char *value)
     if (id == CREASE_ANGLE || id == CREASE_SHARPNESS) return set_number(cmd, id, value);
     int number = strcmp(o->values, "N") == 0;
     int read = number ? read_number(value) : find_name(o->values, value);
-    if (number && (read < 0 || (id == THREADS && read < 1)))
+    if (number && (read < 0 || ((id == THREADS || id == TESSELLATE) && read < 1)))
         return misused("--%s needs a whole number, not '%s'", o->name, value);
     if (read < 0) return misused("--%s is one of %s, not '%s'", o->name, o->values, value);
     cmd->given[id] = read;
@@ -190,6 +191,8 @@ static int read_command(command *cmd, int argc, char **argv)
     if (cmd->given[HELP] == 1 || cmd->given[VERSION] == 1) return DONE;
     if (cmd->given[LIMIT] == 1 && cmd->given[STREAM] == 1)
         return misused("--stream writes no normals, so not with --limit");
+    if (cmd->given[TESSELLATE] > 0 && (cmd->given[LEVELS] >= 0 || cmd->given[STREAM] == 1))
+        return misused("--tessellate has no levels and is no stream");
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
     if (cmd->given[CREASE_SHARPNESS] == 1 && cmd->given[CREASE_ANGLE] < 0 &&
         cmd->given[CREASE_GROUPS] < 0 && cmd->given[CREASE_SEAMS] < 0)
@@ -557,7 +560,11 @@ static void print_times(const work *w, int vertex_count)
 // Frees the cage and what was prepared as soon as they are no longer needed.
 static int refine_then_save(work *w, const command *cmd, const subdiv_options *opt)
 {
-    subdiv_result result = subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
+    subdiv_tessellation how = {0};
+    how.rate = cmd->given[TESSELLATE];
+    subdiv_result result = how.rate > 0
+        ? subdiv_surface_tessellate(&w->fine, w->surface, w->cage.positions, &how, opt)
+        : subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
     subdiv_surface_free(w->surface);
     w->surface = NULL;
     subdiv_mesh_free(&w->cage);
@@ -595,13 +602,14 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
         return DONE;
     }
     int levels = cmd->given[LEVELS] >= 0 ? cmd->given[LEVELS] : 1;
+    if (cmd->given[TESSELLATE] > 0) levels = SUBDIV_EXACT;
     w->start = milliseconds();
     if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report_cage(cmd, opt);
     end_step(w, "prepare");
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     int streams = cmd->given[STREAM] == 1 || (vertex_count > LARGE && !opt->limit);
     if (streams ? stream(w, cmd, opt) : refine_then_save(w, cmd, opt)) return FAILED;
-    if (timed) print_times(w, vertex_count);
+    if (timed) print_times(w, streams ? vertex_count : w->fine.vertex_count);
     return DONE;
 }
 

@@ -130,6 +130,7 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
+              --tessellate \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
               --stream --triangulate --info --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
@@ -366,6 +367,25 @@ for level in 0 1 2; do
 done
 ends 2 --limit --stream limit.obj form.obj
 says "so not with --limit"
+
+# ------------------------------------------------------------------------------------- tessellate
+
+# A cube in quads: rate 4 is the limit of level 2; 3 is what no level is.
+ends 0 --limit -l 2 limit.obj form.obj
+ends 0 --tessellate 4 limit.obj tiles.obj
+fine "--tessellate 4 has the faces of two levels" \
+    test "$(grep '^f' tiles.obj | cksum)" = "$(grep '^f' form.obj | cksum)"
+ends 0 --tessellate 3 limit.obj tiles.obj
+counts tiles.obj 56 54
+fine "--tessellate writes normals" test "$(grep -c '^vn' tiles.obj)" = 56
+ends 0 --tessellate 3 -j 3 limit.obj threads.obj
+same threads.obj tiles.obj
+ends 2 --tessellate 0 limit.obj form.obj
+says "--tessellate needs a whole number"
+ends 2 --tessellate 3 -l 2 limit.obj form.obj
+says "--tessellate has no levels"
+ends 2 --tessellate 3 --stream limit.obj form.obj
+says "is no stream"
 
 # --------------------------------------------------------------------------------------- threads
 

@@ -225,6 +225,36 @@ static subdiv_result call_limit_zero(const subdiv_mesh *cage, const subdiv_optio
     return limit_as(cage, SUBDIV_CATMULL_CLARK, 0, opt);
 }
 
+static int rate_of_edge(void *user, int edge, const float *a, const float *middle, const float *b)
+{
+    (void)user;
+    return 1 + edge % 3 + (a[0] < middle[0]) + (middle[0] < b[0]);
+}
+
+// The cage has UVs on some faces, colours, statements, and faces of all sizes.
+static subdiv_result tessellate_as(const subdiv_mesh *cage, subdiv_scheme scheme,
+                                   const subdiv_options *opt)
+{
+    subdiv_mesh mesh, other = *cage;
+    subdiv_tessellation how = {0};
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    other.scheme = scheme;
+    how.edge_rate = rate_of_edge;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_tessellate(&mesh, &other, &how, &triangulate));
+}
+
+static subdiv_result call_tessellate(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return tessellate_as(cage, SUBDIV_CATMULL_CLARK, opt);
+}
+
+static subdiv_result call_tessellate_loop(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return tessellate_as(cage, SUBDIV_LOOP, opt);
+}
+
 // For a copy of the cage; a failure has to leave it as it was.
 static subdiv_result call_normals(const subdiv_mesh *cage, const subdiv_options *opt)
 {
@@ -370,6 +400,12 @@ static void test_limit(void)
     CHECK_EQUAL(check_call(call_normals), 2);
 }
 
+static void test_tessellate(void)
+{
+    CHECK(check_call(call_tessellate) > 0);
+    CHECK(check_call(call_tessellate_loop) > 0);
+}
+
 static void test_prepare(void)
 {
     CHECK(check_call(call_prepare) > 1);
@@ -424,6 +460,7 @@ int main(void)
     RUN(test_load);
     RUN(test_refine);
     RUN(test_limit);
+    RUN(test_tessellate);
     RUN(test_prepare);
     RUN(test_inspect);
     RUN(test_creases);
