@@ -447,16 +447,6 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
-// STANDIN
-#define SUBDIV_EXACT (-1)
-typedef struct subdiv_location { int face, corner; float u, v; } subdiv_location;
-typedef struct subdiv_derivatives {
-    float *points, *du, *dv, *duu, *duv, *dvv;
-    float *normals;
-    int stride;
-} subdiv_derivatives;
-SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels, const void *scratch, int count, const subdiv_location *locations, const subdiv_derivatives *out, const subdiv_options *opt);
-// ENDSTANDIN
 // --------------------------------------------------------------------------- >>tessellation
 // A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
 // cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
@@ -467,7 +457,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 //     subdiv_tessellate(&fine, &cage, &how, &opt);
 
 // The rate of an edge, or 0: as if not asked. a, middle, b: points [3] of the edge on the limit, a
-// that of its lower-numbered vertex. Called once for each edge, in order, by the caller's thread.
+// that of its lower-numbered vertex. Called once for each edge that has a surface, in order, by the
+// caller's thread.
 typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
                                 const float *b);
 
@@ -490,23 +481,29 @@ typedef struct subdiv_tessellation {
 //
 // Its points are in THE ORDER OF THE RESULT, each edge with rate - 1 points inside. The inside of a
 // face is a grid: of a quad c x r pieces, c the larger rate of edges 0-1 and 2-3, r that of the
-// two others; of a triangle under Loop r pieces a side; of any other polygon r / 2, rounded up, a
-// side of each of its quads, r the largest rate of the edges; or in each case as face_rates says.
-// It has (c - 1) x (r - 1) points, and so on, row by row as there.
+// two others; of a triangle under Loop r pieces a side, r the largest rate of its edges; of any
+// other polygon half of that, rounded up, a side of each of its quads. Or face_rates says r, and c.
+// The grid's points are those that are not on the edges, row by row as there.
 //
-// A face whose edges are all cut as its grid is that grid, its faces as there, so that rate 2^k
-// gives the points and faces of subdiv_refine by k levels with opt->limit. (A polygon needs even
-// rates for that; at rate 1 it becomes a fan around its centre.) Any other face is the grid without
-// its outermost pieces (of which there have to be 2, in triangles 3, so the grid is made as fine as
-// that), then, side by side from edge 0-1 on, triangles and quads between the grid and the edge:
+// If the edges are all cut as the grid is, the faces are those of the grid, as there: so one rate
+// 2^k gives the points and faces of subdiv_refine by k levels with opt->limit. (A polygon that is
+// no quad needs even rates for that; at rate 1 it becomes a fan around its centre.) Otherwise the
+// grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones; behind what is
+// left stand, side by side from edge 0-1 on, triangles, and quads where two pieces are opposite:
 //
-//     o-----o-----o-----o-----o       a quad of rates 3, 4, 4, 4, so of 4 x 4 pieces: 2 x 2 in the
-//     | \   |     |     |   / |       middle; at the bottom triangles and, where the middles of two
-//     o---+-----+-----+-----o         pieces meet, quads; at the other edges quads, and triangles
-//                                     at both ends
+//     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
+//     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
+//     o---+---+---+---o       triangle
+//     |   |   |   |   |
+//     o---+---+---+---o
+//     |   |   |   |   |
+//     o---+---+---+---o
+//     | / \ /   \ / \ |
+//     o----o-----o----o
 //
-// Points of an edge are computed once, on the first face that has it; so a normal on a crease is
-// that of the surface on that side.
+// Points of vertices and edges are computed once, on the first face that has them and is no hole; so
+// a normal on a crease is that of the surface on that side. Where there is no surface, by boundary
+// "none", there are neither points nor faces.
 //
 // fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
 // Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
@@ -1765,7 +1762,6 @@ static int sdv_is_boundary(const sdv_level *level, int h)
 }
 
 // Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole.
-#define SDV_DROPPED 2
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
@@ -1774,7 +1770,7 @@ static void sdv_open_boundary(sdv_cage *cage)
         int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
         for (int i = 0; i < 2; i++)
             for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
-                cage->hole[sdv_face_of(level, k)] = SDV_DROPPED;
+                cage->hole[sdv_face_of(level, k)] = 1;
     }
 }
 
@@ -4628,7 +4624,7 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
 {
     if (surface) *surface = NULL;
     else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < -1) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
+    if (levels < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
     if (!context->result) sdv_check_mesh(context, cage);
     if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
         sdv_check_triangles(context, cage);
@@ -4642,8 +4638,6 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
     if (!context.result && cage->colors)
         sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
-    int exact = levels == -1;
-    if (levels == -1) levels = 1;
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
@@ -4653,7 +4647,6 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
         context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
-    (void)exact;
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
@@ -5968,34 +5961,6 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     return result;
 }
 
-// STANDIN
-SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels, const void *scratch, int count, const subdiv_location *locations, const subdiv_derivatives *out, const subdiv_options *opt)
-{
-    const float *w = (const float *)scratch;
-    const sdv_level *cage = &surface->order.cage;
-    (void)opt;
-    for (int i = 0; i < count; i++) {
-        int f = locations[i].face;
-        if (surface->own_face) f = surface->own_face[f];
-        int start = sdv_face_start(cage, f), size = sdv_face_end(cage, f) - start, k = locations[i].corner;
-        float u = locations[i].u, v = locations[i].v;
-        for (int c = 0; c < channels; c++) {
-            float x[4], middle = 0;
-            for (int j = 0; j < size; j++) middle += w[4 * cage->face_vertices[start + j] + c] / (float)size;
-#define AT(j) w[4 * cage->face_vertices[start + ((j) + size) % size] + c]
-            if (surface->rules.loop) {
-                out->points[i * channels + c] = AT(0) * (1 - u - v) + AT(1) * u + AT(2) * v;
-                continue;
-            }
-            for (int j = 0; j < 4; j++) x[j] = size == 4 ? AT(j) : 0;
-            if (size != 4) { x[0] = AT(k); x[1] = (AT(k) + AT(k + 1)) / 2; x[2] = middle; x[3] = (AT(k) + AT(k - 1)) / 2; }
-            out->points[i * channels + c] = (x[0] * (1 - u) + x[1] * u) * (1 - v) + (x[3] * (1 - u) + x[2] * u) * v;
-        }
-        for (int c = 0; c < channels && out->normals; c++) out->normals[i * channels + c] = c == 0;
-    }
-    return SUBDIV_OK;
-}
-// ENDSTANDIN
 // ---------------------------------------------------------------------------------- >>tiles
 // THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
 // its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
@@ -6080,11 +6045,11 @@ static sdv_inside sdv_find_inside(sdv_tile tile, int rate)
     tile.grid.rows = rate ? rate : most[1];
     if (tile.ngon && tile.grid.columns == INT_MAX) tile.grid.columns--;     // too large either way
     if (tile.ngon) tile.grid.columns = (tile.grid.columns + 1) / 2;
-    tile.grid.margin = !sdv_is_regular(&tile);
-    int least = tile.grid.margin && !tile.ngon ? 2 + tile.loop : 1;
+    int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
     if (tile.grid.columns < least) tile.grid.columns = least;
     if (tile.grid.rows < least) tile.grid.rows = least;
     if (tile.loop || tile.ngon) tile.grid.rows = tile.grid.columns;
+    tile.grid.margin = !sdv_is_regular(&tile);
     return tile.grid;
 }
 
@@ -6161,7 +6126,8 @@ typedef struct sdv_faces_at {           // where faces are written, or if NULL, 
 
 static void sdv_put_face(sdv_faces_at *out, int size, const int *v)
 {
-    for (int i = 0; i < size && out->vertices; i++) out->vertices[out->face_vertices + (size_t)i] = v[i];
+    for (int i = 0; i < size && out->vertices; i++)
+        out->vertices[out->face_vertices + (size_t)i] = v[i];
     if (out->sizes) out->sizes[out->faces] = size;
     out->faces++;
     out->face_vertices += (size_t)size;
@@ -6698,7 +6664,7 @@ static void sdv_move_statements(sdv_context *context, sdv_tessellator *t)
     const subdiv_mesh *from = &t->surface->fine;
     int *faces = SDV_NEW(context, &t->arena, int, from->statement_count);
     for (int i = 0; i < from->statement_count && !context->result; i++)
-        faces[i] = 0;
+        faces[i] = (int)t->first_face[from->statement_faces[i]];
     t->mesh.statement_faces = faces;
 }
 
@@ -6746,7 +6712,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else if (surface->is_values)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
-    else if (surface->levels != 1)
+    else if (!surface->exact)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared for SUBDIV_EXACT");
     if (how->rate < 0) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the rate is %d", how->rate);
     if (context.result) return context.result;
