@@ -17,7 +17,7 @@ static void  heap_free(void *pointer, void *user);
 
 // ------------------------------------------------------------------------- the allocator's books
 
-enum { HEAP_BLOCKS = 256 };
+enum { HEAP_BLOCKS = 1024 };
 
 typedef struct heap {
     int    calls, fail_at;            // call number fail_at fails; 0: none
@@ -231,7 +231,7 @@ static int rate_of_edge(void *user, int edge, const float *a, const float *middl
     return 1 + edge % 3 + (a[0] < middle[0]) + (middle[0] < b[0]);
 }
 
-// The cage has UVs on some faces, colours, statements, and faces of all sizes.
+// The first faces of the cage, with UVs, colours and statements.
 static subdiv_result tessellate_as(const subdiv_mesh *cage, subdiv_scheme scheme,
                                    const subdiv_options *opt)
 {
@@ -240,6 +240,9 @@ static subdiv_result tessellate_as(const subdiv_mesh *cage, subdiv_scheme scheme
     subdiv_options triangulate = *opt;
     triangulate.triangulate = 1;
     other.scheme = scheme;
+    other.face_count = 40;
+    other.crease_count = other.corner_count = other.statement_count = 5;
+    other.hole_count = 1;
     how.edge_rate = rate_of_edge;
     memset(&mesh, 0x55, sizeof mesh);
     return keep_nothing(&mesh, subdiv_tessellate(&mesh, &other, &how, &triangulate));
@@ -248,6 +251,25 @@ static subdiv_result tessellate_as(const subdiv_mesh *cage, subdiv_scheme scheme
 static subdiv_result call_tessellate(const subdiv_mesh *cage, const subdiv_options *opt)
 {
     return tessellate_as(cage, SUBDIV_CATMULL_CLARK, opt);
+}
+
+// Evaluation at a vertex with so many faces takes memory of its own.
+static subdiv_result call_tessellate_fan(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    enum { FACES = 90 };
+    static int triangles[3 * FACES];
+    subdiv_mesh mesh, fan = {0};
+    for (int i = 0; i < FACES; i++) {
+        triangles[3 * i + 1] = 1 + i;
+        triangles[3 * i + 2] = 1 + (i + 1) % FACES;
+    }
+    fan.vertex_count = 1 + FACES;
+    fan.positions = cage->positions;
+    fan.face_count = FACES;
+    fan.face_size = 3;
+    fan.face_vertices = triangles;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_tessellate(&mesh, &fan, NULL, opt));
 }
 
 static subdiv_result call_tessellate_loop(const subdiv_mesh *cage, const subdiv_options *opt)
@@ -404,6 +426,7 @@ static void test_tessellate(void)
 {
     CHECK(check_call(call_tessellate) > 0);
     CHECK(check_call(call_tessellate_loop) > 0);
+    CHECK(check_call(call_tessellate_fan) > 0);
 }
 
 static void test_prepare(void)

@@ -455,7 +455,8 @@ static void test_powers_of_two(void)
         random_cage *c = random_cage_new(seed, RANDOM_ALL);
         snprintf(name, sizeof name, "seed %u", seed);
         test_context = name;
-        c->mesh.crease_count = 0;                     // semi-sharp ones would have to fade first
+        c->mesh.crease_count = 0;                     // what is semi-sharp would have to fade first
+        for (int i = 0; i < c->mesh.corner_count; i++) c->corner_sharpness[i] = SUBDIV_INFINITE;
         if (c->mesh.boundary == SUBDIV_BOUNDARY_NONE) c->mesh.boundary = SUBDIV_BOUNDARY_EDGE;
         check_power(&c->mesh, 1 + (int)(seed % 3), seed % 2);
         random_cage_free(c);
