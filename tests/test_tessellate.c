@@ -418,7 +418,7 @@ static double furthest(const float *a, const float *b, int count)
 }
 
 // Rate 2^k is the limit of k levels: the same points at the same places, the same faces.
-static void check_power(const subdiv_mesh *cage, int levels, int keep_holes)
+static void check_power(const subdiv_mesh *cage, int levels, int keep_holes, int normals)
 {
     subdiv_mesh fine, refined;
     subdiv_options opt = {0};
@@ -444,6 +444,8 @@ static void check_power(const subdiv_mesh *cage, int levels, int keep_holes)
     }
     if (same) CHECK_NEAR(furthest(fine.positions, refined.positions, 3 * fine.vertex_count), 0,
                          1e-6 * extent(cage));
+    if (same && normals)
+        CHECK_NEAR(furthest(fine.normals, refined.normals, 3 * fine.vertex_count), 0, 1e-4);
     subdiv_mesh_free(&fine);
     subdiv_mesh_free(&refined);
 }
@@ -458,8 +460,26 @@ static void test_powers_of_two(void)
         c->mesh.crease_count = 0;                     // what is semi-sharp would have to fade first
         for (int i = 0; i < c->mesh.corner_count; i++) c->corner_sharpness[i] = SUBDIV_INFINITE;
         if (c->mesh.boundary == SUBDIV_BOUNDARY_NONE) c->mesh.boundary = SUBDIV_BOUNDARY_EDGE;
-        check_power(&c->mesh, 1 + (int)(seed % 3), seed % 2);
+        check_power(&c->mesh, 1 + (int)(seed % 3), seed % 2, 0);
         random_cage_free(c);
+    }
+}
+
+// Where there are no folds, the same normals, too.
+static void test_normals(void)
+{
+    for (int levels = 1; levels <= 3; levels++) {
+        test_cage c;
+        build_torus(&c, SUBDIV_CATMULL_CLARK, 5, 7);
+        check_power(&c.mesh, levels, 0, 1);
+        build_torus(&c, SUBDIV_LOOP, 6, 5);
+        check_power(&c.mesh, levels, 0, 1);
+        build_prism(&c, 5);
+        check_power(&c.mesh, levels, 0, 1);
+        build_icosahedron(&c, SUBDIV_LOOP);
+        check_power(&c.mesh, levels, 0, 1);
+        build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 4);
+        check_power(&c.mesh, levels, 0, 1);
     }
 }
 
@@ -554,6 +574,31 @@ static void test_data_follows(void)
         subdiv_mesh_free(&fine);
     }
     CHECK_EQUAL(without, 4 * 5 * 5);
+}
+
+// UVs at the vertices are where many levels take them, seams and all.
+static void test_uv_limit(void)
+{
+    char name[40];
+    int tried = 0;
+    for (unsigned seed = 1; seed <= 60; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_mesh *m = &c->mesh, fine, far;
+        snprintf(name, sizeof name, "seed %u", seed);
+        test_context = name;
+        m->crease_count = m->corner_count = 0;
+        if (m->boundary == SUBDIV_BOUNDARY_NONE) m->boundary = SUBDIV_BOUNDARY_EDGE;
+        if (m->uv_count && m->face_count < 40) {
+            CHECK_EQUAL(subdiv_tessellate(&fine, m, NULL, NULL), SUBDIV_OK);
+            CHECK_EQUAL(subdiv_refine(&far, m, 6, NULL), SUBDIV_OK);
+            CHECK_NEAR(furthest(fine.uvs, far.uvs, 2 * m->uv_count), 0, 3e-3);
+            subdiv_mesh_free(&fine);
+            subdiv_mesh_free(&far);
+            tried++;
+        }
+        random_cage_free(c);
+    }
+    CHECK(tried > 10);
 }
 
 // A statement stands before the first part of its face, or of the next one that has any.
@@ -975,8 +1020,10 @@ int main(void)
 {
     RUN(test_random_cages);
     RUN(test_powers_of_two);
+    RUN(test_normals);
     RUN(test_straight_uvs);
     RUN(test_data_follows);
+    RUN(test_uv_limit);
     RUN(test_statements);
     RUN(test_rates);
     RUN(test_edges);
