@@ -7665,32 +7665,60 @@ static int sdv_find_item(const sdv_tiling *tiling, int p)
     return low;
 }
 
-// Where point p is evaluated; item is where to begin to look for what it is inside. Returns 0 for
-// a vertex without faces.
-static int sdv_find_location(const sdv_tiling *tiling, int *item, int p, subdiv_location *at)
+// Where the points are, one after the other: in a vertex, an edge or, behind them all, a face.
+typedef struct sdv_cursor {
+    int item;                           // edge or face
+    int vertex;                         // or vertex; -1: none
+    int h, rate;                        // of the edge or vertex, where it is evaluated
+    sdv_tile tile;                      // the face there
+    int number;                         // of it, for subdiv_evaluate_at
+} sdv_cursor;
+
+// Takes the cursor to what point p is in. There is no face at a vertex without one: h is -1.
+static void sdv_move_cursor(const sdv_tiling *tiling, sdv_cursor *at, int p)
 {
     const sdv_level *cage = tiling->cage;
-    int vertex = p < cage->vertex_count, f, h, k = 0, rate = 1;
-    while (!vertex && tiling->starts[*item + 1] <= p) ++*item;
-    if (!vertex && *item >= cage->edge_count) {
-        f = *item - cage->edge_count;
-        sdv_tile tile = sdv_tile_at(tiling, f);
-        *at = sdv_inside_location(&tile, p - tile.inside);
-    } else {
-        h = tiling->home[vertex ? p : cage->vertex_count + *item];
-        if (h < 0) return 0;
-        if (!vertex) {
-            int from = cage->face_vertices[h], to = cage->face_vertices[sdv_next(cage, h)];
-            rate = tiling->edge_rates[*item];
-            k = p - tiling->starts[*item] + 1;
-            if (from > to) k = rate - k;
-        }
-        f = sdv_face_of(cage, h);
-        sdv_tile tile = sdv_tile_at(tiling, f);
-        *at = sdv_side_location(&tile, h - tile.first, k, rate);
+    int f = at->item - cage->edge_count;
+    at->vertex = p < cage->vertex_count ? p : -1;
+    while (at->vertex < 0 && tiling->starts[at->item + 1] <= p) f = ++at->item - cage->edge_count;
+    if (at->vertex >= 0 || f < 0) {
+        at->h = tiling->home[at->vertex >= 0 ? p : cage->vertex_count + at->item];
+        at->rate = at->vertex >= 0 ? 1 : tiling->edge_rates[at->item];
+        if (at->h < 0) return;
+        f = sdv_face_of(cage, at->h);
     }
-    at->face = tiling->number ? tiling->number[f] : f;
-    return 1;
+    at->tile = sdv_tile_at(tiling, f);
+    at->number = tiling->number ? tiling->number[f] : f;
+}
+
+static subdiv_location sdv_cursor_location(const sdv_tiling *tiling, const sdv_cursor *at, int p)
+{
+    const sdv_level *cage = tiling->cage;
+    subdiv_location location;
+    int k = p - tiling->starts[at->item] + 1, side = at->h - at->tile.first;
+    if (at->vertex >= 0) {
+        location = sdv_side_location(&at->tile, side, 0, 1);
+    } else if (at->item < cage->edge_count) {
+        int from = cage->face_vertices[at->h], to = cage->face_vertices[sdv_next(cage, at->h)];
+        location = sdv_side_location(&at->tile, side, from > to ? at->rate - k : k, at->rate);
+    } else {
+        location = sdv_inside_location(&at->tile, k - 1);
+    }
+    location.face = at->number;
+    return location;
+}
+
+// The locations of points p and on, at most count, up to a vertex without faces; returns how many.
+static int sdv_find_locations(const sdv_tiling *tiling, sdv_cursor *at, int p, int count,
+                              subdiv_location *out)
+{
+    for (int i = 0; i < count; i++, p++) {
+        if (p < tiling->cage->vertex_count || at->vertex >= 0 || tiling->starts[at->item + 1] <= p)
+            sdv_move_cursor(tiling, at, p);
+        if (at->vertex >= 0 && at->h < 0) return i;
+        out[i] = sdv_cursor_location(tiling, at, p);
+    }
+    return count;
 }
 
 // What a tessellation works on.
@@ -7792,13 +7820,17 @@ static void sdv_sample_job(void *context, int job)
     subdiv_location at[SDV_SAMPLES];
     int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
     size_t width = (size_t)s->channels;
-    for (int item = sdv_find_item(s->tiling, p), n; p < end && !s->results[job]; p += n) {
+    sdv_cursor cursor;
+    memset(&cursor, 0, sizeof cursor);
+    cursor.item = sdv_find_item(s->tiling, p);
+    cursor.vertex = p;                  // to be moved
+    for (int n; p < end && !s->results[job]; p += n) {
         subdiv_derivatives out;
         memset(&out, 0, sizeof out);
         out.points = s->points + width * (size_t)p;
         if (s->normals) out.normals = s->normals + width * (size_t)p;
-        for (n = 0; n < SDV_SAMPLES && p + n < end; n++)
-            if (!sdv_find_location(s->tiling, &item, p + n, &at[n])) break;
+        n = end - p < SDV_SAMPLES ? end - p : SDV_SAMPLES;
+        n = sdv_find_locations(s->tiling, &cursor, p, n, at);
         if (n) {
             s->results[job] = subdiv_evaluate_at(s->surface, s->channels, s->work, n, at, &out,
                                                  s->opt);
