@@ -553,9 +553,9 @@ typedef struct subdiv_tessellation {
 //     | / \ /   \ / \ |
 //     o----o-----o----o
 //
-// Points of vertices and edges are computed once, on the first face that has them and is no hole; so
+// Points of vertices and edges are computed once, on the first face that has them and is no hole:
 // a normal on a crease is that of the surface on that side. Where there is no surface, by boundary
-// "none", there are neither points nor faces.
+// "none", there are neither points nor faces, but for the vertices.
 //
 // fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
 // Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
@@ -7751,6 +7751,14 @@ static int sdv_find_locations(const sdv_tiling *tiling, sdv_cursor *at, int p, i
     return count;
 }
 
+// Values that are evaluated: what subdiv_evaluate_at needs.
+typedef struct sdv_source {
+    const subdiv_surface *surface;
+    int          channels;
+    const float *in;
+    void        *work;
+} sdv_source;
+
 // What a tessellation works on.
 typedef struct sdv_tessellator {
     const subdiv_surface *surface;
@@ -7758,7 +7766,7 @@ typedef struct sdv_tessellator {
     const subdiv_options *opt;
     sdv_arena  arena;
     sdv_tiling points, uvs;
-    void      *work;                    // scratch memory of the positions
+    sdv_source positions;
     int        triangles;
     size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
     size_t    *first_face_vertex;       // [face_count + 1] face_vertices
@@ -7829,17 +7837,24 @@ static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
     return (int)count;
 }
 
-// Points of a tiling and, unless NULL, their normals.
+static sdv_source sdv_begin_source(sdv_context *context, sdv_tessellator *t,
+                                   const subdiv_surface *surface, int channels, const float *in)
+{
+    sdv_source source = { surface, channels, in, NULL };
+    source.work = sdv_new(context, &t->arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, channels, in, 0, source.work, t->opt);
+    return source;
+}
+
+// The first count points of a tiling and, unless NULL, their normals.
 typedef struct sdv_samples {
     const sdv_tiling *tiling;
-    const subdiv_surface *surface;
-    const void  *work;
-    int          channels;
-    const float *in;                    // the values of the cage
-    float       *points, *normals;
-    int          count, jobs;
-    const subdiv_options *opt;          // of each job
-    subdiv_result results[SDV_MOST_JOBS];
+    const sdv_source *source;
+    float *points, *normals;
+    int    count, jobs;
+    subdiv_options alone;               // those of a job
+    subdiv_result  results[SDV_MOST_JOBS];
 } sdv_samples;
 
 #define SDV_SAMPLES 128                 // at once
@@ -7847,9 +7862,11 @@ typedef struct sdv_samples {
 static void sdv_sample_job(void *context, int job)
 {
     sdv_samples *s = (sdv_samples *)context;
+    const subdiv_surface *surface = s->source->surface;
     subdiv_location at[SDV_SAMPLES];
     int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
-    size_t width = (size_t)s->channels;
+    int channels = s->source->channels;
+    size_t width = (size_t)channels;
     sdv_cursor cursor;
     memset(&cursor, 0, sizeof cursor);
     cursor.item = sdv_find_item(s->tiling, p);
@@ -7862,55 +7879,36 @@ static void sdv_sample_job(void *context, int job)
         n = end - p < SDV_SAMPLES ? end - p : SDV_SAMPLES;
         n = sdv_find_locations(s->tiling, &cursor, p, n, at);
         if (n) {
-            s->results[job] = subdiv_evaluate_at(s->surface, s->channels, s->work, n, at, &out,
-                                                 s->opt);
+            s->results[job] = subdiv_evaluate_at(surface, channels, s->source->work, n, at, &out,
+                                                 &s->alone);
             continue;
         }
-        int from = s->surface->source ? s->surface->source[p] : p;      // a vertex without faces
-        memcpy(out.points, s->in + width * (size_t)from, width * sizeof(float));
+        int from = surface->source ? surface->source[p] : p;    // a vertex without faces
+        memcpy(out.points, s->source->in + width * (size_t)from, width * sizeof(float));
         if (out.normals) memset(out.normals, 0, width * sizeof(float));
         n = 1;
     }
 }
 
-// points and, unless NULL, normals become those of a surface at the first count points of a tiling.
-static void sdv_sample(sdv_context *context, const sdv_tiling *tiling,
-                       const subdiv_surface *surface, int channels, const void *work,
-                       const float *in, float *points, float *normals, int count,
-                       const subdiv_options *opt)
+static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sdv_tiling *tiling,
+                       const sdv_source *source, float *points, float *normals, int count)
 {
-    subdiv_options alone;
     sdv_samples s;
-    memset(&alone, 0, sizeof alone);
     memset(&s, 0, sizeof s);
-    alone.user = context->user;
     s.tiling = tiling;
-    s.surface = surface;
-    s.work = work;
-    s.channels = channels;
-    s.in = in;
+    s.source = source;
     s.points = points;
     s.normals = normals;
     s.count = count;
-    s.opt = &alone;
     s.jobs = sdv_jobs(count, 1024);
+    s.alone.user = context->user;
     if (!context->result) sdv_run(opt, sdv_sample_job, &s, s.jobs);
     for (int i = 0; i < s.jobs; i++)
         if (s.results[i]) sdv_fail(context, s.results[i], subdiv_result_string(s.results[i]));
 }
 
-static void *sdv_new_work(sdv_context *context, sdv_tessellator *t, const subdiv_surface *surface,
-                          int channels, const float *in)
-{
-    void *work = sdv_new(context, &t->arena, subdiv_scratch_size(surface, channels), 1);
-    if (!context->result)
-        context->result = subdiv_evaluate_begin(surface, channels, in, 0, work, t->opt);
-    return work;
-}
-
 // Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
-static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, const float *positions,
-                               float factor)
+static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float factor)
 {
     sdv_tiling halves = t->points;
     const sdv_level *cage = halves.cage;
@@ -7922,7 +7920,7 @@ static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, const f
     if (context->result) return;
     int count = halves.starts[cage->edge_count];
     float *points = SDV_NEW(context, &t->arena, float, 3 * (size_t)count);
-    sdv_sample(context, &halves, t->surface, 3, t->work, positions, points, NULL, count, t->opt);
+    sdv_sample(context, t->opt, &halves, &t->positions, points, NULL, count);
     if (!context->result) sdv_multiply(points, 3 * (size_t)count, factor);
     for (int e = 0; e < cage->edge_count && !context->result; e++) {
         int h = halves.home[cage->vertex_count + e];
@@ -8074,21 +8072,19 @@ static void sdv_make_tiles(sdv_tessellator *t)
 }
 
 // The points of the result, its UVs and colours.
-static void sdv_make_samples(sdv_context *context, sdv_tessellator *t, const float *positions)
+static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
 {
     const subdiv_surface *surface = t->surface, *uv = surface->uv;
-    int count = t->mesh.vertex_count;
-    sdv_sample(context, &t->points, surface, 3, t->work, positions, t->mesh.positions,
-               t->mesh.normals, count, t->opt);
+    subdiv_mesh *mesh = &t->mesh;
+    sdv_sample(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
+               mesh->vertex_count);
     if (surface->colors) {
-        void *work = sdv_new_work(context, t, surface, 3, surface->colors);
-        sdv_sample(context, &t->points, surface, 3, work, surface->colors, t->mesh.colors, NULL,
-                   count, t->opt);
+        sdv_source colors = sdv_begin_source(context, t, surface, 3, surface->colors);
+        sdv_sample(context, t->opt, &t->points, &colors, mesh->colors, NULL, mesh->vertex_count);
     }
     if (uv) {
-        void *work = sdv_new_work(context, t, uv, 2, surface->uvs);
-        sdv_sample(context, &t->uvs, uv, 2, work, surface->uvs, t->mesh.uvs, NULL,
-                   t->mesh.uv_count, t->opt);
+        sdv_source uvs = sdv_begin_source(context, t, uv, 2, surface->uvs);
+        sdv_sample(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
     }
 }
 
@@ -8107,11 +8103,11 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
 {
     const subdiv_surface *surface = t->surface;
     sdv_new_tiling(context, &t->arena, &t->points, &surface->order.cage, surface->rules.loop);
-    t->work = sdv_new_work(context, t, surface, 3, positions);
+    t->positions = sdv_begin_source(context, t, surface, 3, positions);
     if (context->result) return;
     sdv_find_homes(&t->points, surface->hole);
     sdv_set_edge_rates(context, t);
-    if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, positions, factor);
+    if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
     if (context->result) return;
     sdv_set_insides(t);
     subdiv_mesh made, *mesh = &t->mesh;
@@ -8125,7 +8121,7 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     if (context->result) return;
     *mesh = made;
     sdv_make_tiles(t);
-    sdv_make_samples(context, t, positions);
+    sdv_make_samples(context, t);
     sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
     if (context->result) subdiv_mesh_free(mesh);
 }
