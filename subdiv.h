@@ -3075,8 +3075,8 @@ static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
         row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
 }
 
-// The strip from segment first to last of level c. A smooth one is its own segment, another a part of
-// the patch's.
+// The strip from segment first to last of level c. A smooth one is its own segment, another a part
+// of the patch's.
 static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
 {
     sdv_strip *strip = &strips->items[strips->count++];
@@ -3176,8 +3176,8 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
     return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
 }
 
-// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp creases
-// that go straight on, or end at the middle of an edge that stays. Everything else is rough.
+// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
+// creases that go straight on, or end where a crease that stays runs across. All else is rough.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
     int sharp = 0, stay = 0, last = 0, dependent = level->partner && level->partner[v] >= 0;
