@@ -2240,50 +2240,47 @@ static int sdv_is_ngon(const sdv_order *order, int f)
 
 // The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
 // vertex and, of a quad, the one before are seen from their other ends.
-static sdv_grid sdv_face_grid(const sdv_order *order, int h)
+static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
-    sdv_grid grid;
-    grid.size = order->n;
-    grid.triangle = order->loop;
-    grid.inside = sdv_first_inside(order, sdv_face_of(&order->cage, h));
-    for (int i = 0; i <= last; i++) grid.corner[i] = v[i];
-    grid.side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
-    grid.side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
-    grid.side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
-    grid.side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
-    return grid;
+    grid->size = order->n;
+    grid->triangle = order->loop;
+    grid->inside = sdv_first_inside(order, f);
+    for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
+    grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
+    grid->side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
+    grid->side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
+    grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
 // The quad at face-vertex h of an n-gon: vertex, middle of the edge, centre, middle of the edge
 // before. The second half of that edge is seen backwards.
-static sdv_grid sdv_ngon_grid(const sdv_order *order, int h)
+static void sdv_ngon_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
-    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), m = order->m;
+    int start = sdv_face_start(cage, f), m = order->m;
     int size = sdv_face_end(cage, f) - start, before = sdv_previous(cage, h);
     int centre = sdv_first_inside(order, f), spokes = centre + m;   // backwards from its edge
-    sdv_grid grid;
-    grid.size = m;
-    grid.triangle = 0;
-    grid.inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
-    grid.side[0] = sdv_edge_side(order, h, 0);
-    grid.side[3] = sdv_edge_side(order, before, 1);
-    grid.side[1].first = spokes + (h - start) * (m - 1);
-    grid.side[2].first = spokes + (before - start) * (m - 1);
-    grid.side[1].step = grid.side[2].step = -1;
-    grid.corner[0] = cage->face_vertices[h];
-    grid.corner[1] = grid.side[0].first + grid.side[0].step * m;
-    grid.corner[2] = centre;
-    grid.corner[3] = grid.side[3].first + grid.side[3].step * m;
-    return grid;
+    grid->size = m;
+    grid->triangle = 0;
+    grid->inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
+    grid->side[0] = sdv_edge_side(order, h, 0);
+    grid->side[3] = sdv_edge_side(order, before, 1);
+    grid->side[1].first = spokes + (h - start) * (m - 1);
+    grid->side[2].first = spokes + (before - start) * (m - 1);
+    grid->side[1].step = grid->side[2].step = -1;
+    grid->corner[0] = cage->face_vertices[h];
+    grid->corner[1] = grid->side[0].first + grid->side[0].step * m;
+    grid->corner[2] = centre;
+    grid->corner[3] = grid->side[3].first + grid->side[3].step * m;
 }
 
-static sdv_grid sdv_grid_at(const sdv_order *order, int h)
+static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
-    return sdv_is_ngon(order, sdv_face_of(&order->cage, h)) ? sdv_ngon_grid(order, h)
-                                                            : sdv_face_grid(order, h);
+    int f = sdv_face_of(&order->cage, h);
+    if (sdv_is_ngon(order, f)) sdv_ngon_grid(order, f, h, grid);
+    else sdv_face_grid(order, f, h, grid);
 }
 
 static int sdv_side_index(const sdv_grid *grid, int side, int t)
@@ -2340,16 +2337,14 @@ typedef struct sdv_row {
     int size, left, right;              // columns 0 to size
 } sdv_row;
 
-static sdv_row sdv_grid_points(const sdv_grid *grid, int row)
+static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
 {
     const int *corner = grid->corner;
     int n = grid->size, first = row == 0, last = row == n, top = grid->triangle ? 2 : 3;
-    sdv_row points;
-    points.size = grid->triangle ? n - row : n;
-    points.line = sdv_grid_line(grid, row);
-    points.left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
-    points.right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
-    return points;
+    points->size = grid->triangle ? n - row : n;
+    points->line = sdv_grid_line(grid, row);
+    points->left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
+    points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
 }
 
 // The fine faces between two rows of points, low and high: quads a b c d.
@@ -2404,7 +2399,9 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
 static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
 {
-    sdv_row low = sdv_grid_points(grid, row), high = sdv_grid_points(grid, row + 1);
+    sdv_row low, high;
+    sdv_grid_points(grid, row, &low);
+    sdv_grid_points(grid, row + 1, &high);
     return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
@@ -2414,7 +2411,8 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
     for (int h = start; h < start + grids; h++) {
-        sdv_grid grid = sdv_grid_at(order, h);
+        sdv_grid grid;
+        sdv_grid_at(order, h, &grid);
         for (int row = 0; row < grid.size; row++) out = sdv_grid_faces(&grid, row, out);
     }
     return out;
@@ -3930,7 +3928,7 @@ static void sdv_aim(sdv_targets *targets, int f)
     if (!level->places) return;
     targets->place = level->places[f];
     if (targets->place.h != targets->h)
-        targets->grid = sdv_grid_at(targets->order, targets->h = targets->place.h);
+        sdv_grid_at(targets->order, targets->h = targets->place.h, &targets->grid);
 }
 
 // So far from vertex 0, in segments of the last level.
@@ -4176,7 +4174,7 @@ static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
     for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
         sdv_place place = level->places[f];
         if (!level->core[f]) continue;
-        if (place.h != h_grid) grid = sdv_grid_at(&surface->order, h_grid = place.h);
+        if (place.h != h_grid) sdv_grid_at(&surface->order, h_grid = place.h, &grid);
         sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
         for (int i = 0; i < size; i++) {
             int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
@@ -5146,7 +5144,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
         const int *points = patches->points + width * (size_t)i;
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         if (!order->loop && n == 2 && !surface->rules.limit) {
             sdv_put_nine(out, &grid, patch, points, linear, work);
             continue;
@@ -5303,7 +5301,7 @@ static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *
     sdv_polynomial q, rise;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         sdv_patch_polynomial(surface, patches, i, work, &q);
         sdv_across_rows(&q, &rise);
         for (int r = 0; r <= n; r++) sdv_put_limit_row(out, &grid, patch, &q, &rise, n, r);
@@ -8252,9 +8250,10 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
         for (int g = 0; g < grids; g++) {
-            sdv_grid grid = sdv_grid_at(order, start + g), uv_grid = grid;
+            sdv_grid grid, uv_grid;
+            sdv_grid_at(order, start + g, &grid);
             if (own >= 0)
-                uv_grid = sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g);
+                sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
             for (int i = 0; i < grid.size && !out->context->result; i++) {
                 int count = (int)(sdv_grid_faces(&grid, i, row) - row) / size;
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, uvs);
