@@ -1503,58 +1503,78 @@ static int sdv_joins(const sdv_level *level, int h, int a, int b)
     return (from == a && to == b) || (from == b && to == a);
 }
 
-// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence.
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of ends
+// with as many the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
-    return level->vertex_faces[a] <= level->vertex_faces[b] ? a : b;
+    int more = level->vertex_faces[a] - level->vertex_faces[b];
+    return more < 0 || (more == 0 && a < b) ? a : b;
 }
 
-// Takes h as one more of the ring of edge e, which starts at first and ends at last, and returns
-// the new last. A face has an edge once: its later ones are left for edges of their own, -2.
-static int sdv_join_edge(sdv_cage *cage, int e, int first, int last, int h)
+typedef struct sdv_listed_edge {        // at its smaller end
+    int other;                          // the other end
+    int next;                           // the next edge there, or -1
+    int last;                           // the last face-vertex of its ring so far
+} sdv_listed_edge;
+
+// Edge e begins with face-vertex h; alone: and ends with it.
+static void sdv_new_edge(sdv_cage *cage, int h, int alone)
+{
+    int e = cage->level.edge_count++;
+    cage->level.face_edges[h] = e;
+    cage->level.edge_first[e] = h;
+    cage->level.across[h] = h;
+    cage->edge_nonmanifold[e] = (unsigned char)alone;
+}
+
+// Takes h as one more of the ring of edge e, behind the last one.
+static void sdv_join_edge(sdv_cage *cage, int e, int last, int h)
 {
     sdv_level *level = &cage->level;
-    if (h <= first || level->face_edges[h] != -1) return last;
-    if (sdv_face_of(level, h) == sdv_face_of(level, last)) {
-        int before = first, later = h > last ? h : last;
-        cage->edge_nonmanifold[e] = 1;
-        level->face_edges[later] = -2;
-        if (later == h) return last;
-        while (level->across[before] != last) before = level->across[before];
-        last = before;
-    }
+    int first = level->across[last];
     if (last != first || level->face_vertices[h] == level->face_vertices[first])
         cage->edge_nonmanifold[e] = 1;
     level->face_edges[h] = e;
     level->across[last] = h;
     level->across[h] = first;
-    return h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
-// ends are the same vertex, or when one face has it twice: then each time is an edge of its own.
-static void sdv_cage_edges(sdv_cage *cage)
+// ends are the same vertex, or when one face has it twice: then each later time is an edge of its
+// own.
+static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
-    for (int h = 0; h < level->face_vertex_count; h++) level->face_edges[h] = -1;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (level->face_edges[h] >= 0) continue;
-        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
-        int e = level->edge_count++, last = h, alone = a == b || level->face_edges[h] == -2;
-        level->face_edges[h] = e;
-        level->edge_first[e] = h;
-        level->across[h] = h;
-        cage->edge_nonmanifold[e] = (unsigned char)alone;
-        if (alone) continue;
-        int v = sdv_smaller_end(level, a, b), other = a + b - v;
-        for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
-            int p = sdv_previous(level, k);
-            if (level->face_vertices[p] == other) last = sdv_join_edge(cage, e, h, last, p);
-            if (level->face_vertices[sdv_next(level, k)] == other)
-                last = sdv_join_edge(cage, e, h, last, k);
+    sdv_arena scratch = sdv_scratch();
+    int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
+    sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        for (int h = start; h < end; h++) {
+            int a = level->face_vertices[h], b = level->face_vertices[h + 1 < end ? h + 1 : start];
+            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
+            while (e >= 0 && edges[e].other != other) e = edges[e].next;
+            if (a == b) {
+                sdv_new_edge(cage, h, 1);
+            } else if (e < 0) {
+                e = level->edge_count;
+                edges[e].other = other;
+                edges[e].next = listed[v];
+                edges[e].last = h;
+                listed[v] = e;
+                sdv_new_edge(cage, h, 0);
+            } else if (edges[e].last >= start) {
+                cage->edge_nonmanifold[e] = 1;
+                sdv_new_edge(cage, h, 1);
+            } else {
+                sdv_join_edge(cage, e, edges[e].last, h);
+                edges[e].last = h;
+            }
         }
     }
+    sdv_arena_free(&scratch);
 }
 
 // The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
@@ -1627,21 +1647,6 @@ static int sdv_is_fan(const sdv_level *level, int v)
     }
     for (h = first; level->across[h] != h; met++) h = sdv_next(level, level->across[h]);
     return met == level->vertex_faces[v];
-}
-
-static void sdv_find_nonmanifold_vertices(sdv_cage *cage)
-{
-    const sdv_level *level = &cage->level;
-    unsigned char *nonmanifold = cage->vertex_nonmanifold;
-    memset(nonmanifold, 0, (size_t)level->vertex_count);
-    for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (!cage->edge_nonmanifold[e]) continue;
-        nonmanifold[level->face_vertices[h]] = 1;
-        nonmanifold[level->face_vertices[sdv_next(level, h)]] = 1;
-    }
-    for (int v = 0; v < level->vertex_count; v++)
-        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
 }
 
 static void sdv_sharpen_edge(sdv_level *level, int e, float sharpness)
@@ -1728,23 +1733,25 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
+    unsigned char *nonmanifold = cage->vertex_nonmanifold;
+    memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (level->sharpness[h] < SUBDIV_INFINITE &&
-            (cage->edge_nonmanifold[e] || sdv_is_boundary(level, h)))
+        int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
+        if (level->sharpness[h] <= 0 && !odd && !sdv_is_boundary(level, h)) continue;
+        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+        if (odd) nonmanifold[a] = nonmanifold[b] = 1;
+        if (level->sharpness[h] < SUBDIV_INFINITE && (odd || sdv_is_boundary(level, h)))
             sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
+        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
         if (level->vertex_sharpness[v] >= SUBDIV_INFINITE) continue;
         int single = boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER && level->vertex_faces[v] == 1 &&
                      sdv_count_edges_at(cage, v).count == 2;
-        if (single || (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
+        if (single || (nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
             level->vertex_sharpness[v] = SDV_IMPLIED;
     }
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (level->sharpness[h] > 0)
-            level->creased[level->face_vertices[h]] =
-                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // Faces, as face-vertices; starts and faces of face-vertices where sizes are not all 3 or all 4.
@@ -1795,8 +1802,8 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     for (int h = 0; h < level->face_vertex_count; h++)
         level->vertex_faces[level->face_vertices[h]]++;
     sdv_level_lists(level);
-    sdv_cage_edges(cage);
-    sdv_find_nonmanifold_vertices(cage);
+    sdv_cage_edges(context, cage);
+    if (context->result) return;
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
     sdv_user_sharpness(context, scratch, cage, mesh);
@@ -3833,6 +3840,7 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
 {
     if (cage->vertex_faces[v] == 0) return 1;
     if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
+    if (!cage->creased[v] && cage->vertex_sharpness[v] <= 0) return 0;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
