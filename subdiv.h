@@ -1473,11 +1473,12 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
 // Lists the face-vertices at each vertex, in rising order.
 static void sdv_level_lists(sdv_level *level)
 {
-    for (int v = 0; v < level->vertex_count; v++) level->vertex_first[v] = -1;
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next;
+    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
     for (int h = level->face_vertex_count - 1; h >= 0; h--) {
-        int *first = &level->vertex_first[level->face_vertices[h]];
-        level->vertex_next[h] = *first;
-        *first = h;
+        next[h] = first[vertices[h]];
+        first[vertices[h]] = h;
     }
 }
 
@@ -1517,26 +1518,22 @@ typedef struct sdv_listed_edge {        // at its smaller end
     int last;                           // the last face-vertex of its ring so far
 } sdv_listed_edge;
 
-// Edge e begins with face-vertex h; alone: and ends with it.
-static void sdv_new_edge(sdv_cage *cage, int h, int alone)
+// An edge begins with face-vertex h.
+static int sdv_new_edge(sdv_level *level, int h)
 {
-    int e = cage->level.edge_count++;
-    cage->level.face_edges[h] = e;
-    cage->level.edge_first[e] = h;
-    cage->level.across[h] = h;
-    cage->edge_nonmanifold[e] = (unsigned char)alone;
+    int e = level->edge_count++;
+    level->face_edges[h] = e;
+    level->edge_first[e] = h;
+    level->across[h] = h;
+    return e;
 }
 
 // Takes h as one more of the ring of edge e, behind the last one.
-static void sdv_join_edge(sdv_cage *cage, int e, int last, int h)
+static void sdv_join_edge(sdv_level *level, int e, int last, int h)
 {
-    sdv_level *level = &cage->level;
-    int first = level->across[last];
-    if (last != first || level->face_vertices[h] == level->face_vertices[first])
-        cage->edge_nonmanifold[e] = 1;
     level->face_edges[h] = e;
+    level->across[h] = level->across[last];
     level->across[last] = h;
-    level->across[h] = first;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
@@ -1546,6 +1543,7 @@ static void sdv_join_edge(sdv_cage *cage, int e, int last, int h)
 static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
+    const int *vertices = level->face_vertices;
     sdv_arena scratch = sdv_scratch();
     int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
     sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
@@ -1553,23 +1551,23 @@ static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
     for (int f = 0; f < level->face_count && !context->result; f++) {
         int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
         for (int h = start; h < end; h++) {
-            int a = level->face_vertices[h], b = level->face_vertices[h + 1 < end ? h + 1 : start];
+            int a = vertices[h], b = vertices[h + 1 < end ? h + 1 : start];
             int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
             while (e >= 0 && edges[e].other != other) e = edges[e].next;
             if (a == b) {
-                sdv_new_edge(cage, h, 1);
+                cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
             } else if (e < 0) {
-                e = level->edge_count;
+                e = sdv_new_edge(level, h);
                 edges[e].other = other;
                 edges[e].next = listed[v];
                 edges[e].last = h;
                 listed[v] = e;
-                sdv_new_edge(cage, h, 0);
             } else if (edges[e].last >= start) {
-                cage->edge_nonmanifold[e] = 1;
-                sdv_new_edge(cage, h, 1);
+                cage->edge_nonmanifold[e] = cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
             } else {
-                sdv_join_edge(cage, e, edges[e].last, h);
+                int first = level->edge_first[e], last = edges[e].last;
+                if (last != first || vertices[first] == a) cage->edge_nonmanifold[e] = 1;
+                sdv_join_edge(level, e, last, h);
                 edges[e].last = h;
             }
         }
@@ -1798,6 +1796,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
+    memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
     memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
     for (int h = 0; h < level->face_vertex_count; h++)
         level->vertex_faces[level->face_vertices[h]]++;
@@ -3205,23 +3204,29 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
 
 static void sdv_mark_edge(sdv_level *level, int h)
 {
+    unsigned char *done = level->edge_done;
+    const int *across = level->across;
     int k = h;
-    do level->edge_done[k] = 1;
-    while ((k = level->across[k]) != h);
+    do done[k] = 1;
+    while ((k = across[k]) != h);
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
 // has an edge or vertex writes its points, unless a level before did.
 static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h, owned = 0;
+    const int *vertices = level->face_vertices + h;
+    unsigned char *edges = level->edge_done + h, *done = level->vertex_done;
     for (int i = 0; i < size; i++) {
-        unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
-        int bit = size == 3 && i == 2 ? 3 : i, k = h + i;
-        patch->owned |= (unsigned char)(!level->edge_done[k] << bit | !*vertex << (4 + bit));
-        *vertex = 1;
-        sdv_mark_edge(level, k);
+        int bit = size == 3 && i == 2 ? 3 : i, v = vertices[i];
+        owned |= !done[v] << (4 + bit);
+        done[v] = 1;
+        if (edges[i]) continue;
+        owned |= 1 << bit;
+        sdv_mark_edge(level, h + i);
     }
+    patch->owned = (unsigned char)owned;
 }
 
 // The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
@@ -5363,12 +5368,13 @@ static void sdv_input_job(void *context, int job)
     const sdv_evaluation *e = (const sdv_evaluation *)context;
     int v = sdv_share(e->surface->cage_vertex_count, job, e->jobs);
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
-    for (; v < end; v++) {
-        int from = e->surface->source ? e->surface->source[v] : v;
-        const float *in = e->in + e->in_stride * (size_t)from;
-        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++) {
-            float *group = e->work + (size_t)(c / 4) * 4 * (size_t)e->surface->work_count;
-            group[4 * (size_t)v + (size_t)(c & 3)] = c < e->channels ? in[c] : 0;
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = e->channels - c;
+        float *out = e->work + (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
+        for (int i = v; i < end; i++, out += 4) {
+            int from = e->surface->source ? e->surface->source[i] : i;
+            const float *in = e->in + e->in_stride * (size_t)from + c;
+            for (int k = 0; k < 4; k++) out[k] = k < lanes ? in[k] : 0;
         }
     }
 }
@@ -5806,8 +5812,8 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     size_t count = 3 * (size_t)surface->cage_vertex_count;
     int huge = 0;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
-    for (size_t i = 0; i < count && !context->result && surface->levels > 0; i++)
-        huge |= fabs((double)(*positions)[i]) > FLT_MAX / 4096;
+    if (context->result || surface->levels == 0) return 1;
+    for (size_t i = 0; i < count; i++) huge |= fabsf((*positions)[i]) > FLT_MAX / 4096;
     if (!huge) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
