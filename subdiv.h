@@ -2686,18 +2686,23 @@ typedef struct sdv_split {
     int vertex_points, face_points, edge_points, faces;
 } sdv_split;
 
+// What face points need, and what the next level needs besides.
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
-    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     memset(split, 0, sizeof *split);
-    sdv_reserve(context, arena, 8 * ((size_t)level->face_vertex_count + vertices + faces) + 1024);
     split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
-    split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
     split->face = SDV_NEW(context, arena, int, level->face_count);
+}
+
+static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                           sdv_split *split)
+{
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
+    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
+    split->vertex = SDV_NEW(context, arena, int, vertices);
     split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
-    split->child = SDV_NEW(context, arena, int,
-                           (size_t)level->face_vertex_count + (size_t)level->face_count);
+    split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
 }
 
 static void sdv_find_active(const sdv_level *level, sdv_split *split)
@@ -2710,13 +2715,26 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
     }
 }
 
+// Numbers the face points, of the faces that have an active vertex, from first on.
+static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
+{
+    int next = first;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - first;
+}
+
 // Numbers the children: each face-vertex has one where its vertex is active, and knows the
 // face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
 // that all descendants have their parent's orientation, and so with triangles; of any other polygon
 // it becomes vertex 0. The middle child of a triangle is there for two active vertices.
 static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
 {
-    int face = 0, point = 0, size = loop ? 3 : 4;
+    int face = 0, size = loop ? 3 : 4;
     for (int f = 0; f < level->face_count; f++) {
         int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
         int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
@@ -2727,20 +2745,17 @@ static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
             active++;
         }
         if (loop) child[3] = active >= 2 ? size * face++ : -1;
-        split->face[f] = active && !loop ? point++ : -1;
     }
     split->faces = face;
-    split->face_points = point;
 }
 
-// Numbers what the next level will have: vertex points, face points, edge points.
-static void sdv_number_points(const sdv_level *level, sdv_split *split)
+// Numbers what the next level will have: vertex points, face points (none under Loop), edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
 {
     int next = 0;
     for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
     split->vertex_points = next;
-    for (int f = 0; f < level->face_count; f++)
-        if (split->face[f] >= 0) split->face[f] += next;
+    if (!loop) sdv_number_face_points(level, split, next);
     next += split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++) {
         if (!sdv_is_edge(level, h)) continue;
@@ -2764,7 +2779,7 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         next->vertex_done[point] = level->vertex_done[v];
         next->vertex_faces[point] = level->vertex_faces[v];
     }
-    for (int f = 0; f < level->face_count; f++) {
+    for (int f = 0; f < level->face_count && !rules->loop; f++) {
         int point = split->face[f];
         if (point < 0) continue;
         next->vertex_sharpness[point] = 0;
@@ -3887,9 +3902,9 @@ static size_t sdv_row_blocks(int rows)
 // Face points become work points: behind the vertex points of the next level, or alone if the
 // next level is the last.
 static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_split *split,
-                           int last, sdv_writer *writer, sdv_step *step)
+                           sdv_writer *writer, sdv_step *step)
 {
-    int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
+    int next = level->first_point + level->vertex_count;
     size_t size = 0;
     for (int f = 0; f < level->face_count; f++)
         if (split->face[f] >= 0)
@@ -4252,11 +4267,13 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     sdv_split_new(context, &scratch, level, &split);
+    if (!last) sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
         sdv_find_active(level, &split);
-        sdv_number_faces(level, &split, rules->loop);
-        sdv_number_points(level, &split);
-        sdv_step_faces(surface, level, &split, last, writer, step);
+        if (!last) sdv_number_faces(level, &split, rules->loop);
+        if (!last) sdv_number_points(level, &split, rules->loop);
+        else if (!rules->loop) sdv_number_face_points(level, &split, 0);
+        if (!rules->loop) sdv_step_faces(surface, level, &split, writer, step);
         surface->work_count += split.face_points;
         if (last) sdv_last_rows(surface, level, writer);
         else sdv_step_points(surface, level, &split, writer, step);
