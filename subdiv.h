@@ -3599,6 +3599,8 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
+    sdv_arena points;                   // of what makes points alone: rows and patches
+    int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
@@ -3638,7 +3640,7 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied; under Loop cut into triangles when the options ask for it: fans
+// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for it: fans
 // around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
@@ -3651,9 +3653,10 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
         return;
     }
     if (cut) count = 3 * triangles;
-    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
-    work->face_sizes = NULL;
     if (loop) work->face_size = 3;
+    if (work->face_size) work->face_sizes = NULL;
+    if (surface->borrows && !cut) return;
+    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
     if (!work->face_size)
         work->face_sizes = SDV_NEW(context, &surface->arena, int, cage->face_count);
     if (cut) surface->cage_face = SDV_NEW(context, &surface->arena, int, triangles);
@@ -3880,7 +3883,7 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
         count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
     if (count == 0) return;
     int faces = surface->cage_face_count ? surface->cage_face_count : 1;
-    sdv_begin_result(writer, &surface->arena, &surface->copies, 3 * (size_t)count, faces);
+    sdv_begin_result(writer, &surface->points, &surface->copies, 3 * (size_t)count, faces);
     if (writer->context->result) return;
     sdv_go_to_face(writer, 0);
     for (int v = 0; v < cage->vertex_count; v++)
@@ -3909,7 +3912,7 @@ static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_
     for (int f = 0; f < level->face_count; f++)
         if (split->face[f] >= 0)
             size += 1 + (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
-    sdv_begin_rows(writer, &surface->arena, &step->faces, size,
+    sdv_begin_rows(writer, &surface->points, &step->faces, size,
                    sdv_row_blocks(split->face_points), next + split->vertex_points);
     for (int f = 0; f < level->face_count && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
@@ -3926,7 +3929,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     size_t size = 0;
     for (int v = 0; v < level->vertex_count; v++)
         if (split->active[v]) size += sdv_vertex_row_size(level, v, rules->loop);
-    sdv_begin_rows(writer, &surface->arena, &step->vertices, size,
+    sdv_begin_rows(writer, &surface->points, &step->vertices, size,
                    sdv_row_blocks(split->vertex_points), next);
     for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
         if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
@@ -3935,7 +3938,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     next += split->vertex_points + split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
-    sdv_begin_rows(writer, &surface->arena, &step->edges, size,
+    sdv_begin_rows(writer, &surface->points, &step->edges, size,
                    sdv_row_blocks(split->edge_points), next);
     for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
@@ -4036,7 +4039,7 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
     for (int h = 0; h < level->face_vertex_count; h++)
         if (!level->edge_done[h] && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
     for (int f = 0; f < level->face_count && !order->loop; f++) size += 3 * (size_t)level->rough[f];
-    sdv_begin_result(writer, &surface->arena, &surface->last, size, surface->cage_face_count);
+    sdv_begin_result(writer, &surface->points, &surface->last, size, surface->cage_face_count);
     for (int f = 0; f < level->face_count && !writer->context->result; f++)
         if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
     if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
@@ -4234,11 +4237,11 @@ static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const
     limit.known = SDV_NEW(context, &scratch, int, known);
     limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
     for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
-    sdv_begin_result(writer, &surface->arena, &surface->limit.rows, size,
+    sdv_begin_result(writer, &surface->points, &surface->limit.rows, size,
                      surface->cage_face_count);
     sdv_write_limit(&limit, surface);
-    surface->limit.masks = SDV_NEW(context, &surface->arena, sdv_limit_weights, limit.masks.count);
-    surface->limit.weights = SDV_NEW(context, &surface->arena, float, limit.weights.count);
+    surface->limit.masks = SDV_NEW(context, &surface->points, sdv_limit_weights, limit.masks.count);
+    surface->limit.weights = SDV_NEW(context, &surface->points, float, limit.weights.count);
     if (!context->result) {
         sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
                  sizeof(sdv_limit_weights));
@@ -4261,7 +4264,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
+    sdv_find_patches(context, &surface->points, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
@@ -4308,8 +4311,8 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     if (surface->rules.limit && level.face_count && !context->result)
         sdv_prepare_limit(&writer, surface, &level);
-    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
-    surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
+    surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, writer.masks.count);
+    surface->masks.weights = SDV_NEW(context, &surface->points, float, writer.weights.count);
     if (!context->result) {
         sdv_copy(surface->masks.items, sdv_items(&writer.masks), writer.masks.count,
                  sizeof(sdv_weights));
@@ -4579,8 +4582,8 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
         sdv_check_triangles(context, cage);
 }
 
-SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
-                                        int levels, const subdiv_options *opt)
+static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_mesh *cage,
+                                         int levels, int borrows, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_request(&context, surface, cage, levels, opt);
@@ -4592,13 +4595,20 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
     made->rules.limit = opt && opt->limit;
+    made->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
-        context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
+        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
+                                        int levels, const subdiv_options *opt)
+{
+    return sdv_prepare_surface(surface, cage, levels, 0, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
@@ -4632,6 +4642,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
+    sdv_arena_free(&surface->points);
     sdv_arena_free(&arena);
 }
 
@@ -5845,17 +5856,18 @@ static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surf
                                    const subdiv_options *opt)
 {
     subdiv_result result = SUBDIV_OK;
-    if (surface->uv) {
-        sdv_make_fine_faces(surface->uv, made->face_uvs, NULL, opt);
+    if (surface->uv)
         result = subdiv_evaluate(surface->uv, 2, surface->uvs, 2, made->uvs, 2, NULL, opt);
-    }
     if (surface->colors && !result)
         result = subdiv_evaluate(surface, 3, surface->colors, 3, made->colors, 3, NULL, opt);
     return result;
 }
 
-SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
-                                             const float *positions, const subdiv_options *opt)
+// once: the same surface if it makes nothing else, or NULL. What made its points is then freed
+// before the faces are written, so that both are never there together.
+static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                   subdiv_surface *once, const float *positions,
+                                   const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
@@ -5873,18 +5885,29 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
         sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
         subdiv_limit out = { made.positions, made.normals, NULL, 0 };
-        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
-        sdv_fill_holes(surface, made.holes);
         context.result = limit ?
             subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
             subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
-    if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
     sdv_arena_free(&arena);
+    if (once) sdv_arena_free(&once->points);
+    if (once && once->uv) sdv_arena_free(&once->uv->points);
+    if (!context.result) {
+        sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
+        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
+        if (surface->uv) sdv_make_fine_faces(surface->uv, made.face_uvs, NULL, opt);
+        sdv_fill_holes(surface, made.holes);
+    }
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                             const float *positions, const subdiv_options *opt)
+{
+    return sdv_make_mesh(fine, surface, NULL, positions, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
@@ -5902,8 +5925,8 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
         if (fine && fine != cage) *fine = out;
         return context.result;
     }
-    subdiv_result result = subdiv_prepare(&surface, cage, levels, opt);
-    if (!result) result = subdiv_surface_mesh(&out, surface, cage->positions, opt);
+    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, opt);
+    if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
     *fine = out;
     return result;
