@@ -1473,11 +1473,12 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
 // Lists the face-vertices at each vertex, in rising order.
 static void sdv_level_lists(sdv_level *level)
 {
-    for (int v = 0; v < level->vertex_count; v++) level->vertex_first[v] = -1;
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next;
+    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
     for (int h = level->face_vertex_count - 1; h >= 0; h--) {
-        int *first = &level->vertex_first[level->face_vertices[h]];
-        level->vertex_next[h] = *first;
-        *first = h;
+        next[h] = first[vertices[h]];
+        first[vertices[h]] = h;
     }
 }
 
@@ -1503,58 +1504,75 @@ static int sdv_joins(const sdv_level *level, int h, int a, int b)
     return (from == a && to == b) || (from == b && to == a);
 }
 
-// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence.
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of ends
+// with as many the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
-    return level->vertex_faces[a] <= level->vertex_faces[b] ? a : b;
+    int more = level->vertex_faces[a] - level->vertex_faces[b];
+    return more < 0 || (more == 0 && a < b) ? a : b;
 }
 
-// Takes h as one more of the ring of edge e, which starts at first and ends at last, and returns
-// the new last. A face has an edge once: its later ones are left for edges of their own, -2.
-static int sdv_join_edge(sdv_cage *cage, int e, int first, int last, int h)
+typedef struct sdv_listed_edge {        // at its smaller end
+    int other;                          // the other end
+    int next;                           // the next edge there, or -1
+    int last;                           // the last face-vertex of its ring so far
+} sdv_listed_edge;
+
+// An edge begins with face-vertex h.
+static int sdv_new_edge(sdv_level *level, int h)
 {
-    sdv_level *level = &cage->level;
-    if (h <= first || level->face_edges[h] != -1) return last;
-    if (sdv_face_of(level, h) == sdv_face_of(level, last)) {
-        int before = first, later = h > last ? h : last;
-        cage->edge_nonmanifold[e] = 1;
-        level->face_edges[later] = -2;
-        if (later == h) return last;
-        while (level->across[before] != last) before = level->across[before];
-        last = before;
-    }
-    if (last != first || level->face_vertices[h] == level->face_vertices[first])
-        cage->edge_nonmanifold[e] = 1;
+    int e = level->edge_count++;
     level->face_edges[h] = e;
+    level->edge_first[e] = h;
+    level->across[h] = h;
+    return e;
+}
+
+// Takes h as one more of the ring of edge e, behind the last one.
+static void sdv_join_edge(sdv_level *level, int e, int last, int h)
+{
+    level->face_edges[h] = e;
+    level->across[h] = level->across[last];
     level->across[last] = h;
-    level->across[h] = first;
-    return h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
-// ends are the same vertex, or when one face has it twice: then each time is an edge of its own.
-static void sdv_cage_edges(sdv_cage *cage)
+// ends are the same vertex, or when one face has it twice: then each later time is an edge of its
+// own.
+static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
-    for (int h = 0; h < level->face_vertex_count; h++) level->face_edges[h] = -1;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (level->face_edges[h] >= 0) continue;
-        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
-        int e = level->edge_count++, last = h, alone = a == b || level->face_edges[h] == -2;
-        level->face_edges[h] = e;
-        level->edge_first[e] = h;
-        level->across[h] = h;
-        cage->edge_nonmanifold[e] = (unsigned char)alone;
-        if (alone) continue;
-        int v = sdv_smaller_end(level, a, b), other = a + b - v;
-        for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
-            int p = sdv_previous(level, k);
-            if (level->face_vertices[p] == other) last = sdv_join_edge(cage, e, h, last, p);
-            if (level->face_vertices[sdv_next(level, k)] == other)
-                last = sdv_join_edge(cage, e, h, last, k);
+    const int *vertices = level->face_vertices;
+    sdv_arena scratch = sdv_scratch();
+    int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
+    sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        for (int h = start; h < end; h++) {
+            int a = vertices[h], b = vertices[h + 1 < end ? h + 1 : start];
+            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
+            while (e >= 0 && edges[e].other != other) e = edges[e].next;
+            if (a == b) {
+                cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else if (e < 0) {
+                e = sdv_new_edge(level, h);
+                edges[e].other = other;
+                edges[e].next = listed[v];
+                edges[e].last = h;
+                listed[v] = e;
+            } else if (edges[e].last >= start) {
+                cage->edge_nonmanifold[e] = cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else {
+                int first = level->edge_first[e], last = edges[e].last;
+                if (last != first || vertices[first] == a) cage->edge_nonmanifold[e] = 1;
+                sdv_join_edge(level, e, last, h);
+                edges[e].last = h;
+            }
         }
     }
+    sdv_arena_free(&scratch);
 }
 
 // The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
@@ -1627,21 +1645,6 @@ static int sdv_is_fan(const sdv_level *level, int v)
     }
     for (h = first; level->across[h] != h; met++) h = sdv_next(level, level->across[h]);
     return met == level->vertex_faces[v];
-}
-
-static void sdv_find_nonmanifold_vertices(sdv_cage *cage)
-{
-    const sdv_level *level = &cage->level;
-    unsigned char *nonmanifold = cage->vertex_nonmanifold;
-    memset(nonmanifold, 0, (size_t)level->vertex_count);
-    for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (!cage->edge_nonmanifold[e]) continue;
-        nonmanifold[level->face_vertices[h]] = 1;
-        nonmanifold[level->face_vertices[sdv_next(level, h)]] = 1;
-    }
-    for (int v = 0; v < level->vertex_count; v++)
-        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
 }
 
 static void sdv_sharpen_edge(sdv_level *level, int e, float sharpness)
@@ -1728,23 +1731,25 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
+    unsigned char *nonmanifold = cage->vertex_nonmanifold;
+    memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (level->sharpness[h] < SUBDIV_INFINITE &&
-            (cage->edge_nonmanifold[e] || sdv_is_boundary(level, h)))
+        int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
+        if (level->sharpness[h] <= 0 && !odd && !sdv_is_boundary(level, h)) continue;
+        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+        if (odd) nonmanifold[a] = nonmanifold[b] = 1;
+        if (level->sharpness[h] < SUBDIV_INFINITE && (odd || sdv_is_boundary(level, h)))
             sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
+        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
         if (level->vertex_sharpness[v] >= SUBDIV_INFINITE) continue;
         int single = boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER && level->vertex_faces[v] == 1 &&
                      sdv_count_edges_at(cage, v).count == 2;
-        if (single || (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
+        if (single || (nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
             level->vertex_sharpness[v] = SDV_IMPLIED;
     }
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (level->sharpness[h] > 0)
-            level->creased[level->face_vertices[h]] =
-                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // Faces, as face-vertices; starts and faces of face-vertices where sizes are not all 3 or all 4.
@@ -1791,12 +1796,13 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
+    memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
     memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
     for (int h = 0; h < level->face_vertex_count; h++)
         level->vertex_faces[level->face_vertices[h]]++;
     sdv_level_lists(level);
-    sdv_cage_edges(cage);
-    sdv_find_nonmanifold_vertices(cage);
+    sdv_cage_edges(context, cage);
+    if (context->result) return;
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
     sdv_user_sharpness(context, scratch, cage, mesh);
@@ -2240,50 +2246,47 @@ static int sdv_is_ngon(const sdv_order *order, int f)
 
 // The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
 // vertex and, of a quad, the one before are seen from their other ends.
-static sdv_grid sdv_face_grid(const sdv_order *order, int h)
+static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
-    sdv_grid grid;
-    grid.size = order->n;
-    grid.triangle = order->loop;
-    grid.inside = sdv_first_inside(order, sdv_face_of(&order->cage, h));
-    for (int i = 0; i <= last; i++) grid.corner[i] = v[i];
-    grid.side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
-    grid.side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
-    grid.side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
-    grid.side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
-    return grid;
+    grid->size = order->n;
+    grid->triangle = order->loop;
+    grid->inside = sdv_first_inside(order, f);
+    for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
+    grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
+    grid->side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
+    grid->side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
+    grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
 // The quad at face-vertex h of an n-gon: vertex, middle of the edge, centre, middle of the edge
 // before. The second half of that edge is seen backwards.
-static sdv_grid sdv_ngon_grid(const sdv_order *order, int h)
+static void sdv_ngon_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
-    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), m = order->m;
+    int start = sdv_face_start(cage, f), m = order->m;
     int size = sdv_face_end(cage, f) - start, before = sdv_previous(cage, h);
     int centre = sdv_first_inside(order, f), spokes = centre + m;   // backwards from its edge
-    sdv_grid grid;
-    grid.size = m;
-    grid.triangle = 0;
-    grid.inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
-    grid.side[0] = sdv_edge_side(order, h, 0);
-    grid.side[3] = sdv_edge_side(order, before, 1);
-    grid.side[1].first = spokes + (h - start) * (m - 1);
-    grid.side[2].first = spokes + (before - start) * (m - 1);
-    grid.side[1].step = grid.side[2].step = -1;
-    grid.corner[0] = cage->face_vertices[h];
-    grid.corner[1] = grid.side[0].first + grid.side[0].step * m;
-    grid.corner[2] = centre;
-    grid.corner[3] = grid.side[3].first + grid.side[3].step * m;
-    return grid;
+    grid->size = m;
+    grid->triangle = 0;
+    grid->inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
+    grid->side[0] = sdv_edge_side(order, h, 0);
+    grid->side[3] = sdv_edge_side(order, before, 1);
+    grid->side[1].first = spokes + (h - start) * (m - 1);
+    grid->side[2].first = spokes + (before - start) * (m - 1);
+    grid->side[1].step = grid->side[2].step = -1;
+    grid->corner[0] = cage->face_vertices[h];
+    grid->corner[1] = grid->side[0].first + grid->side[0].step * m;
+    grid->corner[2] = centre;
+    grid->corner[3] = grid->side[3].first + grid->side[3].step * m;
 }
 
-static sdv_grid sdv_grid_at(const sdv_order *order, int h)
+static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
-    return sdv_is_ngon(order, sdv_face_of(&order->cage, h)) ? sdv_ngon_grid(order, h)
-                                                            : sdv_face_grid(order, h);
+    int f = sdv_face_of(&order->cage, h);
+    if (sdv_is_ngon(order, f)) sdv_ngon_grid(order, f, h, grid);
+    else sdv_face_grid(order, f, h, grid);
 }
 
 static int sdv_side_index(const sdv_grid *grid, int side, int t)
@@ -2340,16 +2343,14 @@ typedef struct sdv_row {
     int size, left, right;              // columns 0 to size
 } sdv_row;
 
-static sdv_row sdv_grid_points(const sdv_grid *grid, int row)
+static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
 {
     const int *corner = grid->corner;
     int n = grid->size, first = row == 0, last = row == n, top = grid->triangle ? 2 : 3;
-    sdv_row points;
-    points.size = grid->triangle ? n - row : n;
-    points.line = sdv_grid_line(grid, row);
-    points.left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
-    points.right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
-    return points;
+    points->size = grid->triangle ? n - row : n;
+    points->line = sdv_grid_line(grid, row);
+    points->left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
+    points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
 }
 
 // The fine faces between two rows of points, low and high: quads a b c d.
@@ -2404,7 +2405,9 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
 static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
 {
-    sdv_row low = sdv_grid_points(grid, row), high = sdv_grid_points(grid, row + 1);
+    sdv_row low, high;
+    sdv_grid_points(grid, row, &low);
+    sdv_grid_points(grid, row + 1, &high);
     return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
@@ -2414,7 +2417,8 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
     for (int h = start; h < start + grids; h++) {
-        sdv_grid grid = sdv_grid_at(order, h);
+        sdv_grid grid;
+        sdv_grid_at(order, h, &grid);
         for (int row = 0; row < grid.size; row++) out = sdv_grid_faces(&grid, row, out);
     }
     return out;
@@ -2684,18 +2688,23 @@ typedef struct sdv_split {
     int vertex_points, face_points, edge_points, faces;
 } sdv_split;
 
+// What face points need, and what the next level needs besides.
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
-    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     memset(split, 0, sizeof *split);
-    sdv_reserve(context, arena, 8 * ((size_t)level->face_vertex_count + vertices + faces) + 1024);
     split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
-    split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
     split->face = SDV_NEW(context, arena, int, level->face_count);
+}
+
+static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                           sdv_split *split)
+{
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
+    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
+    split->vertex = SDV_NEW(context, arena, int, vertices);
     split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
-    split->child = SDV_NEW(context, arena, int,
-                           (size_t)level->face_vertex_count + (size_t)level->face_count);
+    split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
 }
 
 static void sdv_find_active(const sdv_level *level, sdv_split *split)
@@ -2708,13 +2717,26 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
     }
 }
 
+// Numbers the face points, of the faces that have an active vertex, from first on.
+static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
+{
+    int next = first;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - first;
+}
+
 // Numbers the children: each face-vertex has one where its vertex is active, and knows the
 // face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
 // that all descendants have their parent's orientation, and so with triangles; of any other polygon
 // it becomes vertex 0. The middle child of a triangle is there for two active vertices.
 static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
 {
-    int face = 0, point = 0, size = loop ? 3 : 4;
+    int face = 0, size = loop ? 3 : 4;
     for (int f = 0; f < level->face_count; f++) {
         int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
         int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
@@ -2725,20 +2747,17 @@ static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
             active++;
         }
         if (loop) child[3] = active >= 2 ? size * face++ : -1;
-        split->face[f] = active && !loop ? point++ : -1;
     }
     split->faces = face;
-    split->face_points = point;
 }
 
-// Numbers what the next level will have: vertex points, face points, edge points.
-static void sdv_number_points(const sdv_level *level, sdv_split *split)
+// Numbers what the next level will have: vertex points, face points (none under Loop), edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
 {
     int next = 0;
     for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
     split->vertex_points = next;
-    for (int f = 0; f < level->face_count; f++)
-        if (split->face[f] >= 0) split->face[f] += next;
+    if (!loop) sdv_number_face_points(level, split, next);
     next += split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++) {
         if (!sdv_is_edge(level, h)) continue;
@@ -2762,7 +2781,7 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         next->vertex_done[point] = level->vertex_done[v];
         next->vertex_faces[point] = level->vertex_faces[v];
     }
-    for (int f = 0; f < level->face_count; f++) {
+    for (int f = 0; f < level->face_count && !rules->loop; f++) {
         int point = split->face[f];
         if (point < 0) continue;
         next->vertex_sharpness[point] = 0;
@@ -3403,23 +3422,29 @@ static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_
 
 static void sdv_mark_edge(sdv_level *level, int h)
 {
+    unsigned char *done = level->edge_done;
+    const int *across = level->across;
     int k = h;
-    do level->edge_done[k] = 1;
-    while ((k = level->across[k]) != h);
+    do done[k] = 1;
+    while ((k = across[k]) != h);
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
 // has an edge or vertex writes its points, unless a level before did.
 static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h, owned = 0;
+    const int *vertices = level->face_vertices + h;
+    unsigned char *edges = level->edge_done + h, *done = level->vertex_done;
     for (int i = 0; i < size; i++) {
-        unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
-        int bit = size == 3 && i == 2 ? 3 : i, k = h + i;
-        patch->owned |= (unsigned char)(!level->edge_done[k] << bit | !*vertex << (4 + bit));
-        *vertex = 1;
-        sdv_mark_edge(level, k);
+        int bit = size == 3 && i == 2 ? 3 : i, v = vertices[i];
+        owned |= !done[v] << (4 + bit);
+        done[v] = 1;
+        if (edges[i]) continue;
+        owned |= 1 << bit;
+        sdv_mark_edge(level, h + i);
     }
+    patch->owned = (unsigned char)owned;
 }
 
 // The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
@@ -3778,6 +3803,8 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
+    sdv_arena points;                   // of what makes points alone: rows and patches
+    int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
@@ -3818,7 +3845,7 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied; under Loop cut into triangles when the options ask for it: fans
+// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for it: fans
 // around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
@@ -3831,9 +3858,10 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
         return;
     }
     if (cut) count = 3 * triangles;
-    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
-    work->face_sizes = NULL;
     if (loop) work->face_size = 3;
+    if (work->face_size) work->face_sizes = NULL;
+    if (surface->borrows && !cut) return;
+    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
     if (!work->face_size)
         work->face_sizes = SDV_NEW(context, &surface->arena, int, cage->face_count);
     if (cut) surface->cage_face = SDV_NEW(context, &surface->arena, int, triangles);
@@ -4040,6 +4068,7 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
 {
     if (cage->vertex_faces[v] == 0) return 1;
     if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
+    if (!cage->creased[v] && cage->vertex_sharpness[v] <= 0) return 0;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
@@ -4059,7 +4088,7 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
         count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
     if (count == 0) return;
     int faces = surface->cage_face_count ? surface->cage_face_count : 1;
-    sdv_begin_result(writer, &surface->arena, &surface->copies, 3 * (size_t)count, faces);
+    sdv_begin_result(writer, &surface->points, &surface->copies, 3 * (size_t)count, faces);
     if (writer->context->result) return;
     sdv_go_to_face(writer, 0);
     for (int v = 0; v < cage->vertex_count; v++)
@@ -4081,14 +4110,14 @@ static size_t sdv_row_blocks(int rows)
 // Face points become work points: behind the vertex points of the next level, or alone if the
 // next level is the last.
 static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_split *split,
-                           int last, sdv_writer *writer, sdv_step *step)
+                           sdv_writer *writer, sdv_step *step)
 {
-    int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
+    int next = level->first_point + level->vertex_count;
     size_t size = 0;
     for (int f = 0; f < level->face_count; f++)
         if (split->face[f] >= 0)
             size += 1 + (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
-    sdv_begin_rows(writer, &surface->arena, &step->faces, size,
+    sdv_begin_rows(writer, &surface->points, &step->faces, size,
                    sdv_row_blocks(split->face_points), next + split->vertex_points);
     for (int f = 0; f < level->face_count && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
@@ -4105,7 +4134,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     size_t size = 0;
     for (int v = 0; v < level->vertex_count; v++)
         if (split->active[v]) size += sdv_vertex_row_size(level, v, rules->loop);
-    sdv_begin_rows(writer, &surface->arena, &step->vertices, size,
+    sdv_begin_rows(writer, &surface->points, &step->vertices, size,
                    sdv_row_blocks(split->vertex_points), next);
     for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
         if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
@@ -4114,7 +4143,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     next += split->vertex_points + split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
-    sdv_begin_rows(writer, &surface->arena, &step->edges, size,
+    sdv_begin_rows(writer, &surface->points, &step->edges, size,
                    sdv_row_blocks(split->edge_points), next);
     for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
@@ -4135,7 +4164,7 @@ static void sdv_aim(sdv_targets *targets, int f)
     if (!level->places) return;
     targets->place = level->places[f];
     if (targets->place.h != targets->h)
-        targets->grid = sdv_grid_at(targets->order, targets->h = targets->place.h);
+        sdv_grid_at(targets->order, targets->h = targets->place.h, &targets->grid);
 }
 
 // So far from vertex 0, in segments of the last level.
@@ -4215,7 +4244,7 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
     for (int h = 0; h < level->face_vertex_count; h++)
         if (!level->edge_done[h] && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
     for (int f = 0; f < level->face_count && !order->loop; f++) size += 3 * (size_t)level->rough[f];
-    sdv_begin_result(writer, &surface->arena, &surface->last, size, surface->cage_face_count);
+    sdv_begin_result(writer, &surface->points, &surface->last, size, surface->cage_face_count);
     for (int f = 0; f < level->face_count && !writer->context->result; f++)
         if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
     if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
@@ -4361,7 +4390,7 @@ static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
     for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
         sdv_place place = level->places[f];
         if (!level->core[f]) continue;
-        if (place.h != h_grid) grid = sdv_grid_at(&surface->order, h_grid = place.h);
+        if (place.h != h_grid) sdv_grid_at(&surface->order, h_grid = place.h, &grid);
         sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
         for (int i = 0; i < size; i++) {
             int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
@@ -4393,11 +4422,11 @@ static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const
     limit.known = SDV_NEW(context, &scratch, int, known);
     limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
     for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
-    sdv_begin_result(writer, &surface->arena, &surface->limit.rows, size,
+    sdv_begin_result(writer, &surface->points, &surface->limit.rows, size,
                      surface->cage_face_count);
     sdv_write_limit(&limit, surface);
-    surface->limit.masks = SDV_NEW(context, &surface->arena, sdv_limit_weights, limit.masks.count);
-    surface->limit.weights = SDV_NEW(context, &surface->arena, float, limit.weights.count);
+    surface->limit.masks = SDV_NEW(context, &surface->points, sdv_limit_weights, limit.masks.count);
+    surface->limit.weights = SDV_NEW(context, &surface->points, float, limit.weights.count);
     if (!context->result) {
         sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
                  sizeof(sdv_limit_weights));
@@ -4420,17 +4449,19 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(writer, &surface->arena, level, rules, surface->levels - depth,
+    sdv_find_patches(writer, &surface->points, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     sdv_split_new(context, &scratch, level, &split);
+    if (!last) sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
         sdv_find_active(level, &split);
-        sdv_number_faces(level, &split, rules->loop);
-        sdv_number_points(level, &split);
-        sdv_step_faces(surface, level, &split, last, writer, step);
+        if (!last) sdv_number_faces(level, &split, rules->loop);
+        if (!last) sdv_number_points(level, &split, rules->loop);
+        else if (!rules->loop) sdv_number_face_points(level, &split, 0);
+        if (!rules->loop) sdv_step_faces(surface, level, &split, writer, step);
         surface->work_count += split.face_points;
         if (last) sdv_last_rows(surface, level, writer);
         else sdv_step_points(surface, level, &split, writer, step);
@@ -4465,9 +4496,9 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     if (surface->rules.limit && level.face_count && !context->result)
         sdv_prepare_limit(&writer, surface, &level);
-    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
-    surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
-    surface->strips = SDV_NEW(context, &surface->arena, sdv_strips, writer.strips.count);
+    surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, writer.masks.count);
+    surface->masks.weights = SDV_NEW(context, &surface->points, float, writer.weights.count);
+    surface->strips = SDV_NEW(context, &surface->points, sdv_strips, writer.strips.count);
     if (!context->result) {
         sdv_copy(surface->strips, sdv_items(&writer.strips), writer.strips.count,
                  sizeof(sdv_strips));
@@ -4739,8 +4770,8 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
         sdv_check_triangles(context, cage);
 }
 
-SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
-                                        int levels, const subdiv_options *opt)
+static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_mesh *cage,
+                                         int levels, int borrows, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_request(&context, surface, cage, levels, opt);
@@ -4752,13 +4783,20 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
     made->rules.limit = opt && opt->limit;
+    made->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
-        context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
+        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
+                                        int levels, const subdiv_options *opt)
+{
+    return sdv_prepare_surface(surface, cage, levels, 0, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
@@ -4792,6 +4830,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
+    sdv_arena_free(&surface->points);
     sdv_arena_free(&arena);
 }
 
@@ -5442,7 +5481,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         if (nine && !patch->up) {
             sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
             continue;
@@ -5605,7 +5644,7 @@ static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *
     sdv_polynomial rise;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
         for (int j = 0; j < parts.count; j++) {
             sdv_make_part(&parts, j, &part);
@@ -5663,12 +5702,13 @@ static void sdv_input_job(void *context, int job)
     const sdv_evaluation *e = (const sdv_evaluation *)context;
     int v = sdv_share(e->surface->cage_vertex_count, job, e->jobs);
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
-    for (; v < end; v++) {
-        int from = e->surface->source ? e->surface->source[v] : v;
-        const float *in = e->in + e->in_stride * (size_t)from;
-        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++) {
-            float *group = e->work + (size_t)(c / 4) * 4 * (size_t)e->surface->work_count;
-            group[4 * (size_t)v + (size_t)(c & 3)] = c < e->channels ? in[c] : 0;
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = e->channels - c;
+        float *out = e->work + (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
+        for (int i = v; i < end; i++, out += 4) {
+            int from = e->surface->source ? e->surface->source[i] : i;
+            const float *in = e->in + e->in_stride * (size_t)from + c;
+            for (int k = 0; k < 4; k++) out[k] = k < lanes ? in[k] : 0;
         }
     }
 }
@@ -6106,8 +6146,8 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     size_t count = 3 * (size_t)surface->cage_vertex_count;
     int huge = 0;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
-    for (size_t i = 0; i < count && !context->result && surface->levels > 0; i++)
-        huge |= fabs((double)(*positions)[i]) > FLT_MAX / 4096;
+    if (context->result || surface->levels == 0) return 1;
+    for (size_t i = 0; i < count; i++) huge |= fabsf((*positions)[i]) > FLT_MAX / 4096;
     if (!huge) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
@@ -6122,17 +6162,18 @@ static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surf
                                    const subdiv_options *opt)
 {
     subdiv_result result = SUBDIV_OK;
-    if (surface->uv) {
-        sdv_make_fine_faces(surface->uv, made->face_uvs, NULL, opt);
+    if (surface->uv)
         result = subdiv_evaluate(surface->uv, 2, surface->uvs, 2, made->uvs, 2, NULL, opt);
-    }
     if (surface->colors && !result)
         result = subdiv_evaluate(surface, 3, surface->colors, 3, made->colors, 3, NULL, opt);
     return result;
 }
 
-SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
-                                             const float *positions, const subdiv_options *opt)
+// once: the same surface if it makes nothing else, or NULL. What made its points is then freed
+// before the faces are written, so that both are never there together.
+static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                   subdiv_surface *once, const float *positions,
+                                   const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
@@ -6150,18 +6191,29 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
         sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
         subdiv_limit out = { made.positions, made.normals, NULL, 0 };
-        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
-        sdv_fill_holes(surface, made.holes);
         context.result = limit ?
             subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
             subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
-    if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
     sdv_arena_free(&arena);
+    if (once) sdv_arena_free(&once->points);
+    if (once && once->uv) sdv_arena_free(&once->uv->points);
+    if (!context.result) {
+        sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
+        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
+        if (surface->uv) sdv_make_fine_faces(surface->uv, made.face_uvs, NULL, opt);
+        sdv_fill_holes(surface, made.holes);
+    }
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                             const float *positions, const subdiv_options *opt)
+{
+    return sdv_make_mesh(fine, surface, NULL, positions, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
@@ -6179,8 +6231,8 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
         if (fine && fine != cage) *fine = out;
         return context.result;
     }
-    subdiv_result result = subdiv_prepare(&surface, cage, levels, opt);
-    if (!result) result = subdiv_surface_mesh(&out, surface, cage->positions, opt);
+    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, opt);
+    if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
     *fine = out;
     return result;
@@ -8558,9 +8610,10 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
         for (int g = 0; g < grids; g++) {
-            sdv_grid grid = sdv_grid_at(order, start + g), uv_grid = grid;
+            sdv_grid grid, uv_grid;
+            sdv_grid_at(order, start + g, &grid);
             if (own >= 0)
-                uv_grid = sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g);
+                sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
             for (int i = 0; i < grid.size && !out->context->result; i++) {
                 int count = (int)(sdv_grid_faces(&grid, i, row) - row) / size;
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, uvs);
