@@ -6837,13 +6837,13 @@ static uint32_t sdv_shortest(float number, int *ten)
         decimal.head += (uint64_t)twice_above;
         if (twice_above && sdv_nearest_float(&decimal) == number) break;
     }
-    for (; decimal.head % 10 == 0; decimal.head /= 10) ++*ten;
     return (uint32_t)decimal.head;
 }
 
 // digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
 static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
+    for (; digits && digits % 10 == 0; digits /= 10) ten++;
     char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
     int count = (int)(end - first), point = count + ten;    // digits before the point
     if (point > 9 || point < -4) {
@@ -6891,16 +6891,28 @@ static inline uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t num
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
-// How many of them are 0 before the first other; of 8 zeros 7.
-static inline int sdv_zeros_before(uint64_t text)
+// The first and the last of 8 digits that is not 0; one of them is.
+static inline int sdv_first_digit(uint64_t text)
 {
-    uint64_t others = ((text + 0x4f4f4f4f4f4f4f4fu) & 0x8080808080808080u) | (uint64_t)1 << 63;
+    uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
     return __builtin_ctzll(others) / 8;
 #else
-    int zeros = 0;
-    while (!(others >> 8 * zeros & 128)) zeros++;
-    return zeros;
+    int i = 0;
+    while (!(others >> 8 * i & 255)) i++;
+    return i;
+#endif
+}
+
+static inline int sdv_last_digit(uint64_t text)
+{
+    uint64_t others = text ^ 0x3030303030303030u;
+#if defined(__GNUC__)
+    return (63 - __builtin_clzll(others)) / 8;
+#else
+    int i = 7;
+    while (!(others >> 8 * i)) i--;
+    return i;
 #endif
 }
 
@@ -6928,40 +6940,40 @@ static char *sdv_write_exactly(char *p, float number)
 // A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
 // Returns where they end.
 //
-// All numbers between low and high read back as this float, and they are 1 to 10 units of 10^ten
-// apart. So at most one multiple of 10 lies between them. It has fewer digits than all others;
-// without it, the nearest multiple of 1 is the answer.
-static inline char *sdv_write_float(const sdv_figures *figures, char *p, float number)
+// All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
+// So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
+// nearest multiple of 1 is the answer. A power of 2 counts as the last number before it, plus one:
+// its gap is the one below. Above there is more room, which only matters if nothing is found.
+static inline char *sdv_write_float(const sdv_figures *figures, char *p, const float *number)
 {
     const uint64_t one = (uint64_t)1 << 36, doubt = one >> 11;
     uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    uint32_t exponent = bits >> 23 & 255, mantissa = bits & 0x7fffff;
-    uint64_t gap = figures->gaps[exponent], size = (mantissa | 0x800000) * gap;
-    uint64_t low = size - (mantissa ? gap / 2 : gap / 4), high = size + gap / 2;    // 2^n is nearer
-    uint32_t tens = (uint32_t)(low >> 36) / 10 + 1, ones = (uint32_t)((size + one / 2) >> 36);
-    uint64_t above_low = 10 * tens * one - low, below_high = high - 10 * tens * one;
-    uint32_t inside = (int64_t)below_high > 0;
+    memcpy(&bits, number, sizeof bits);
+    uint32_t exponent = (bits - 1) >> 23 & 255, mantissa = ((bits - 1) & 0x7fffff) + 0x800001;
+    uint64_t gap = figures->gaps[exponent], size = mantissa * gap, high = size + gap / 2;
+    uint32_t tens = (uint32_t)(high >> 36) / 10, ones = (uint32_t)((size + one / 2) >> 36);
+    uint64_t below_high = high - 10 * tens * one, outside = below_high - gap;
+    uint32_t inside = (uint32_t)(outside >> 63);
     *p++ = ' ';
-    if (above_low - doubt > 10 * one - 2 * doubt || below_high + doubt < 2 * doubt ||
-        inside < (mantissa == 0)) return sdv_write_exactly(p, number);      // also if gap is 0
+    if (below_high - doubt > 10 * one - 2 * doubt || outside + doubt < 2 * doubt ||
+        inside < mantissa >> 24) return sdv_write_exactly(p, *number);      // also if gap is 0
     uint32_t digits = ones ^ ((ones ^ tens) & (0 - inside));
     int ten = figures->tens[exponent] + (int)inside;
-    for (; digits % 10 == 0; digits /= 10) ten++;
 
     *p = '-';
     p += bits >> 31;
     if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
     uint64_t text = sdv_eight_digits(figures, digits);
-    int zeros = sdv_zeros_before(text), count = 8 - zeros, point = count + ten;
+    int zeros = sdv_first_digit(text), count = sdv_last_digit(text) + 1 - zeros;
+    int point = 8 - zeros + ten;
     text >>= 8 * zeros;
-    if (point >= 0 && point < count) {
+    if (point >= 0 && ten < 0) {
         *p = '0';
         sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
         p += point + (point == 0);
-        *p++ = '.';
-        sdv_store_eight(p, text >> 8 * point);
-        return p + count - point;
+        *p = '.';
+        sdv_store_eight(p + 1, text >> 8 * point);
+        return count > point ? p + 1 + count - point : p;       // 12
     }
     if (point < 0 && point >= -4) {
         memcpy(p, "0.0000", 6);
@@ -6981,10 +6993,7 @@ static inline char *sdv_write_index(const sdv_figures *figures, char *p, int num
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = 0;                          // by comparing, as neighbours have as many digits
-    if (number < 10000) zeros = sdv_zeros_before(text);
-    else if (number < 1000000) zeros = 2 + (number < 100000);
-    else if (number < 10000000) zeros = 1;
+    int zeros = number ? sdv_first_digit(text) : 7;
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
 }
@@ -8060,7 +8069,7 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
 
 static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
 {
-    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, numbers[i]);
+    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, &numbers[i]);
     return p;
 }
 
@@ -8068,10 +8077,11 @@ static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
+    const size_t length = strlen(keyword);
     for (int i = 0; i < count && !out->context->result; i++, values += width) {
         char *p = sdv_room(out);
-        *p++ = keyword[0];
-        if (keyword[1]) *p++ = keyword[1];
+        memcpy(p, keyword, 2);
+        p += length;
         p = sdv_write_floats(out->figures, p, values, width);
         if (more) p = sdv_write_floats(out->figures, p, more + 3 * (size_t)i, 3);
         *p++ = '\n';
