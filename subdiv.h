@@ -340,7 +340,11 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 // Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
 // it for positions every frame, and for whatever else the cage's vertices carry. A surface that
 // was prepared with opt->linear has the same order of points but interpolates straight, as for data
-// that must not overshoot.
+// that must not overshoot. For instance 5 weights a vertex, and a material a face:
+//
+//     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
+//     for (int f = 0; f < fine.face_count; f++)
+//         fine_material[f] = material[fine.cage_faces[f]];
 
 // What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
@@ -352,13 +356,14 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// Face-varying values: as with UVs, each vertex of each face has one of value_count values, indices
-// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They
-// are a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces
-// gives the indices of the fine faces (-1 where there are none). Value i stays value i at the
-// first vertex that has it; vertices of the cage that share it have values of their own from
-// level 1 on, behind all others. Faces whose vertices do not all have values are none of its cage
-// faces. rule says what happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
+// Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
+// more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
+// and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
+// [vertex_count] values, faces gives the indices of the fine faces (-1 where there are none). Value
+// i stays value i at the first vertex that has it; vertices of the cage that share it have values
+// of their own from level 1 on, behind all others. Faces whose vertices do not all have values are
+// none of its cage faces. rule says what happens at seams, see subdiv_uv_rule. Errors as
+// subdiv_prepare.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -544,7 +549,9 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
 //     f v/vt/vn ...                        in all forms, with negative indices, before or behind
 //                                          what it names; any number of vertices
-//     g o s usemtl mtllib                  kept as they stand, with the face that follows
+//     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
+//                                          a comment if blanks are around it: "Material #25" is a
+//                                          name
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
@@ -553,7 +560,8 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
 // The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
-// all of theirs, with one warning for all such faces. Normals are passed over, their indices too.
+// all of theirs, with one warning for those that name some vt and one for those that name none.
+// Normals are passed over, their indices too.
 // Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
 // are skipped, and how many points and lines, free-form and unknown statements were. What would
 // change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
@@ -7130,7 +7138,8 @@ typedef struct sdv_obj {
     sdv_array    ahead[2];              // of vertices, of uvs
     int          most_faces;            // with those that are skipped
     int          uv_faces;              // faces with UVs
-    int          bare_line, mixed_line; // of the first face without, and the first that has some
+    int          mixed_faces;           // with a vt at some of their vertices only
+    int          bare_line, mixed_line; // of the first face that has none, and of the first such
     int          skipped_counts[SDV_STATEMENT_KINDS], skipped_lines[SDV_STATEMENT_KINDS];
     sdv_array    tags, skipped;         // skipped: numbers of the file's faces not in the mesh
     sdv_array    ints, floats;          // of one tag
@@ -7412,8 +7421,9 @@ static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
         sdv_series_add(&obj->face_uvs, size);
         obj->uv_faces++;
     } else {
-        if (!obj->bare_line) obj->bare_line = obj->line;
-        if (uvs && !obj->mixed_line) obj->mixed_line = obj->line;
+        int *line = uvs ? &obj->mixed_line : &obj->bare_line;
+        if (*line == 0) *line = obj->line;
+        obj->mixed_faces += uvs > 0;
     }
     if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
     if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
@@ -7577,11 +7587,25 @@ static int sdv_read_tag(sdv_obj *obj, const char **at)
 
 // -------- statements
 
+// Where the comment behind a name begins: at a # between blanks, as some names are "Material #25".
+// Smoothing groups have no names, so there any # will do.
+static const char *sdv_find_comment(sdv_token keyword, const char *end)
+{
+    int any = *keyword.begin == 's';
+    for (const char *p = keyword.end; p < end; p++) {
+        if (*p != '#') continue;
+        int behind = any || p == keyword.end || sdv_is_blank(p[-1]) || sdv_is_newline(p[-1]);
+        if (behind && (any || p == keyword.end || sdv_ends_token(p + 1))) return p;
+    }
+    return end;
+}
+
 // Keeps "usemtl stone" as it stands in the file, names with blanks and all, joined where it goes on
 // in the next line. Returns what is behind.
 static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 {
-    const char *next = sdv_skip_statement(obj, keyword.end), *end = next, *p = keyword.end;
+    const char *next = sdv_skip_statement(obj, keyword.end), *p = keyword.end;
+    const char *end = obj->context->result ? p : sdv_find_comment(keyword, next);
     if (obj->context->result) return next;
     while (end > p && (sdv_is_blank(end[-1]) || sdv_is_newline(end[-1]) || sdv_continues(end - 1)))
         end--;
@@ -7858,18 +7882,19 @@ static void sdv_fill_tags(const sdv_obj *obj, subdiv_mesh *mesh)
 // A mesh has UVs if any of its faces has.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
-    int bare = obj->mesh.face_count - obj->uv_faces;
+    int bare = obj->mesh.face_count - obj->uv_faces - obj->mixed_faces;
+    if (obj->mixed_faces)
+        sdv_warn(obj->context, obj->mixed_line,
+                 "%d of %d faces have a vt at some of their vertices only: they get no UVs",
+                 obj->mixed_faces, obj->mesh.face_count);
     if (obj->uv_faces == 0) {
-        if (obj->mixed_line)
-            sdv_warn(obj->context, obj->mixed_line,
-                     "no face has a vt at each of its vertices: the UVs are skipped");
         obj->mesh.uv_count = 0;
         return;
     }
     sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
     if (bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs (a vt at each vertex)",
-                 bare, obj->mesh.face_count);
+        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare,
+                 obj->mesh.face_count);
 }
 
 static void sdv_finish_statements(sdv_obj *obj)
