@@ -2479,7 +2479,8 @@ typedef struct sdv_known_mask {
 // Writes rows.
 typedef struct sdv_writer {
     sdv_context *context;
-    sdv_array    masks, weights;        // sdv_weights, floats: grow, and are copied at the end
+    sdv_array    masks, weights;        // sdv_weights, floats: grow, and are copied at the end,
+    sdv_array    strips;                // as are sdv_strips
     sdv_known_mask  last;               // the mask of the last row
     sdv_known_mask *known;              // [SDV_KNOWN_MASKS] by their hash
     sdv_arena    arena;
@@ -2492,6 +2493,7 @@ static void sdv_writer_free(sdv_writer *writer)
 {
     sdv_array_free(&writer->masks);
     sdv_array_free(&writer->weights);
+    sdv_array_free(&writer->strips);
     sdv_arena_free(&writer->arena);
 }
 
@@ -2960,6 +2962,7 @@ typedef struct sdv_patch {
     unsigned char sharp;                // bit i: edge i is sharp
     unsigned char owned;                // which of its sides and vertices it writes, see below
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
+    unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
 } sdv_patch;
 
 // Bits of owned. A triangle's slanted side is its right one, its last vertex top left.
@@ -3000,26 +3003,194 @@ static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
     return sdv_lasts(sharpness, levels, rules) || (just && !rules->limit);
 }
 
+// A quad whose edge is semi-sharp, as the crease goes straight on with the same sharpness, is still
+// a product of curves. Across the crease, of sharpness s, the rows of control points
+//
+//     low      p0 | p1   p2   p3     the crease is row p1; high: p0   p1   p2 | p3, it is p2
+//
+// stay those of a sharp edge for c = ceil(s) levels, from where on they are a smooth B-spline's:
+// inside, those beside a mirrored row; outside, p1 + (p0 - p1) / 2^c, as the row beside the edge
+// goes half the way to it on each level; and the edge itself, p1, but for a fraction f of the
+// last level (c - 1 levels before it) that blends:
+//
+//     p1 + (1 - f)/8 (inside - 2 p1 + outside)       of level c - 1
+//
+// So the quad is cut into strips: beside the crease those of level c whose control rows it changes,
+// one segment wide (two if there is a fraction), and the rest, which does not know that the edge
+// will ever be smooth.
+typedef struct sdv_strip {
+    int   from, to;                     // segments of the last level that it covers
+    int   origin, unit;                 // its own segment: where it starts, how long it is
+    int   smooth;                       // beside a crease that is smooth by then; others: mirrored
+    float rows[4][4];                   // smooth: its control rows, as sums of the patch's
+} sdv_strip;
+
+typedef struct sdv_strips {
+    float low, high;                    // sharpness of the two edges, 0: not semi-sharp
+    int   levels, count;
+    sdv_strip items[5];
+} sdv_strips;
+
+// Point t of the control points of the level with segments of length h, as a sum of p0 to p3: the
+// polynomial of sdv_cubic.
+static void sdv_cubic_weights(double t, double h, double *w)
+{
+    double s = (1 - h * h) / 6 + t * t / 2, c = t * (t * t - h * h) / 6;
+    w[0] = s - t / 2 - c;
+    w[1] = 1 - 2 * s + 3 * c;
+    w[2] = s + t / 2 - 3 * c;
+    w[3] = c;
+}
+
+// Row i of level c while the edges are sharp, counted from the low one, as a sum of p0 to p3.
+static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
+{
+    double h = ldexp(1, -c), *w = row;
+    sdv_cubic_weights(i * h, h, w);
+    if (strips->low > 0) {                              // p0 = 2 p1 - p2
+        w[1] += 2 * w[0];
+        w[2] -= w[0];
+        w[0] = 0;
+    }
+    if (strips->high > 0) {                             // p3 = 2 p2 - p1
+        w[2] += 2 * w[3];
+        w[1] -= w[3];
+        w[3] = 0;
+    }
+}
+
+// The row outside of row p[edge], seen from inside.
+static void sdv_outside_row(int c, int edge, double *row)
+{
+    double h = ldexp(1, -c);
+    for (int k = 0; k < 4; k++) row[k] = 0;
+    row[edge] = 1 - h;
+    row[edge == 1 ? 0 : 3] = h;
+}
+
+// Row i of level c, on which the edges are smooth.
+static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
+{
+    int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
+    double s = low ? strips->low : strips->high, fraction = s - floor(s), outside[4], inside[4];
+    sdv_sharp_row(strips, c, i, row);
+    if (s <= 0 || (i > 0 && i < last)) return;
+    if (i < 0 || i > last) sdv_outside_row(c, edge, row);
+    if (i < 0 || i > last || fraction <= 0) return;
+    sdv_outside_row(c - 1, edge, outside);
+    sdv_sharp_row(strips, c - 1, low ? 1 : last / 2 - 1, inside);
+    for (int k = 0; k < 4; k++)
+        row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
+}
+
+// The strip from segment first to last of level c. A smooth one is its own segment, another a part
+// of the patch's.
+static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
+{
+    sdv_strip *strip = &strips->items[strips->count++];
+    int length = 1 << (strips->levels - c);
+    double row[4];
+    strip->smooth = smooth;
+    strip->from = first * length;
+    strip->to = (last + 1) * length;
+    strip->unit = smooth ? length : 1 << strips->levels;
+    strip->origin = smooth ? strip->from : 0;
+    for (int j = 0; j < 4 && smooth; j++) {
+        sdv_strip_row(strips, c, first + j - 1, row);
+        for (int k = 0; k < 4; k++) strip->rows[j][k] = (float)row[k];
+    }
+}
+
+// Cuts a quad, of so many levels to go. What is sharper than that is sharp on all of them.
+static sdv_strips sdv_cut_strips(float low, float high, int levels)
+{
+    double s = low > high ? low : high;
+    int lasts = s > levels, c = lasts ? 0 : (int)ceil(s), width = s > floor(s) ? 2 : 1;
+    int end = 1 << c, left = c && low > 0 ? width : 0, right = end - (c && high > 0 ? width : 0);
+    sdv_strips strips;
+    memset(&strips, 0, sizeof strips);
+    strips.low = low;
+    strips.high = high;
+    strips.levels = levels;
+    if (left > right) left = right = end;
+    for (int i = 0; i < left; i++) sdv_add_strip(&strips, c, i, i, 1);
+    if (left < right) sdv_add_strip(&strips, c, left, right - 1, 0);
+    for (int i = right; i < end; i++) sdv_add_strip(&strips, c, i, i, 1);
+    return strips;
+}
+
 // How the surface goes on at a vertex, down to the last level.
-typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_EDGED, SDV_PINNED } sdv_kind;
+typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_LINED, SDV_EDGED, SDV_PINNED } sdv_kind;
+
+// Are all faces at v of the regular size, and so many?
+static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int size)
+{
+    if (level->vertex_faces[v] != count) return 0;
+    if (level->face_size) return level->face_size == size;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        if (sdv_size_of(level, h) != size) return 0;
+    return 1;
+}
 
 // Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
 static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
 {
-    int size = rules->loop ? 3 : 4;
-    if (level->vertex_faces[v] != (rules->loop ? 6 : 4)) return SDV_ROUGH;
-    if (level->face_size) return level->face_size == size ? SDV_FREE : SDV_ROUGH;
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        if (sdv_size_of(level, h) != size) return SDV_ROUGH;
-    return SDV_FREE;
+    int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
+                              : sdv_has_regular_faces(level, v, 4, 4);
+    return regular ? SDV_FREE : SDV_ROUGH;
 }
 
-// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Everything else is rough.
+// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge. -1 if there
+// is none.
+static int sdv_around(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h), across = level->across[before];
+    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
+                                                                                       : across;
+}
+
+// Do as many faces close around the vertex of h as it has?
+static int sdv_ring_closes(const sdv_level *level, int h)
+{
+    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
+    for (int i = 1; i < faces; i++) {
+        at = sdv_around(level, at);
+        if (at < 0 || at == h) return 0;
+    }
+    return sdv_around(level, at) == h;
+}
+
+// Do two creases that cross fade each for itself? Then the blend of the vertex point, which is by
+// the mean of what ends on this level, is that of one crease, or there is none.
+static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
+{
+    int whole = a <= floorf(a) && b <= floorf(b);
+    if (a <= 0 || b <= 0 || a >= SUBDIV_INFINITE || b >= SUBDIV_INFINITE) return 1;
+    if (rules->creasing == SUBDIV_CREASING_CHAIKIN) return whole && a <= b && a >= b;
+    return whole || ceilf(a) < ceilf(b) || ceilf(a) > ceilf(b);
+}
+
+// Do creases go straight on through a regular vertex, with the same sharpness?
+static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
+{
+    int h = level->vertex_first[v];
+    float s[4];
+    if (rules->loop || level->vertex_sharpness[v] > 0) return 0;
+    if (!sdv_has_regular_faces(level, v, 4, 4) || !sdv_ring_closes(level, h)) return 0;
+    for (int i = 0; i < 4; i++, h = sdv_around(level, h)) {
+        if (level->across[level->across[h]] != h) return 0;
+        s[i] = level->sharpness[h];
+    }
+    return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
+}
+
+// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
+// creases that go straight on, or end where a crease that stays runs across. All else is rough.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
-    int sharp = 0, stay = 0, last = 0;
+    int sharp = 0, stay = 0, last = 0, dependent = level->partner && level->partner[v] >= 0;
     if (rules->linear) return SDV_FREE;
-    if (level->partner && level->partner[v] >= 0) v = level->partner[v];
+    if (dependent) v = level->partner[v];
     float s = level->vertex_sharpness[v];
     if (s <= 0 && !level->creased[v]) return sdv_smooth_kind(level, rules, v);
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
@@ -3033,6 +3204,10 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
+    if (stay < sharp && !dependent) {
+        int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
+        if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
+    }
     if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
     return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
@@ -3074,6 +3249,8 @@ static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int lo
 {
     int faces = loop ? 3 : 2, size = loop ? 3 : 4, right = h, left = h, count = 1;
     if (kind == SDV_FREE) return SDV_FAN_RING;
+    if (kind == SDV_LINED)
+        return level->vertex_faces[level->face_vertices[h]] == 4 ? SDV_FAN_RING : SDV_FAN_FIRST;
     if (kind == SDV_ROUGH) return SDV_FAN_ROUGH;
     for (int i = sdv_clockwise(level, h); i >= 0 && count <= faces; i = sdv_clockwise(level, i)) {
         right = i;
@@ -3167,26 +3344,51 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
-// Looks at the edges and vertices of a face, unless all is free: which edges are sharp and how its
-// vertices' fans go on. Does it have a patch?
-static int sdv_find_fans(const sdv_level *level, const sdv_rules *rules,
+// The number of the strips between two edges; 0 if they differ, or there are too many already.
+static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels)
+{
+    sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
+    int count = (int)writer->strips.count;
+    if (low > 0 && high > 0 && (low < high || low > high)) return 0;
+    for (int i = count; i > 0; i--) {
+        float d = strips[i - 1].low - low, e = strips[i - 1].high - high;
+        if (d * d + e * e <= 0 && strips[i - 1].levels == levels) return i;
+    }
+    strips = (sdv_strips *)sdv_array_room(writer->context, &writer->strips, 1, sizeof *strips);
+    if (!strips || count == UCHAR_MAX) return 0;
+    *strips = sdv_cut_strips(low, high, levels);
+    return (int)++writer->strips.count;
+}
+
+// Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
+// which semi-sharp, and how its vertices' fans go on. Does it have a patch?
+static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                          const unsigned char *kinds, int h, int size, int levels,
                          sdv_patch *patch, sdv_fan *fan)
 {
+    float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
-        if (s > 0 && !sdv_stays(s, levels, rules)) return 0;
-        patch->sharp |= (unsigned char)((s > 0) << i);
+        if (s > 0 && !sdv_stays(s, levels, rules)) semi[i] = s;
+        else patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
         fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
         if (fan[i] == SDV_FAN_ROUGH) return 0;
         if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
     }
-    return 1;
+    if (semi[0] + semi[1] + semi[2] + semi[3] <= 0) return 1;
+    for (int i = 0; i < size; i++) {
+        int at = h + i, next = h + (i + 1) % size;
+        if (semi[i] > 0 && (kinds[level->face_vertices[at]] != SDV_LINED ||
+                            kinds[level->face_vertices[next]] != SDV_LINED)) return 0;
+    }
+    patch->up = (unsigned char)sdv_find_strips(writer, semi[0], semi[2], levels);
+    patch->along = (unsigned char)sdv_find_strips(writer, semi[3], semi[1], levels);
+    return patch->up && patch->along;
 }
 
 // Makes the patch of face f, if it has one. free: so are all its vertices.
-static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
+static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int levels, int is_free,
                           sdv_patch *patch, int *points)
 {
@@ -3195,7 +3397,8 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
     sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(level, rules, kinds, h, size, levels, patch, fan)) return 0;
+    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch, fan))
+        return 0;
     if (rules->linear) sdv_gather_linear(level, h, size, points);
     else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
     else sdv_gather_quad(level, h, patch, fan, points);
@@ -3241,9 +3444,10 @@ static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
-static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
+static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, int levels, sdv_patches *patches)
 {
+    sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
     int size = rules->loop ? 3 : 4, most = 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
@@ -3265,8 +3469,8 @@ static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *
         if (face_kinds[f] == SDV_ROUGH) continue;
         sdv_patch *patch = &patches->items[patches->count];
         int *points = patches->points + width * (size_t)patches->count;
-        if (!sdv_make_patch(level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE, patch,
-                            points))
+        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE,
+                            patch, points))
             continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
@@ -3587,6 +3791,7 @@ struct subdiv_surface {
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
     sdv_patches *patches;               // [levels]
+    sdv_strips  *strips;                // of semi-sharp patches, counted from 1
     sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
     sdv_limit_rows limit;               // of a limit, instead of last
@@ -4084,26 +4289,6 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
     return *known = (int)limit->masks.count++;
 }
 
-// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge: a dart is
-// smooth. -1 if there is none.
-static int sdv_around(const sdv_level *level, int h)
-{
-    int before = sdv_previous(level, h), across = level->across[before];
-    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
-                                                                                       : across;
-}
-
-// Do as many faces close around the vertex of h as it has?
-static int sdv_ring_closes(const sdv_level *level, int h)
-{
-    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
-    for (int i = 1; i < faces; i++) {
-        at = sdv_around(level, at);
-        if (at < 0 || at == h) return 0;
-    }
-    return sdv_around(level, at) == h;
-}
-
 // The points of count faces from h on, counter-clockwise: the neighbours, of a crease also the one
 // behind the last face, then the vertices across.
 static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
@@ -4243,7 +4428,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
+    sdv_find_patches(writer, &surface->arena, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
@@ -4290,7 +4475,10 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
         sdv_prepare_limit(&writer, surface, &level);
     surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
     surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
+    surface->strips = SDV_NEW(context, &surface->arena, sdv_strips, writer.strips.count);
     if (!context->result) {
+        sdv_copy(surface->strips, sdv_items(&writer.strips), writer.strips.count,
+                 sizeof(sdv_strips));
         sdv_copy(surface->masks.items, sdv_items(&writer.masks), writer.masks.count,
                  sizeof(sdv_weights));
         sdv_copy(surface->masks.weights, sdv_items(&writer.weights), writer.weights.count,
@@ -4799,6 +4987,14 @@ typedef struct sdv_polynomial {
     int degree;
 } sdv_polynomial;
 
+// A patch, or the part of it between the lines that cut it into strips.
+typedef struct sdv_part {
+    sdv_patch      patch;               // its place on the grid, and what it writes
+    sdv_polynomial q;
+    int   columns, rows;                // segments
+    float x, y, dx, dy;                 // where in the polynomial it starts, and its segments
+} sdv_part;
+
 // A row of it, a polynomial in x alone.
 typedef struct sdv_curve {
     sdv_four a[5];
@@ -4852,37 +5048,42 @@ static inline void sdv_put_run(const sdv_window *out, int index, int count,
     sdv_store_some(p, sdv_curve_point(&c, t), lanes);
 }
 
-// The first or last row of a patch of n segments.
-static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                              const sdv_polynomial *q, int n, int top)
+// The first or last row of a patch.
+static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_part *part,
+                              int top)
 {
+    const sdv_patch *patch = &part->patch;
     int step = patch->step, owned = patch->owned, column = patch->column;
-    int row = patch->row + (top ? step * n : 0), count = top && grid->triangle ? 0 : n;
+    int row = patch->row + (top ? step * part->rows : 0);
+    int count = top && grid->triangle ? 0 : part->columns;
     int left = owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT);
     int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
     int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
     if (!(left | inside | right)) return;
     sdv_curve curve;
-    sdv_row_curve(q, top ? 1.0f : 0.0f, &curve);
-    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), curve.a[0]);
+    float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
+    sdv_row_curve(&part->q, y, &curve);
+    if (left)
+        sdv_put_point(out, sdv_grid_index(grid, row, column),
+                      sdv_curve_point(&curve, sdv_all(part->x)));
     if (right)
         sdv_put_point(out, sdv_grid_index(grid, row, column + step * count),
-                      sdv_curve_point(&curve, sdv_all(1)));
+                      sdv_curve_point(&curve, sdv_all(part->x + (float)part->columns * dx)));
     if (inside) {
         sdv_side line = sdv_grid_line(grid, row);
         int forward = line.step == step, i = forward ? 1 : count - 1;
-        float h = 1.0f / (float)n;
         sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
-                    (float)i * h, forward ? h : -h);
+                    part->x + (float)i * dx, forward ? dx : -dx);
     }
 }
 
 // The rows between: their inner points and, beside them, their ends, unless those stand on a side
 // of the grid. A turned triangle has none there.
-static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                               const sdv_polynomial *q, int n)
+static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_part *part)
 {
+    const sdv_patch *patch = &part->patch;
     int step = patch->step, triangle = grid->triangle, column = patch->column;
+    int n = part->columns, rows = part->rows;
     int reach = column + n + (triangle ? patch->row : 0);
     int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
     int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
@@ -4891,26 +5092,30 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     int at = sdv_inside_index(grid, patch->row + step, column + step * first);
     int next = sdv_inside_index(grid, patch->row + 2 * step, column + step * first);
     int across = next - at;
-    float h = 1.0f / (float)n, x = (float)first * h, y = h, dx = h, turn = 0;
+    float h = part->dx, dy = part->dy, dx = h, turn = 0;
+    float start = part->x, x = start + (float)first * h, end = start + (float)n * h;
+    float y = part->y + dy;
     if (step < 0) {                                     // from the other end
         at -= count - 1;
         across++;
         x += (float)(count - 1) * h;
         dx = turn = -h;
     }
-    for (int r = 1; r < n && (count > 0 || left_side || right_side); r++) {
+    for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
         sdv_curve curve;
-        sdv_row_curve(q, y, &curve);
+        sdv_row_curve(&part->q, y, &curve);
         sdv_put_run(out, at, count, &curve, x, dx);
-        if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r), curve.a[0]);
+        if (left_side)
+            sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r),
+                          sdv_curve_point(&curve, sdv_all(start)));
         if (right_side)
             sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
-                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : 1)));
+                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : end)));
         at += across;
         across -= triangle;
         count -= triangle;
         x += turn;
-        y += h;
+        y += dy;
     }
 }
 
@@ -4999,25 +5204,49 @@ static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_
     if (above) sdv_put_three(out, grid, patch, p + 4, bend, 1);
 }
 
-// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
-// along the rows.
-static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
-                                const float *work, sdv_polynomial *q)
+// The control points of a quad, relative to its vertex 0, which is their origin.
+static sdv_four sdv_load_quad(const sdv_patch *patch, const int *points, const float *work,
+                              sdv_four *p)
 {
-    sdv_four p[16], up[4][4], x[4];
-    q->degree = 3;
     sdv_load_points(points, 16, work, p);
-    q->origin = p[5];
-    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
+    sdv_four origin = p[5];
+    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], origin);
     if (patch->sharp) sdv_mirror_quad(patch, p);
+    return origin;
+}
+
+// The polynomial of a quad, hx^2 and hy^2 being those of the last level along and up: cubics up the
+// columns of control points, then, of their coefficients, along the rows.
+static void sdv_quad_polynomial(const sdv_four *p, float hx2, float hy2, int linear,
+                                sdv_polynomial *q)
+{
+    sdv_four up[4][4], x[4];
+    q->degree = 3;
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hh, up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hy2, up[i]);
     }
     for (int j = 0; j < 4; j++) {
         if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hh, x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hx2, x);
         for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
+    }
+}
+
+// The control points of a strip: across its crease, they are step apart, and lines of them next.
+static void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step, int next,
+                             sdv_four *p)
+{
+    for (int i = 0; i < 4; i++, p += next) {
+        sdv_four p0 = p[0], p1 = p[step], p2 = p[2 * step], p3 = p[3 * step];
+        if (!strip->smooth && strips->low > 0) p[0] = sdv_mirror(p1, p2);
+        if (!strip->smooth && strips->high > 0) p[3 * step] = sdv_mirror(p2, p1);
+        for (int j = 0; j < 4 && strip->smooth; j++) {
+            const float *w = strip->rows[j];
+            sdv_four outer = sdv_plus(sdv_times(sdv_all(w[0]), p0), sdv_times(sdv_all(w[3]), p3));
+            sdv_four inner = sdv_plus(sdv_times(sdv_all(w[1]), p1), sdv_times(sdv_all(w[2]), p2));
+            p[j * step] = sdv_plus(outer, inner);
+        }
     }
 }
 
@@ -5129,16 +5358,83 @@ static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, f
     else sdv_box_spline(p, hh, q);
 }
 
-// Patch i: on the last level or, with h = 0, in the limit.
-static void sdv_patch_polynomial(const subdiv_surface *surface, const sdv_patches *patches, int i,
-                                 const float *work, sdv_polynomial *q)
+// What a part writes of what its patch does: of its sides those that are the patch's, and the lines
+// to its right and above it.
+static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, int top)
 {
-    const sdv_patch *patch = &patches->items[i];
+    int left = first ? owned & SDV_LEFT : 0, right = last ? owned & SDV_RIGHT : SDV_RIGHT;
+    int below = bottom ? owned & SDV_BOTTOM : 0, above = top ? owned & SDV_TOP : SDV_TOP;
+    int made = left | right | below | above;
+    if (first && bottom) made |= owned & SDV_BOTTOM_LEFT;
+    if (bottom && (last ? owned & SDV_BOTTOM_RIGHT : below)) made |= SDV_BOTTOM_RIGHT;
+    if (first && (top ? owned & SDV_TOP_LEFT : left)) made |= SDV_TOP_LEFT;
+    if (last && top ? owned & SDV_TOP_RIGHT : last ? right : above) made |= SDV_TOP_RIGHT;
+    return (unsigned char)made;
+}
+
+// The parts of a patch, in the limit or, with h > 0, on the last level.
+typedef struct sdv_parts {
+    const subdiv_surface *surface;
+    const sdv_patch *patch;
+    const sdv_strips *along, *up;       // of a patch that is cut, or NULL
+    int      count, depth;
+    sdv_four points[16];                // of a quad
+} sdv_parts;
+
+static void sdv_begin_parts(const subdiv_surface *surface, const sdv_patches *patches, int i,
+                            const float *work, sdv_parts *parts, sdv_part *part)
+{
     const sdv_rules *rules = &surface->rules;
+    const sdv_patch *patch = &patches->items[i];
     const int *points = patches->points + (size_t)sdv_control_points(rules) * (size_t)i;
-    float h = rules->limit ? 0 : 1.0f / (float)(1 << patches->depth);
-    if (rules->loop) sdv_triangle_polynomial(patch, points, h * h, rules->linear, work, q);
-    else sdv_quad_polynomial(patch, points, h * h, rules->linear, work, q);
+    float h = 1.0f / (float)(1 << patches->depth), hh = rules->limit ? 0 : h * h;
+    parts->up = NULL;
+    parts->count = 1;
+    part->patch = *patch;
+    part->columns = part->rows = 1 << patches->depth;
+    part->x = part->y = 0;
+    part->dx = part->dy = h;
+    if (rules->loop) {
+        sdv_triangle_polynomial(patch, points, hh, rules->linear, work, &part->q);
+        return;
+    }
+    part->q.origin = sdv_load_quad(patch, points, work, parts->points);
+    if (!patch->up) {
+        sdv_quad_polynomial(parts->points, hh, hh, rules->linear, &part->q);
+        return;
+    }
+    parts->surface = surface;
+    parts->patch = patch;
+    parts->along = &surface->strips[patch->along - 1];
+    parts->up = &surface->strips[patch->up - 1];
+    parts->count = parts->along->count * parts->up->count;
+}
+
+// Part i. One that is not cut is there already.
+static void sdv_make_part(const sdv_parts *parts, int i, sdv_part *part)
+{
+    const sdv_patch *patch = parts->patch;
+    if (!parts->up) return;
+    int columns = parts->along->count, rows = parts->up->count, column = i % columns;
+    int row = i / columns;
+    const sdv_strip *along = &parts->along->items[column], *up = &parts->up->items[row];
+    sdv_four p[16];
+    part->patch.column = patch->column + along->from;
+    part->patch.row = patch->row + up->from;
+    part->patch.owned = sdv_part_owned(patch->owned, column == 0, column + 1 == columns, row == 0,
+                                       row + 1 == rows);
+    part->columns = along->to - along->from;
+    part->rows = up->to - up->from;
+    part->dx = 1.0f / (float)along->unit;
+    part->dy = 1.0f / (float)up->unit;
+    part->x = (float)(along->from - along->origin) * part->dx;
+    part->y = (float)(up->from - up->origin) * part->dy;
+    float hx = parts->surface->rules.limit ? 0 : part->dx;
+    float hy = parts->surface->rules.limit ? 0 : part->dy;
+    for (int k = 0; k < 16; k++) p[k] = parts->points[k];
+    sdv_strip_points(parts->along, along, 1, 4, p);
+    sdv_strip_points(parts->up, up, 4, 1, p);
+    sdv_quad_polynomial(p, hx * hx, hy * hy, 0, &part->q);
 }
 
 // The points that the patches of a level make for cage faces face to end - 1.
@@ -5147,22 +5443,25 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 {
     const sdv_order *order = &surface->order;
     int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
+    int nine = !order->loop && n == 2 && !surface->rules.limit;
     int last = sdv_first_patch(order, patches, end);
-    size_t width = (size_t)sdv_control_points(&surface->rules);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-    sdv_polynomial q;
+    sdv_parts parts;
+    sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        const int *points = patches->points + width * (size_t)i;
         if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-        if (!order->loop && n == 2 && !surface->rules.limit) {
-            sdv_put_nine(out, &grid, patch, points, linear, work);
+        if (nine && !patch->up) {
+            sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
             continue;
         }
-        sdv_patch_polynomial(surface, patches, i, work, &q);
-        sdv_put_outer_row(out, &grid, patch, &q, n, 0);
-        sdv_put_inner_rows(out, &grid, patch, &q, n);
-        sdv_put_outer_row(out, &grid, patch, &q, n, 1);
+        sdv_begin_parts(surface, patches, i, work, &parts, &part);
+        for (int j = 0; j < parts.count; j++) {
+            sdv_make_part(&parts, j, &part);
+            sdv_put_outer_row(out, &grid, &part, 0);
+            sdv_put_inner_rows(out, &grid, &part);
+            sdv_put_outer_row(out, &grid, &part, 1);
+        }
     }
 }
 
@@ -5276,45 +5575,52 @@ static inline void sdv_put_curve_limit(const sdv_limit_window *out, int index,
                   sdv_horner3(across->a, at));
 }
 
-// Row r of a patch of n segments: what sdv_put_row writes, with tangents.
+// Row r of a patch: what the rows above write, with tangents.
 static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
-                              const sdv_patch *patch, const sdv_polynomial *q,
-                              const sdv_polynomial *rise, int n, int r)
+                              const sdv_part *part, const sdv_polynomial *rise, int r)
 {
-    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
-    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
+    const sdv_patch *patch = &part->patch;
+    int bottom = r == 0, top = r == part->rows, step = patch->step, owned = patch->owned;
+    int row = patch->row + step * r, column = patch->column;
+    int last = grid->triangle ? part->rows - r : part->columns;
     int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
     int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
     int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
-    float h = 1.0f / (float)n;
+    float x = part->x, y = part->y + (float)r * part->dy;
     sdv_side line = sdv_grid_line(grid, row);
     sdv_curve curve, along, across;
-    sdv_row_curve(q, (float)r * h, &curve);
-    sdv_row_curve(rise, (float)r * h, &across);
+    sdv_row_curve(&part->q, y, &curve);
+    sdv_row_curve(rise, y, &across);
     sdv_along_row(&curve, &along);
     if (left)
-        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, 0);
+        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, x);
     for (int i = 1; i < last && inside; i++)
         sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
-                            &across, (float)i * h);
+                            &across, x + (float)i * part->dx);
     if (right)
         sdv_put_curve_limit(out, sdv_grid_index(grid, row, column + step * last), &curve, &along,
-                            &across, (float)last * h);
+                            &across, x + (float)last * part->dx);
 }
 
 static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
                               const float *work, int face, int end, const sdv_limit_window *out)
 {
     const sdv_order *order = &surface->order;
-    int n = 1 << patches->depth, h = -1, last = sdv_first_patch(order, patches, end);
+    int h = -1, last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-    sdv_polynomial q, rise;
+    sdv_parts parts;
+    sdv_part part;
+    sdv_polynomial rise;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
         if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-        sdv_patch_polynomial(surface, patches, i, work, &q);
-        sdv_across_rows(&q, &rise);
-        for (int r = 0; r <= n; r++) sdv_put_limit_row(out, &grid, patch, &q, &rise, n, r);
+        sdv_begin_parts(surface, patches, i, work, &parts, &part);
+        for (int j = 0; j < parts.count; j++) {
+            sdv_make_part(&parts, j, &part);
+            sdv_across_rows(&part.q, &rise);
+            for (int r = 0; r <= part.rows; r++)
+                sdv_put_limit_row(out, &grid, &part, &rise, r);
+        }
     }
 }
 
