@@ -8311,7 +8311,7 @@ typedef struct sdv_output {
     size_t       used;
 } sdv_output;
 
-#define SDV_OUTPUT_SIZE 65536
+#define SDV_OUTPUT_SIZE 16384           // stays in the nearest cache
 #define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
 
 static void sdv_flush(sdv_output *out)
