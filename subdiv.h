@@ -340,7 +340,11 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 // Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
 // it for positions every frame, and for whatever else the cage's vertices carry. A surface that
 // was prepared with opt->linear has the same order of points but interpolates straight, as for data
-// that must not overshoot.
+// that must not overshoot. For instance 5 weights a vertex, and a material a face:
+//
+//     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
+//     for (int f = 0; f < fine.face_count; f++)
+//         fine_material[f] = material[fine.cage_faces[f]];
 
 // What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
@@ -352,13 +356,14 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// Face-varying values: as with UVs, each vertex of each face has one of value_count values, indices
-// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They
-// are a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces
-// gives the indices of the fine faces (-1 where there are none). Value i stays value i at the
-// first vertex that has it; vertices of the cage that share it have values of their own from
-// level 1 on, behind all others. Faces whose vertices do not all have values are none of its cage
-// faces. rule says what happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
+// Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
+// more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
+// and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
+// [vertex_count] values, faces gives the indices of the fine faces (-1 where there are none). Value
+// i stays value i at the first vertex that has it; vertices of the cage that share it have values
+// of their own from level 1 on, behind all others. Faces whose vertices do not all have values are
+// none of its cage faces. rule says what happens at seams, see subdiv_uv_rule. Errors as
+// subdiv_prepare.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -544,7 +549,9 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
 //     f v/vt/vn ...                        in all forms, with negative indices, before or behind
 //                                          what it names; any number of vertices
-//     g o s usemtl mtllib                  kept as they stand, with the face that follows
+//     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
+//                                          a comment if blanks are around it: "Material #25" is a
+//                                          name
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
@@ -553,7 +560,8 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
 // The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
-// all of theirs, with one warning for all such faces. Normals are passed over, their indices too.
+// all of theirs, with one warning for those that name some vt and one for those that name none.
+// Normals are passed over, their indices too.
 // Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
 // are skipped, and how many points and lines, free-form and unknown statements were. What would
 // change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
@@ -7195,13 +7203,13 @@ static uint32_t sdv_shortest(float number, int *ten)
         decimal.head += (uint64_t)twice_above;
         if (twice_above && sdv_nearest_float(&decimal) == number) break;
     }
-    for (; decimal.head % 10 == 0; decimal.head /= 10) ++*ten;
     return (uint32_t)decimal.head;
 }
 
 // digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
 static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
+    for (; digits && digits % 10 == 0; digits /= 10) ten++;
     char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
     int count = (int)(end - first), point = count + ten;    // digits before the point
     if (point > 9 || point < -4) {
@@ -7249,16 +7257,28 @@ static inline uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t num
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
-// How many of them are 0 before the first other; of 8 zeros 7.
-static inline int sdv_zeros_before(uint64_t text)
+// The first and the last of 8 digits that is not 0; one of them is.
+static inline int sdv_first_digit(uint64_t text)
 {
-    uint64_t others = ((text + 0x4f4f4f4f4f4f4f4fu) & 0x8080808080808080u) | (uint64_t)1 << 63;
+    uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
     return __builtin_ctzll(others) / 8;
 #else
-    int zeros = 0;
-    while (!(others >> 8 * zeros & 128)) zeros++;
-    return zeros;
+    int i = 0;
+    while (!(others >> 8 * i & 255)) i++;
+    return i;
+#endif
+}
+
+static inline int sdv_last_digit(uint64_t text)
+{
+    uint64_t others = text ^ 0x3030303030303030u;
+#if defined(__GNUC__)
+    return (63 - __builtin_clzll(others)) / 8;
+#else
+    int i = 7;
+    while (!(others >> 8 * i)) i--;
+    return i;
 #endif
 }
 
@@ -7286,40 +7306,40 @@ static char *sdv_write_exactly(char *p, float number)
 // A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
 // Returns where they end.
 //
-// All numbers between low and high read back as this float, and they are 1 to 10 units of 10^ten
-// apart. So at most one multiple of 10 lies between them. It has fewer digits than all others;
-// without it, the nearest multiple of 1 is the answer.
-static inline char *sdv_write_float(const sdv_figures *figures, char *p, float number)
+// All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
+// So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
+// nearest multiple of 1 is the answer. A power of 2 counts as the last number before it, plus one:
+// its gap is the one below. Above there is more room, which only matters if nothing is found.
+static inline char *sdv_write_float(const sdv_figures *figures, char *p, const float *number)
 {
     const uint64_t one = (uint64_t)1 << 36, doubt = one >> 11;
     uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    uint32_t exponent = bits >> 23 & 255, mantissa = bits & 0x7fffff;
-    uint64_t gap = figures->gaps[exponent], size = (mantissa | 0x800000) * gap;
-    uint64_t low = size - (mantissa ? gap / 2 : gap / 4), high = size + gap / 2;    // 2^n is nearer
-    uint32_t tens = (uint32_t)(low >> 36) / 10 + 1, ones = (uint32_t)((size + one / 2) >> 36);
-    uint64_t above_low = 10 * tens * one - low, below_high = high - 10 * tens * one;
-    uint32_t inside = (int64_t)below_high > 0;
+    memcpy(&bits, number, sizeof bits);
+    uint32_t exponent = (bits - 1) >> 23 & 255, mantissa = ((bits - 1) & 0x7fffff) + 0x800001;
+    uint64_t gap = figures->gaps[exponent], size = mantissa * gap, high = size + gap / 2;
+    uint32_t tens = (uint32_t)(high >> 36) / 10, ones = (uint32_t)((size + one / 2) >> 36);
+    uint64_t below_high = high - 10 * tens * one, outside = below_high - gap;
+    uint32_t inside = (uint32_t)(outside >> 63);
     *p++ = ' ';
-    if (above_low - doubt > 10 * one - 2 * doubt || below_high + doubt < 2 * doubt ||
-        inside < (mantissa == 0)) return sdv_write_exactly(p, number);      // also if gap is 0
+    if (below_high - doubt > 10 * one - 2 * doubt || outside + doubt < 2 * doubt ||
+        inside < mantissa >> 24) return sdv_write_exactly(p, *number);      // also if gap is 0
     uint32_t digits = ones ^ ((ones ^ tens) & (0 - inside));
     int ten = figures->tens[exponent] + (int)inside;
-    for (; digits % 10 == 0; digits /= 10) ten++;
 
     *p = '-';
     p += bits >> 31;
     if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
     uint64_t text = sdv_eight_digits(figures, digits);
-    int zeros = sdv_zeros_before(text), count = 8 - zeros, point = count + ten;
+    int zeros = sdv_first_digit(text), count = sdv_last_digit(text) + 1 - zeros;
+    int point = 8 - zeros + ten;
     text >>= 8 * zeros;
-    if (point >= 0 && point < count) {
+    if (point >= 0 && ten < 0) {
         *p = '0';
         sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
         p += point + (point == 0);
-        *p++ = '.';
-        sdv_store_eight(p, text >> 8 * point);
-        return p + count - point;
+        *p = '.';
+        sdv_store_eight(p + 1, text >> 8 * point);
+        return count > point ? p + 1 + count - point : p;       // 12
     }
     if (point < 0 && point >= -4) {
         memcpy(p, "0.0000", 6);
@@ -7339,10 +7359,7 @@ static inline char *sdv_write_index(const sdv_figures *figures, char *p, int num
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = 0;                          // by comparing, as neighbours have as many digits
-    if (number < 10000) zeros = sdv_zeros_before(text);
-    else if (number < 1000000) zeros = 2 + (number < 100000);
-    else if (number < 10000000) zeros = 1;
+    int zeros = number ? sdv_first_digit(text) : 7;
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
 }
@@ -7479,7 +7496,8 @@ typedef struct sdv_obj {
     sdv_array    ahead[2];              // of vertices, of uvs
     int          most_faces;            // with those that are skipped
     int          uv_faces;              // faces with UVs
-    int          bare_line, mixed_line; // of the first face without, and the first that has some
+    int          mixed_faces;           // with a vt at some of their vertices only
+    int          bare_line, mixed_line; // of the first face that has none, and of the first such
     int          skipped_counts[SDV_STATEMENT_KINDS], skipped_lines[SDV_STATEMENT_KINDS];
     sdv_array    tags, skipped;         // skipped: numbers of the file's faces not in the mesh
     sdv_array    ints, floats;          // of one tag
@@ -7761,8 +7779,9 @@ static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
         sdv_series_add(&obj->face_uvs, size);
         obj->uv_faces++;
     } else {
-        if (!obj->bare_line) obj->bare_line = obj->line;
-        if (uvs && !obj->mixed_line) obj->mixed_line = obj->line;
+        int *line = uvs ? &obj->mixed_line : &obj->bare_line;
+        if (*line == 0) *line = obj->line;
+        obj->mixed_faces += uvs > 0;
     }
     if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
     if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
@@ -7926,11 +7945,25 @@ static int sdv_read_tag(sdv_obj *obj, const char **at)
 
 // -------- statements
 
+// Where the comment behind a name begins: at a # between blanks, as some names are "Material #25".
+// Smoothing groups have no names, so there any # will do.
+static const char *sdv_find_comment(sdv_token keyword, const char *end)
+{
+    int any = *keyword.begin == 's';
+    for (const char *p = keyword.end; p < end; p++) {
+        if (*p != '#') continue;
+        int behind = any || p == keyword.end || sdv_is_blank(p[-1]) || sdv_is_newline(p[-1]);
+        if (behind && (any || p == keyword.end || sdv_ends_token(p + 1))) return p;
+    }
+    return end;
+}
+
 // Keeps "usemtl stone" as it stands in the file, names with blanks and all, joined where it goes on
 // in the next line. Returns what is behind.
 static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 {
-    const char *next = sdv_skip_statement(obj, keyword.end), *end = next, *p = keyword.end;
+    const char *next = sdv_skip_statement(obj, keyword.end), *p = keyword.end;
+    const char *end = obj->context->result ? p : sdv_find_comment(keyword, next);
     if (obj->context->result) return next;
     while (end > p && (sdv_is_blank(end[-1]) || sdv_is_newline(end[-1]) || sdv_continues(end - 1)))
         end--;
@@ -8207,18 +8240,19 @@ static void sdv_fill_tags(const sdv_obj *obj, subdiv_mesh *mesh)
 // A mesh has UVs if any of its faces has.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
-    int bare = obj->mesh.face_count - obj->uv_faces;
+    int bare = obj->mesh.face_count - obj->uv_faces - obj->mixed_faces;
+    if (obj->mixed_faces)
+        sdv_warn(obj->context, obj->mixed_line,
+                 "%d of %d faces have a vt at some of their vertices only: they get no UVs",
+                 obj->mixed_faces, obj->mesh.face_count);
     if (obj->uv_faces == 0) {
-        if (obj->mixed_line)
-            sdv_warn(obj->context, obj->mixed_line,
-                     "no face has a vt at each of its vertices: the UVs are skipped");
         obj->mesh.uv_count = 0;
         return;
     }
     sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
     if (bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs (a vt at each vertex)",
-                 bare, obj->mesh.face_count);
+        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare,
+                 obj->mesh.face_count);
 }
 
 static void sdv_finish_statements(sdv_obj *obj)
@@ -8329,7 +8363,7 @@ typedef struct sdv_output {
     size_t       used;
 } sdv_output;
 
-#define SDV_OUTPUT_SIZE 65536
+#define SDV_OUTPUT_SIZE 16384           // stays in the nearest cache
 #define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
 
 static void sdv_flush(sdv_output *out)
@@ -8418,7 +8452,7 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
 
 static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
 {
-    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, numbers[i]);
+    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, &numbers[i]);
     return p;
 }
 
@@ -8426,10 +8460,11 @@ static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
+    const size_t length = strlen(keyword);
     for (int i = 0; i < count && !out->context->result; i++, values += width) {
         char *p = sdv_room(out);
-        *p++ = keyword[0];
-        if (keyword[1]) *p++ = keyword[1];
+        memcpy(p, keyword, 2);
+        p += length;
         p = sdv_write_floats(out->figures, p, values, width);
         if (more) p = sdv_write_floats(out->figures, p, more + 3 * (size_t)i, 3);
         *p++ = '\n';
