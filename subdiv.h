@@ -1162,7 +1162,7 @@ static size_t sdv_find_endless(const float *numbers, size_t count)
 
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
 {
-    for (int f = 0; f < mesh->face_count; f++) {
+    for (int f = 0; f < (mesh->face_size > 2 ? 0 : mesh->face_count); f++) {
         int size = sdv_face_size(mesh, f);
         if (size < 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_FACE, f, -1, "face %d has %d vertices", f, size);
@@ -3458,14 +3458,15 @@ static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 // The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
 static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
 {
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), free = 1;
-    if (end - start != size) return SDV_ROUGH;
-    for (int h = start; h < end; h++) {
-        unsigned char kind = kinds[level->face_vertices[h]];
-        if (kind == SDV_ROUGH) return SDV_ROUGH;
+    int start = sdv_face_start(level, f), rough = 0, free = 1;
+    const int *vertices = level->face_vertices + start;
+    if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
+    for (int i = 0; i < size; i++) {
+        unsigned char kind = kinds[vertices[i]];
+        rough |= kind == SDV_ROUGH;
         free &= kind == SDV_FREE;
     }
-    return free ? SDV_FREE : SDV_EDGED;
+    return rough ? SDV_ROUGH : free ? SDV_FREE : SDV_EDGED;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
@@ -3860,7 +3861,8 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
 {
     size_t count = sdv_face_vertex_count(cage), triangles = count - 2 * (size_t)cage->face_count;
     int loop = cage->scheme == SUBDIV_LOOP, cut = 0;
-    for (int f = 0; loop && f < cage->face_count; f++) cut |= sdv_face_size(cage, f) != 3;
+    for (int f = 0; loop && cage->face_size != 3 && f < cage->face_count; f++)
+        cut |= sdv_face_size(cage, f) != 3;
     if (cut && triangles > INT_MAX) {
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the faces make too many triangles");
         return;
@@ -3905,7 +3907,7 @@ static void sdv_cut_holes(sdv_context *context, subdiv_surface *surface, subdiv_
 
 static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
 {
-    for (int f = 0; f < cage->face_count; f++)
+    for (int f = 0; f < cage->face_count && cage->face_size != 3; f++)
         if (sdv_face_size(cage, f) != 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_NOT_TRIANGLE, f, -1,
                           "face %d has %d vertices, and Loop needs triangles",
@@ -4761,7 +4763,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         if (made) sdv_prepare_values(context, made, surface, &work, &built, &values);
     }
     if (!context->result && !alone) {
-        sdv_surviving_sharpness(context, surface, &built.level);
+        if (work.crease_count || work.corner_count)
+            sdv_surviving_sharpness(context, surface, &built.level);
         sdv_prepare_levels(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
