@@ -1512,8 +1512,8 @@ static int sdv_joins(const sdv_level *level, int h, int a, int b)
     return (from == a && to == b) || (from == b && to == a);
 }
 
-// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of ends
-// with as many the first, so that it is the same one from both.
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of two
+// with as many faces the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
     int more = level->vertex_faces[a] - level->vertex_faces[b];
@@ -3854,8 +3854,8 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for it: fans
-// around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
+// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for
+// it: fans around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
