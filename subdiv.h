@@ -446,6 +446,35 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
+// ------------------------------------------------------------------------------ >>stencils
+// The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
+//
+//     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
+//
+// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6. Weights that are
+// no more than rounding of the others are left out. Stencils of a surface of face-varying values
+// have numbers of values as indices.
+typedef struct subdiv_stencils {
+    int     count;
+    size_t *offsets;                  // [count + 1]
+    int    *indices;                  // [offsets[count]]  rising in each stencil
+    float  *weights;                  // [offsets[count]]  of the point,
+    float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
+    void   *memory;                   // the library's own, one block
+} subdiv_stencils;
+
+// Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
+// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. The work
+// is that of the points asked for and a look at the cage's faces; scratch memory of up to 250
+// bytes a point, so take large results in pieces. Errors: ARGUMENT, INDEX, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt);
+
+// Frees what the library made and zeroes the struct.
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
+
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
 // list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
@@ -5880,6 +5909,468 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     return result;
 }
 
+// ------------------------------------------------------------------------------ >>stencils
+// No rule is here a second time: rows of weights are there, and what a patch does to its control
+// points shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a
+// sum of work points, and each of these, through the rows, one of the cage's vertices.
+
+// Weights that are smaller than this, relative to the largest of a stencil, are rounding errors.
+#define SDV_STENCIL_ROUNDING 6e-8
+
+typedef struct sdv_entry {
+    int   vertex;                       // of the cage, or a value's number
+    float weight;
+} sdv_entry;
+
+typedef struct sdv_stencil_maker {
+    sdv_context *context;
+    const subdiv_surface *surface;
+    sdv_arena  arena;
+
+    sdv_array  known;                   // sdv_entry: of all work points that are known,
+    size_t    *starts;                  // [work_count] where each one's start, and
+    int       *sizes;                   // [work_count] how many there are; 0: not known yet
+
+    int        parts;                   // 3 with tangents, else 1
+    int        size;                    // the sum that is being made: so many
+    int       *vertices;                // [cage_vertex_count] vertices, with
+    double    *sums;                    // [cage_vertex_count * parts] weights, and where
+    int       *places;                  // [cage_vertex_count] each vertex stands, or -1
+
+    size_t    *offsets;                 // [points + 1] what is made
+    sdv_array  indices, weights;        // ints, floats [parts] each
+} sdv_stencil_maker;
+
+static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
+                                  const subdiv_surface *surface, int points, int parts)
+{
+    size_t vertices = (size_t)surface->cage_vertex_count, work = (size_t)surface->work_count;
+    memset(make, 0, sizeof *make);
+    make->context = context;
+    make->surface = surface;
+    make->parts = parts;
+    make->arena = sdv_scratch();
+    make->starts = SDV_NEW(context, &make->arena, size_t, work);
+    make->sizes = SDV_NEW(context, &make->arena, int, work);
+    make->vertices = SDV_NEW(context, &make->arena, int, vertices);
+    make->sums = SDV_NEW(context, &make->arena, double, vertices * (size_t)parts);
+    make->places = SDV_NEW(context, &make->arena, int, vertices);
+    make->offsets = SDV_NEW(context, &make->arena, size_t, (size_t)points + 1);
+    if (context->result) return;
+    memset(make->sizes, 0, work * sizeof(int));
+    for (size_t v = 0; v < vertices; v++) make->places[v] = -1;
+    make->offsets[0] = 0;
+}
+
+static void sdv_stencil_maker_free(sdv_stencil_maker *make)
+{
+    sdv_array_free(&make->known);
+    sdv_array_free(&make->indices);
+    sdv_array_free(&make->weights);
+    sdv_arena_free(&make->arena);
+}
+
+static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, const double *w)
+{
+    int *place = &make->places[vertex], parts = make->parts;
+    double *sum = make->sums + (size_t)parts * (size_t)(*place < 0 ? make->size : *place);
+    if (*place < 0) {
+        make->vertices[*place = make->size++] = vertex;
+        for (int i = 0; i < parts; i++) sum[i] = 0;
+    }
+    for (int i = 0; i < parts; i++) sum[i] += factor * w[i];
+}
+
+// Adds a work point that is known, w [parts] times.
+static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count) {
+        sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
+        return;
+    }
+    const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
+    for (int i = 0; i < make->sizes[point]; i++)
+        sdv_add_to_sum(make, entry[i].vertex, (double)entry[i].weight, w);
+}
+
+static void sdv_end_sum(sdv_stencil_maker *make)
+{
+    for (int i = 0; i < make->size; i++) make->places[make->vertices[i]] = -1;
+    make->size = 0;
+}
+
+// The row that makes a work point.
+static const int *sdv_find_row(const subdiv_surface *surface, int point)
+{
+    const int *row = NULL;
+    for (int i = 0; i < surface->levels && !row; i++) {
+        const sdv_step *step = &surface->steps[i];
+        const sdv_rows *three[3] = { &step->faces, &step->vertices, &step->edges };
+        for (int k = 0; k < 3; k++) {
+            int at = point - three[k]->first;
+            if (at < 0 || at >= three[k]->count) continue;
+            row = three[k]->items + three[k]->starts[at / SDV_ROW_BLOCK];
+            for (at %= SDV_ROW_BLOCK; at > 0; at--) row += 1 + surface->masks.items[row[0]].count;
+        }
+    }
+    return row;
+}
+
+// Makes a work point known, after those that it is made from.
+static void sdv_compose(sdv_stencil_maker *make, int point);
+
+static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int count)
+{
+    for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
+}
+
+// Adds a row's points with the weights of its mask: what the others leave of 1 is the first one's.
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
+{
+    const float *weights = make->surface->masks.weights;
+    double w[3] = { 0, 0, 0 }, left = 1;
+    for (int i = 1; i < mask->count; i++) {
+        w[0] = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+        left -= w[0];
+        sdv_add_work_point(make, points[i], w);
+    }
+    w[0] = left;
+    sdv_add_work_point(make, points[0], w);
+}
+
+static void sdv_compose(sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
+    const int *row = sdv_find_row(surface, point);
+    const sdv_weights *mask = &surface->masks.items[row[0]];
+    sdv_compose_all(make, row + 1, mask->count);
+    if (make->context->result) return;
+    sdv_add_row(make, mask, row + 1);
+    sdv_entry *entry = (sdv_entry *)sdv_array_room(make->context, &make->known,
+                                                   (size_t)make->size, sizeof *entry);
+    for (int i = 0; i < make->size && entry; i++) {
+        entry[i].vertex = make->vertices[i];
+        entry[i].weight = (float)make->sums[make->parts * i];
+    }
+    make->starts[point] = make->known.count;
+    make->sizes[point] = make->size;
+    if (entry) make->known.count += (size_t)make->size;
+    sdv_end_sum(make);
+}
+
+// What is no more than rounding of the largest weight becomes 0, and the largest takes the rest, so
+// that weights add up to what they should.
+static void sdv_clean_part(sdv_stencil_maker *make, int part)
+{
+    double *sums = make->sums + part, left = part == 0 ? 1 : 0;
+    int parts = make->parts, largest = 0;
+    for (int i = 1; i < make->size; i++)
+        if (fabs(sums[parts * i]) > fabs(sums[parts * largest])) largest = i;
+    double least = SDV_STENCIL_ROUNDING * fabs(sums[parts * largest]);
+    for (int i = 0; i < make->size; i++) {
+        double *w = &sums[parts * i];
+        *w = fabs(*w) <= least ? 0 : (double)(float)*w;
+        left -= *w;
+    }
+    sums[parts * largest] += left;
+}
+
+static void sdv_sort(int *numbers, int count)
+{
+    int gap = 1;
+    while (gap < count / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) {
+        for (int i = gap; i < count; i++) {
+            int number = numbers[i], at = i;
+            for (; at >= gap && numbers[at - gap] > number; at -= gap)
+                numbers[at] = numbers[at - gap];
+            numbers[at] = number;
+        }
+    }
+}
+
+// Makes the sum stencil i.
+static void sdv_write_stencil(sdv_stencil_maker *make, int i)
+{
+    size_t parts = (size_t)make->parts, size = (size_t)make->size;
+    int *index = (int *)sdv_array_room(make->context, &make->indices, size, sizeof(int));
+    float *weight = (float *)sdv_array_room(make->context, &make->weights, parts * size,
+                                            sizeof(float));
+    if (!index || !weight) return;
+    for (int k = 0; k < make->parts; k++) sdv_clean_part(make, k);
+    sdv_sort(make->vertices, make->size);
+    for (int j = 0; j < make->size; j++) {
+        int vertex = make->vertices[j], any = 0;
+        const double *sum = make->sums + parts * (size_t)make->places[vertex];
+        for (size_t k = 0; k < parts; k++) any |= fabs(weight[k] = (float)sum[k]) > 0;
+        weight += any ? parts : 0;
+        if (any) *index++ = vertex;
+        make->indices.count += (size_t)any;
+    }
+    make->weights.count = parts * make->indices.count;
+    make->offsets[i + 1] = make->indices.count;
+    sdv_end_sum(make);
+}
+
+static size_t sdv_carve_stencils(subdiv_stencils *stencils, size_t entries, int parts, char *base)
+{
+    size_t size = 0, tangents = parts > 1 ? entries : 0;
+    stencils->offsets = (size_t *)sdv_carve(base, &size, (size_t)stencils->count + 1,
+                                            sizeof(size_t));
+    stencils->indices = (int *)sdv_carve(base, &size, entries, sizeof(int));
+    stencils->weights = (float *)sdv_carve(base, &size, entries, sizeof(float));
+    stencils->du = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    stencils->dv = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    return size;
+}
+
+// All that was made, in one block of its own.
+static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
+{
+    subdiv_stencils made;
+    size_t entries = make->indices.count, parts = (size_t)make->parts;
+    const float *weights = (const float *)sdv_items(&make->weights);
+    if (make->context->result) return;
+    memset(&made, 0, sizeof made);
+    made.count = count;
+    sdv_block *block = sdv_allocate(make->context,
+                                    sdv_carve_stencils(&made, entries, make->parts, NULL));
+    if (!block) return;
+    made.memory = block;
+    sdv_carve_stencils(&made, entries, make->parts, (char *)(block + 1));
+    sdv_copy(made.offsets, make->offsets, (size_t)count + 1, sizeof(size_t));
+    sdv_copy(made.indices, sdv_items(&make->indices), entries, sizeof(int));
+    for (size_t i = 0; i < entries; i++) {
+        made.weights[i] = weights[parts * i];
+        if (parts == 1) continue;
+        made.du[i] = weights[parts * i + 1];
+        made.dv[i] = weights[parts * i + 2];
+    }
+    *stencils = made;
+}
+
+// Who makes the points of a refined surface: a row, a patch, or else it is one of the cage's, where
+// it stays. A patch evaluates unit vectors for all its points at once, into the points' records:
+// which patch it is, then the weights of its control points, some lanes after the other.
+typedef struct sdv_makers {
+    const subdiv_surface *surface;
+    int    first, end;                  // points
+    int    width, lanes;                // control points of a patch, unit vectors at once
+    size_t record, group;               // floats of a record and of the lanes in it
+    float *records;                     // [record * points]
+    const int **rows;                   // [points] or NULL
+    int    points[16];                  // 0, 1, 2, ...
+    float  units[16 * 16 * 4];          // [16 / lanes][16] control points: unit vectors
+} sdv_makers;
+
+enum { SDV_RECORD_NAME = 4 };           // floats: a patch's level + 1, and number in two halves
+
+static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                           int first, int count, sdv_makers *makers)
+{
+    int limit = surface->rules.limit;
+    memset(makers, 0, sizeof *makers);
+    makers->surface = surface;
+    makers->first = first;
+    makers->end = first + count;
+    makers->width = sdv_control_points(&surface->rules);
+    makers->lanes = limit ? 3 : 4;
+    makers->group = limit ? 9 : 4;
+    makers->record = SDV_RECORD_NAME + (size_t)((makers->width + 2) / makers->lanes) * makers->group;
+    for (int i = 0; i < 16; i++) {
+        int pass = i / makers->lanes, lane = i % makers->lanes;
+        makers->points[i] = i;
+        makers->units[64 * pass + 4 * i + lane] = 1;
+    }
+    makers->records = SDV_NEW(context, arena, float, makers->record * (size_t)count);
+    makers->rows = SDV_NEW(context, arena, const int *, count);
+    for (int i = 0; i < count && !context->result; i++) {
+        makers->records[makers->record * (size_t)i] = 0;
+        makers->rows[i] = NULL;
+    }
+}
+
+// One patch, whose control points have these values, writes into its points' records at this place.
+static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
+                           const float *values, size_t at, int tangents)
+{
+    float *out = makers->records + at;
+    if (makers->surface->rules.limit) {
+        sdv_limit_window window = { out, NULL, tangents ? out + 3 : NULL, makers->record,
+                                    makers->record, makers->first, makers->end };
+        sdv_limit_patches(makers->surface, patch, values, face, face + 1, &window);
+    } else {
+        sdv_window window = { out, makers->record, makers->lanes, makers->first,
+                              makers->end - makers->first };
+        sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
+    }
+}
+
+// Each patch of a face: first its name, as a constant goes through unchanged.
+static void sdv_push_patches(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int level = 0; level < surface->levels; level++) {
+        const sdv_patches *patches = &surface->patches[level];
+        int last = sdv_first_patch(&surface->order, patches, face + 1);
+        for (int i = sdv_first_patch(&surface->order, patches, face); i < last; i++) {
+            float names[16 * 4];
+            sdv_patches one = *patches;
+            one.count = 1;
+            one.items += i;
+            one.points = makers->points;
+            for (int k = 0; k < 16; k++) {
+                names[4 * k] = (float)(level + 1);
+                names[4 * k + 1] = (float)(i >> 16);
+                names[4 * k + 2] = (float)(i & 65535);
+                names[4 * k + 3] = 0;
+            }
+            sdv_push_units(makers, &one, face, names, 0, 0);
+            for (int k = 0; k * makers->lanes < makers->width; k++)
+                sdv_push_units(makers, &one, face, makers->units + 64 * k,
+                               SDV_RECORD_NAME + makers->group * (size_t)k, 1);
+        }
+    }
+}
+
+static void sdv_note_rows(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    int limit = surface->rules.limit;
+    const sdv_rows *rows = limit ? &surface->limit.rows : &surface->last;
+    if (rows->count == 0) return;
+    const int *row = rows->items + rows->starts[face], *end = rows->items + rows->starts[face + 1];
+    while (row < end) {
+        if (row[1] >= makers->first && row[1] < makers->end)
+            makers->rows[row[1] - makers->first] = row;
+        row += 2 + (limit ? surface->limit.masks[row[0]].count : surface->masks.items[row[0]].count);
+    }
+}
+
+// Has a cage face points from first to end - 1, inside, on an edge or at a vertex?
+static int sdv_face_has(const sdv_order *order, int f, int first, int end)
+{
+    const sdv_level *cage = &order->cage;
+    int has = sdv_first_inside(order, f) < end && sdv_first_inside(order, f + 1) > first;
+    for (int h = sdv_face_start(cage, f); h < sdv_face_end(cage, f) && !has; h++) {
+        int v = cage->face_vertices[h], on = cage->face_edges[h] * (order->n - 1);
+        int edge = order->first_edge_point + on;
+        has = (v >= first && v < end) || (edge < end && edge + order->n - 1 > first);
+    }
+    return has;
+}
+
+static void sdv_find_makers(sdv_makers *makers)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int f = 0; f < surface->cage_face_count && surface->levels > 0; f++) {
+        if (!sdv_face_has(&surface->order, f, makers->first, makers->end)) continue;
+        sdv_push_patches(makers, f);
+        sdv_note_rows(makers, f);
+    }
+}
+
+// Adds the points of a limit row, as sdv_limit_sums does: the first one's weight is what is left.
+static void sdv_add_limit_row(sdv_stencil_maker *make, const int *row)
+{
+    const sdv_limit_rows *limit = &make->surface->limit;
+    const sdv_limit_weights *mask = &limit->masks[row[0]];
+    double left[3] = { 1, 0, 0 }, w[3];
+    sdv_compose_all(make, row + 2, mask->count);
+    for (int i = mask->count - 1; i >= 0 && !make->context->result; i--) {
+        for (int k = 0; k < 3; k++) {
+            w[k] = i ? (double)limit->weights[mask->first + (size_t)(k * mask->count + i)]
+                     : left[k];
+            left[k] -= w[k];
+        }
+        sdv_add_work_point(make, row[2 + i], w);
+    }
+}
+
+// The weights [parts] of control point j of a patch in a record; are they not all 0?
+static int sdv_record_weights(const sdv_makers *makers, const float *record, int j, double *w)
+{
+    size_t group = makers->group * (size_t)(j / makers->lanes);
+    const float *weights = record + SDV_RECORD_NAME + group + j % makers->lanes;
+    int any = 0;
+    for (int k = 0; k < (makers->lanes == 3 ? 3 : 1); k++) {
+        w[k] = (double)weights[makers->lanes * k];
+        any |= fabs(w[k]) > 0;
+    }
+    return any;
+}
+
+// Adds the control points of a patch; those that are mirrored have no weight.
+static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
+{
+    const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
+    size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
+    const int *points = patches->points + i * (size_t)makers->width;
+    double w[3];
+    for (int j = 0; j < makers->width; j++)
+        if (sdv_record_weights(makers, record, j, w)) sdv_compose(make, points[j]);
+    for (int j = 0; j < makers->width && !make->context->result; j++)
+        if (sdv_record_weights(makers, record, j, w)) sdv_add_work_point(make, points[j], w);
+}
+
+static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
+{
+    const subdiv_surface *surface = make->surface;
+    const int *row = makers->rows[i];
+    const float *record = makers->records + makers->record * (size_t)i;
+    const double one[3] = { 1, 0, 0 };
+    if (row && surface->rules.limit) {
+        sdv_add_limit_row(make, row);
+    } else if (row) {
+        const sdv_weights *mask = &surface->masks.items[row[0]];
+        sdv_compose_all(make, row + 2, mask->count);
+        if (!make->context->result) sdv_add_row(make, mask, row + 2);
+    } else if (record[0] > 0) {
+        sdv_add_patch(make, makers, record);
+    } else {
+        sdv_add_work_point(make, makers->first + i, one);
+    }
+    if (!make->context->result) sdv_write_stencil(make, i);
+}
+
+static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
+                                 const subdiv_surface *surface, int first, int count)
+{
+    sdv_stencil_maker make;
+    sdv_makers makers;
+    sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
+    sdv_makers_new(context, &make.arena, surface, first, count, &makers);
+    if (!context->result) sdv_find_makers(&makers);
+    for (int i = 0; i < count && !context->result; i++) sdv_make_refined_stencil(&make, &makers, i);
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_range(&context, surface, 0, 0, first_point, point_count);
+    if (!context.result)
+        sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    return context.result;
+}
+
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!stencils) return;
+    owned.blocks = (sdv_block *)stencils->memory;
+    sdv_arena_free(&owned);
+    memset(stencils, 0, sizeof *stencils);
+}
+
 // ---------------------------------------------------------------------------- >>generators
 // Creases from the mesh itself: each generator asks one question of two faces that share an edge.
 // Boundary and non-manifold edges are sharp by shape, nobody asks about them.
@@ -8458,6 +8949,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS
+#undef SDV_STENCIL_ROUNDING
 #undef SDV_QUAD_PATCH_DEPTH
 #undef SDV_LOOP_PATCH_DEPTH
 #undef SDV_SIMD
