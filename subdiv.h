@@ -475,6 +475,14 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
 // Frees what the library made and zeroes the struct.
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
+// Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
+// it is, which rule holds there and why, the formula, the paper, and the mask: the very weights that
+// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0. 2000 bytes
+// are enough but for large faces and valences. Errors: as subdiv_refine, INDEX if there is no such
+// point, TOO_LARGE if the text does not fit; then text is empty.
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt);
+
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
 // list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
@@ -5914,9 +5922,6 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 // points shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a
 // sum of work points, and each of these, through the rows, one of the cage's vertices.
 
-// Weights that are smaller than this, relative to the largest of a stencil, are rounding errors.
-#define SDV_STENCIL_ROUNDING 6e-8
-
 typedef struct sdv_entry {
     int   vertex;                       // of the cage, or a value's number
     float weight;
@@ -6025,18 +6030,22 @@ static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int coun
     for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
-// Adds a row's points with the weights of its mask: what the others leave of 1 is the first one's.
+// The weight of point i of a row with this mask: what the others leave of 1 is the first one's.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i)
+{
+    double left = 1;
+    if (i > 0) return (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    for (int j = 1; j < mask->count; j++) left -= sdv_row_weight(weights, mask, j);
+    return left;
+}
+
 static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
 {
-    const float *weights = make->surface->masks.weights;
-    double w[3] = { 0, 0, 0 }, left = 1;
-    for (int i = 1; i < mask->count; i++) {
-        w[0] = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
-        left -= w[0];
+    double w[3] = { 0, 0, 0 };
+    for (int i = 0; i < mask->count; i++) {
+        w[0] = sdv_row_weight(make->surface->masks.weights, mask, i);
         sdv_add_work_point(make, points[i], w);
     }
-    w[0] = left;
-    sdv_add_work_point(make, points[0], w);
 }
 
 static void sdv_compose(sdv_stencil_maker *make, int point)
@@ -6068,7 +6077,7 @@ static void sdv_clean_part(sdv_stencil_maker *make, int part)
     int parts = make->parts, largest = 0;
     for (int i = 1; i < make->size; i++)
         if (fabs(sums[parts * i]) > fabs(sums[parts * largest])) largest = i;
-    double least = SDV_STENCIL_ROUNDING * fabs(sums[parts * largest]);
+    double least = (double)FLT_EPSILON * fabs(sums[parts * largest]);
     for (int i = 0; i < make->size; i++) {
         double *w = &sums[parts * i];
         *w = fabs(*w) <= least ? 0 : (double)(float)*w;
@@ -8942,6 +8951,557 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 #endif // SUBDIV_NO_STDIO
 
+// -------------------------------------------------------------------------------- >>explain
+// The words for what >>sharpness and >>masks decide, and the row that they write for a point.
+
+enum { SDV_GROUPS = 4 };
+
+typedef struct sdv_explainer {
+    sdv_context *context;
+    sdv_arena    arena;
+    sdv_text     out;
+    sdv_cage     cage;
+    sdv_rules    rules;
+    unsigned     papers;                // a bit for each that was named
+    double      *weights;               // [vertices, faces] the mask
+    int         *order;                 // [vertices] those that have a weight, heavy ones first
+    int          count;
+    int          group_sizes[SDV_GROUPS];   // how many of them weigh the same; 0: no more
+} sdv_explainer;
+
+static const struct { const char *tag, *title; } sdv_papers[] = {
+    { "[CC78]", "Catmull, Clark: Recursively generated B-spline surfaces on arbitrary\n"
+                "       topological meshes, 1978" },
+    { "[Loop87]", "Loop: Smooth subdivision surfaces based on triangles, 1987" },
+    { "[HDD94]", "Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction, 1994" },
+    { "[DKT98]", "DeRose, Kass, Truong: Subdivision surfaces in character animation, 1998" },
+    { "[OSD]", "OpenSubdiv 3.5: the rules where the papers are silent" }
+};
+
+enum { SDV_CC78, SDV_LOOP87, SDV_HDD94, SDV_DKT98, SDV_OSD, SDV_PAPERS };
+
+static void sdv_say(sdv_explainer *x, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    sdv_format(&x->out, format, args);
+    va_end(args);
+}
+
+static void sdv_cite(sdv_explainer *x, int paper)
+{
+    x->papers |= 1u << paper;
+    sdv_say(x, "  %s\n", sdv_papers[paper].tag);
+}
+
+// A number as a fraction, if it is a simple one as far as floats can tell; else as a float.
+static const char *sdv_number_text(double number, char *text)
+{
+    sdv_text out = { text, 0, 32 };
+    for (int q = 1; q <= 400; q++) {
+        int p = (int)(number * q + 0.5);
+        if (p == 0 || fabs(number * q - p) > (double)FLT_EPSILON * p) continue;
+        sdv_put_int(&out, p);
+        if (q > 1) sdv_put(&out, "/", 1);
+        if (q > 1) sdv_put_int(&out, q);
+        return text;
+    }
+    *sdv_write_exactly(text, (float)number) = 0;
+    return text;
+}
+
+static const char *sdv_float_text(float number, char *text)
+{
+    *sdv_write_exactly(text, number) = 0;
+    return text;
+}
+
+// ---- the mask
+
+// The row of a point goes to the weights of vertices and face points, factor times.
+static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int *row,
+                           double factor)
+{
+    const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
+    const float *weights = (const float *)sdv_items(&writer->weights);
+    for (int i = 0; i < mask->count; i++)
+        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i);
+}
+
+// How many vertices from place i of the order on weigh the same.
+static int sdv_group_size(const sdv_explainer *x, int i)
+{
+    double weight = x->weights[x->order[i]];
+    int size = 1;
+    while (i + size < x->count &&
+           x->weights[x->order[i + size]] > weight - 1e-6 * fabs(weight)) size++;
+    return size;
+}
+
+// Puts the vertices with a weight in order.
+static void sdv_find_order(sdv_explainer *x)
+{
+    const double *w = x->weights;
+    int groups = 0;
+    for (int v = 0; v < x->cage.level.vertex_count; v++) {
+        int at = x->count;
+        if (!(fabs(w[v]) > 0)) continue;
+        for (; at > 0 && w[x->order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
+            x->order[at] = x->order[at - 1];
+        x->order[at] = v;
+        x->count++;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size = sdv_group_size(x, i);
+        if (groups < SDV_GROUPS) x->group_sizes[groups++] = size;
+    }
+}
+
+// The mask of vertex v, of the edge that leads on from h, or of face f, whichever is not -1, on the
+// vertices of the cage: its row, then those of the face points in it.
+static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
+{
+    sdv_level *level = &x->cage.level;
+    size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
+    size_t size = (size_t)level->face_vertex_count + 1;         // of any face's row
+    sdv_writer writer;
+    sdv_rows rows;
+    if (v >= 0) size += sdv_vertex_row_size(level, v, x->rules.loop);
+    if (h >= 0) size += sdv_edge_row_size(level, h);
+    sdv_writer_new(x->context, &writer);
+    x->weights = SDV_NEW(x->context, &x->arena, double, points);
+    x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
+    sdv_begin_rows(&writer, &x->arena, &rows, size, 1, 0);
+    for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
+    for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
+    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
+    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
+    if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
+    if (!x->context->result) sdv_spread_row(x, &writer, rows.items, 1);
+    for (int i = 0; i < level->face_count && !x->context->result; i++) {
+        double weight = x->weights[level->vertex_count + i];
+        if (!(fabs(weight) > 0)) continue;
+        writer.row = rows.items;
+        rows.count = 0;
+        sdv_face_row(level, i, &writer);
+        if (!x->context->result) sdv_spread_row(x, &writer, rows.items, weight);
+    }
+    if (!x->context->result) sdv_find_order(x);
+    sdv_writer_free(&writer);
+}
+
+// One line a weight, with all the vertices that have it.
+static void sdv_say_table(sdv_explainer *x)
+{
+    char text[32];
+    for (int i = 0, size; i < x->count; i += size) {
+        size_t start = x->out.size;
+        size = sdv_group_size(x, i);
+        sdv_say(x, "    %s", sdv_number_text(x->weights[x->order[i]], text));
+        while (x->out.size < start + 14 && x->out.size + 1 < x->out.capacity) sdv_say(x, " ");
+        sdv_say(x, size == 1 ? "vertex" : "vertices");
+        for (int j = i; j < i + size; j++) {
+            if (x->out.size > start + 66) {
+                start = x->out.size + 1;
+                sdv_say(x, "\n                      ");
+            }
+            sdv_say(x, " %d", x->order[j]);
+        }
+        sdv_say(x, "\n");
+    }
+}
+
+// Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
+// weights, heavy ones first, in six places each.
+typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+
+static const struct { sdv_point_kind kind; int sizes[SDV_GROUPS]; const char *text; }
+sdv_pictures[] = {
+    { SDV_FACE_POINT, { 4, 0, 0, 0 },
+      "  aaaaaa --- aaaaaa\n"
+      "     |          |\n"
+      "     |    F     |\n"
+      "     |          |\n"
+      "  aaaaaa --- aaaaaa\n" },
+    { SDV_FACE_POINT, { 3, 0, 0, 0 },
+      "       aaaaaa\n"
+      "         / \\\n"
+      "        / F \\\n"
+      "       /     \\\n"
+      "  aaaaaa -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 0, 0, 0 },
+      "  aaaaaa -- E -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 4, 0, 0 },
+      "  bbbbbb ------- bbbbbb\n"
+      "     |              |\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "     |              |\n"
+      "  bbbbbb ------- bbbbbb\n" },
+    { SDV_EDGE_POINT, { 2, 2, 0, 0 },
+      "         bbbbbb\n"
+      "        /      \\\n"
+      "       /        \\\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "       \\        /\n"
+      "        \\      /\n"
+      "         bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
+      "  bbbbbb --- aaaaaa --- bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
+      "  cccccc --- bbbbbb --- cccccc\n"
+      "     |          |          |\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     |          |          |\n"
+      "  cccccc --- bbbbbb --- cccccc\n" },
+    { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
+      "       bbbbbb --- bbbbbb\n"
+      "        /    \\     /    \\\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "        \\    /     \\    /\n"
+      "       bbbbbb --- bbbbbb\n" }
+};
+
+// The picture with its weights, if they fit.
+static void sdv_draw(sdv_explainer *x, const char *picture)
+{
+    char texts[SDV_GROUPS][32];
+    for (int i = 0, g = 0; i < x->count; i += x->group_sizes[g++]) {
+        sdv_number_text(x->weights[x->order[i]], texts[g]);
+        if (strlen(texts[g]) > 6) return;
+    }
+    size_t start = x->out.size;
+    for (const char *p = picture; *p; p++) {
+        if (*p < 'a' || *p > 'c') {
+            while (*p == '\n' && x->out.text[x->out.size - 1] == ' ') x->out.size--;
+            sdv_put(&x->out, p, 1);
+            continue;
+        }
+        const char *text = texts[*p - 'a'];
+        size_t size = strlen(text), left = (7 - size) / 2;
+        sdv_put(&x->out, "   ", left);
+        sdv_put(&x->out, text, size);
+        sdv_put(&x->out, "   ", 6 - left - size);
+        p += 5;
+    }
+    char *line = x->out.text + start;               // lines reach all weights but for a blank
+    size_t end = x->out.size - start;
+    for (size_t i = 0; i + 2 < end; i++)
+        if (line[i] == '-' && line[i + 1] == ' ' && line[i + 2] == ' ') line[i + 1] = '-';
+    for (size_t i = end; i > 2; i--)
+        if (line[i - 1] == '-' && line[i - 2] == ' ' && line[i - 3] == ' ') line[i - 2] = '-';
+    sdv_say(x, "\n");
+}
+
+static void sdv_say_mask(sdv_explainer *x, sdv_point_kind kind)
+{
+    sdv_say(x, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
+    for (size_t i = 0; i < sizeof sdv_pictures / sizeof *sdv_pictures; i++)
+        if (sdv_pictures[i].kind == kind &&
+            memcmp(sdv_pictures[i].sizes, x->group_sizes, sizeof x->group_sizes) == 0)
+            sdv_draw(x, sdv_pictures[i].text);
+    sdv_say_table(x);
+    if (x->papers) sdv_say(x, "\n");
+    for (int i = 0; i < SDV_PAPERS; i++)
+        if (x->papers >> i & 1)
+            sdv_say(x, "%s %s\n", sdv_papers[i].tag, sdv_papers[i].title);
+}
+
+// ---- vertices
+
+// What a rule makes of a vertex, behind "V = ".
+static void sdv_say_rule(sdv_explainer *x, sdv_rule rule, int n)
+{
+    char text[32];
+    if (rule == SDV_CORNER || x->rules.linear) {
+        sdv_say(x, "v\n");
+    } else if (rule == SDV_CREASE) {
+        sdv_say(x, "(a + 6 v + b) / 8");
+        sdv_cite(x, SDV_HDD94);
+    } else if (x->rules.loop) {
+        sdv_say(x, "(1 - n b) v + b (e1 + ... + en)");
+        sdv_cite(x, SDV_LOOP87);
+        sdv_say(x, "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
+                sdv_number_text(sdv_loop_vertex(n).edge, text), n);
+    } else {
+        sdv_say(x, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d", n);
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
+{
+    int crease = rule == SDV_CREASE || next == SDV_CREASE;
+    int smooth = rule < SDV_CREASE || next < SDV_CREASE;
+    sdv_say(x, "\nHere v is the vertex");
+    if (crease) sdv_say(x, " and a, b are its neighbours along the crease");
+    if (smooth && crease) sdv_say(x, ";\nthe e are all its neighbours");
+    else if (smooth) sdv_say(x, ", the e are its neighbours");
+    if (smooth && !x->rules.loop) sdv_say(x, ", the f the face points there");
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
+{
+    char text[32];
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, "sharp forever");
+    else sdv_say(x, "of sharpness %s", sdv_float_text(sharpness, text));
+}
+
+// The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
+static void sdv_say_edge(sdv_explainer *x, int h, int v)
+{
+    const sdv_level *level = &x->cage.level;
+    int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+    int from = a == v || b == v ? v : a < b ? a : b;
+    sdv_say(x, "%d-%d", from, a + b - from);
+}
+
+// Lists the sharp edges at a vertex, if they are few; how many they are, and how many boundaries.
+static sdv_edges_at sdv_say_sharp_edges(sdv_explainer *x, int v, int say)
+{
+    const sdv_level *level = &x->cage.level;
+    sdv_edges_at sharp = { 0, 0, 0 };
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            if (say && sharp.count) sdv_say(x, " and ");
+            if (say) sdv_say_edge(x, two[i], v);
+            sharp.boundary += sdv_is_boundary(level, two[i]);
+            sharp.count++;
+        }
+    }
+    return sharp;
+}
+
+static void sdv_say_corner(sdv_explainer *x, int v)
+{
+    float sharpness = x->cage.level.vertex_sharpness[v];
+    if (x->cage.level.vertex_faces[v] == 0) {
+        sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
+        return;
+    }
+    sdv_say(x, "Vertex %d is a corner, ", v);
+    if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
+        sdv_say(x, "as the surface is non-manifold there");
+    else if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x, "as the only face there makes it one under \"edge and corner\"");
+    else if (sharpness > 0)
+        sdv_say_sharpness(x, sharpness);
+    else
+        sdv_say(x, "as %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
+{
+    int boundary = sdv_say_sharp_edges(x, v, 0).boundary == 2;
+    if (x->rules.linear) {
+        sdv_say(x, "Refinement is linear: vertex %d stays where it is.\n", v);
+    } else if (rule == SDV_CORNER) {
+        sdv_say_corner(x, v);
+    } else if (rule == SDV_SMOOTH) {
+        sdv_say(x, "Vertex %d is interior, of valence %d, and smooth.\n", v,
+                x->cage.level.vertex_faces[v]);
+    } else {
+        sdv_say(x, rule == SDV_DART ? "Vertex %d is a dart: the crease " :
+                boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
+                "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
+        sdv_say_sharp_edges(x, v, 1);
+        sdv_say(x, rule == SDV_DART ? " ends there. It moves as if it were smooth.\n" :
+                ", a cubic B-spline.\n");
+    }
+}
+
+static void sdv_explain_vertex(sdv_explainer *x, int v)
+{
+    static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
+    static const char letters[] = "SSCK";
+    sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
+    sdv_rule rule = fading.rule, next = fading.next;
+    int n = x->cage.level.vertex_faces[v];
+    char more[32], less[32];
+    int blend = rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear;
+    sdv_say_vertex_rule(x, v, rule);
+    if (!blend) {
+        sdv_say(x, "\n    V = ");
+        sdv_say_rule(x, rule, n);
+    } else {
+        sdv_say(x, "On the next level it is %s. What fades away here has a mean sharpness of\n%s, "
+                "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
+                sdv_number_text(fading.weight, more), more, letters + rule, 1,
+                sdv_number_text(1 - fading.weight, less), letters + next, 1);
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    %t = ", letters + rule, 1);
+        sdv_say_rule(x, rule, n);
+        sdv_say(x, "    %t = ", letters + next, 1);
+        sdv_say_rule(x, next, n);
+    }
+    if (!blend) next = rule;
+    if (!x->rules.linear && (rule != SDV_CORNER || blend)) sdv_say_letters(x, rule, next);
+}
+
+// ---- edges and faces
+
+// The smooth point of an edge, behind "E = ".
+static void sdv_say_smooth_edge(sdv_explainer *x, int h)
+{
+    const sdv_level *level = &x->cage.level;
+    int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
+    char ends[32], faces[32];
+    if (x->rules.loop) {
+        sdv_say(x, "(3 a + 3 b + c + d) / 8");
+        sdv_cite(x, SDV_LOOP87);
+    } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
+        sdv_mask mask = sdv_smooth_triangle_edge(triangles);
+        sdv_say(x, "%s (a + b) + %s (f + g)", sdv_number_text(mask.self, ends),
+                sdv_number_text(mask.face, faces));
+        sdv_cite(x, SDV_OSD);
+    } else {
+        sdv_say(x, "(a + b + f + g) / 4");
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    sdv_say(x, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge " :
+            "Edge ");
+    sdv_say_edge(x, h, -1);
+    if (x->rules.linear) {
+        sdv_say(x, ".\n");
+    } else if (x->cage.edge_nonmanifold[e]) {
+        sdv_say(x, " is non-manifold, and so a crease.\n");
+    } else if (sdv_is_boundary(level, h)) {
+        sdv_say(x, " is on the boundary, which is a crease.\n");
+    } else if (sharpness <= 0) {
+        sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
+                sdv_face_of(level, level->across[h]));
+    } else {
+        sdv_say(x, " is a crease, ");
+        sdv_say_sharpness(x, sharpness);
+        sdv_say(x, stays_sharp ? ".\n" : ", which ends before the next level.\n");
+    }
+}
+
+static void sdv_explain_edge(sdv_explainer *x, int e)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
+    int smooth = !crease && sharpness <= 0;
+    char more[32], less[32];
+    sdv_say_edge_rule(x, e, stays_sharp);
+    if (!crease && !smooth) {
+        sdv_say(x, "So much of the point is still sharp:\n\n    E = %s C + %s S",
+                sdv_number_text((double)sharpness, more),
+                sdv_number_text(1 - (double)sharpness, less));
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    C = (a + b) / 2\n    S = ");
+    } else {
+        sdv_say(x, "\n    E = %s", crease ? "(a + b) / 2\n" : "");
+    }
+    if (!crease) sdv_say_smooth_edge(x, h);
+    sdv_say(x, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
+            x->rules.loop ? ", and c and d the vertices opposite" :
+            ", and f and g the face points beside it");
+}
+
+static void sdv_explain_face(sdv_explainer *x, int f)
+{
+    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
+    sdv_say(x, "Face %d has %d vertices; its face point is their mean.\n\n"
+            "    F = (v1 + ... + vn) / n, n = %d", f, n, n);
+    sdv_cite(x, SDV_CC78);
+}
+
+// The first line, the words, the mask.
+static void sdv_explain_point(sdv_explainer *x, int point)
+{
+    const sdv_level *level = &x->cage.level;
+    int e = point - level->vertex_count, f = e - level->edge_count;
+    int h = e >= 0 && f < 0 ? level->edge_first[e] : -1;
+    sdv_find_mask(x, e < 0 ? point : -1, h, f >= 0 ? f : -1);
+    if (x->context->result) return;
+    sdv_say(x, "Point %d of the mesh refined once is the ", point);
+    if (e < 0) {
+        sdv_say(x, "vertex point of vertex %d.\n", point);
+        sdv_explain_vertex(x, point);
+    } else if (f < 0) {
+        sdv_say(x, "edge point of edge ");
+        sdv_say_edge(x, h, -1);
+        sdv_say(x, ".\n");
+        sdv_explain_edge(x, e);
+    } else {
+        sdv_say(x, "face point of face %d.\n", f);
+        sdv_explain_face(x, f);
+    }
+    sdv_say_mask(x, e < 0 ? SDV_VERTEX_POINT : f < 0 ? SDV_EDGE_POINT : SDV_FACE_POINT);
+}
+
+static void sdv_check_point(sdv_context *context, const sdv_level *level, int loop, int point)
+{
+    char message[256];
+    sdv_text out = { message, 0, sizeof message };
+    const char *const names[3] = { "vertices", "edges", "faces" };
+    int counts[3] = { level->vertex_count, level->edge_count, loop ? 0 : level->face_count };
+    int first = 0;
+    message[0] = 0;
+    for (int i = 0; i < 3; first += counts[i++]) {
+        if (!counts[i]) continue;
+        sdv_put(&out, i ? ", " : "", i ? 2 : 0);
+        sdv_put_int(&out, first);
+        sdv_put(&out, " to ", 4);
+        sdv_put_int(&out, first + counts[i] - 1);
+        sdv_put(&out, " of ", 4);
+        sdv_put(&out, names[i], strlen(names[i]));
+    }
+    if (point < 0 || point >= first)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+                 point, message);
+}
+
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_surface *cut = NULL;
+    sdv_explainer x;
+    memset(&x, 0, sizeof x);
+    if (text && capacity) text[0] = 0;
+    else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
+    if (!context.result) sdv_check_request(&context, &cut, cage, 1, opt);
+    if (context.result) return context.result;
+
+    subdiv_mesh work = *cage;
+    cut = sdv_new_surface(&context, 1);
+    x.context = &context;
+    x.arena = sdv_scratch();
+    x.out.text = text;
+    x.out.capacity = capacity;
+    x.rules.loop = cage->scheme == SUBDIV_LOOP;
+    x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
+    x.rules.creasing = cage->creasing;
+    x.rules.triangles = cage->triangles;
+    if (cut) sdv_copy_faces(&context, cut, &work, cage);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
+    if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
+    if (!context.result) sdv_level_fade(&x.cage.level);
+    if (!context.result) sdv_explain_point(&x, point);
+    if (!context.result && x.out.size + 1 == capacity)
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    if (context.result) text[0] = 0;
+    sdv_arena_free(&x.arena);
+    subdiv_surface_free(cut);
+    return context.result;
+}
+
 // ------------------------------------------------------------------------------- >>cleanup
 #undef SDV_NEW
 #undef SDV_IMPLIED
@@ -8949,7 +9509,6 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS
-#undef SDV_STENCIL_ROUNDING
 #undef SDV_QUAD_PATCH_DEPTH
 #undef SDV_LOOP_PATCH_DEPTH
 #undef SDV_SIMD
