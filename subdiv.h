@@ -52,6 +52,7 @@
              >>limit     points and normals of the    >>creases    from angles, groups, seams
                          limit surface                >>inspect    what a cage is made of, what
              >>obj       reading and writing OBJ                   is odd about it
+             >>stencils  points as weights of the cage's vertices; points explained
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
@@ -65,8 +66,9 @@
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
+             >>stencils  the same as weights
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
-             >>numbers  >>obj-read  >>obj-write  >>cleanup
+             >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
@@ -476,10 +478,10 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
 // Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
-// it is, which rule holds there and why, the formula, the paper, and the mask: the very weights that
-// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0. 2000 bytes
-// are enough but for large faces and valences. Errors: as subdiv_refine, INDEX if there is no such
-// point, TOO_LARGE if the text does not fit; then text is empty.
+// it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
+// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
+// bytes are enough but for large faces and valences. Errors, which leave text empty: as
+// subdiv_refine, INDEX if there is no such point, TOO_LARGE if the text does not fit.
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt);
 
@@ -5918,9 +5920,9 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 }
 
 // ------------------------------------------------------------------------------ >>stencils
-// No rule is here a second time: rows of weights are there, and what a patch does to its control
-// points shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a
-// sum of work points, and each of these, through the rows, one of the cage's vertices.
+// No rule is here a second time: rows have weights, and what a patch does to its control points
+// shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
+// of work points, and each of these, through its row, a sum of others, down to the cage's.
 
 typedef struct sdv_entry {
     int   vertex;                       // of the cage, or a value's number
@@ -6171,7 +6173,7 @@ typedef struct sdv_makers {
     float *records;                     // [record * points]
     const int **rows;                   // [points] or NULL
     int    points[16];                  // 0, 1, 2, ...
-    float  units[16 * 16 * 4];          // [16 / lanes][16] control points: unit vectors
+    float  units[6 * 64];               // the unit vectors: 16 control points, 4 lanes a pass
 } sdv_makers;
 
 enum { SDV_RECORD_NAME = 4 };           // floats: a patch's level + 1, and number in two halves
@@ -6187,7 +6189,8 @@ static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_
     makers->width = sdv_control_points(&surface->rules);
     makers->lanes = limit ? 3 : 4;
     makers->group = limit ? 9 : 4;
-    makers->record = SDV_RECORD_NAME + (size_t)((makers->width + 2) / makers->lanes) * makers->group;
+    int passes = (makers->width + makers->lanes - 1) / makers->lanes;
+    makers->record = SDV_RECORD_NAME + makers->group * (size_t)passes;
     for (int i = 0; i < 16; i++) {
         int pass = i / makers->lanes, lane = i % makers->lanes;
         makers->points[i] = i;
@@ -6254,7 +6257,8 @@ static void sdv_note_rows(sdv_makers *makers, int face)
     while (row < end) {
         if (row[1] >= makers->first && row[1] < makers->end)
             makers->rows[row[1] - makers->first] = row;
-        row += 2 + (limit ? surface->limit.masks[row[0]].count : surface->masks.items[row[0]].count);
+        row += 2 + (limit ? surface->limit.masks[row[0]].count
+                          : surface->masks.items[row[0]].count);
     }
 }
 
@@ -9090,20 +9094,32 @@ static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
     sdv_writer_free(&writer);
 }
 
+static void sdv_say_blanks(sdv_explainer *x, size_t count)
+{
+    while (count--) sdv_put(&x->out, " ", 1);
+}
+
 // One line a weight, with all the vertices that have it.
 static void sdv_say_table(sdv_explainer *x)
 {
     char text[32];
+    size_t width = 6;                               // of the weights
+    for (int i = 0; i < x->count; i += sdv_group_size(x, i)) {
+        size_t size = strlen(sdv_number_text(x->weights[x->order[i]], text));
+        if (size > width) width = size;
+    }
     for (int i = 0, size; i < x->count; i += size) {
         size_t start = x->out.size;
         size = sdv_group_size(x, i);
-        sdv_say(x, "    %s", sdv_number_text(x->weights[x->order[i]], text));
-        while (x->out.size < start + 14 && x->out.size + 1 < x->out.capacity) sdv_say(x, " ");
+        sdv_number_text(x->weights[x->order[i]], text);
+        sdv_say(x, "    %s", text);
+        sdv_say_blanks(x, width + 2 - strlen(text));
         sdv_say(x, size == 1 ? "vertex" : "vertices");
         for (int j = i; j < i + size; j++) {
-            if (x->out.size > start + 66) {
-                start = x->out.size + 1;
-                sdv_say(x, "\n                      ");
+            if (x->out.size > start + 68) {
+                sdv_say(x, "\n");
+                start = x->out.size;
+                sdv_say_blanks(x, width + 14);
             }
             sdv_say(x, " %d", x->order[j]);
         }
@@ -9243,8 +9259,8 @@ static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
 static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
 {
     char text[32];
-    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, "sharp forever");
-    else sdv_say(x, "of sharpness %s", sdv_float_text(sharpness, text));
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, ", sharp forever");
+    else sdv_say(x, ", of sharpness %s", sdv_float_text(sharpness, text));
 }
 
 // The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
@@ -9281,15 +9297,15 @@ static void sdv_say_corner(sdv_explainer *x, int v)
         sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
         return;
     }
-    sdv_say(x, "Vertex %d is a corner, ", v);
+    sdv_say(x, "Vertex %d is a corner", v);
     if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
-        sdv_say(x, "as the surface is non-manifold there");
+        sdv_say(x, ": the surface is non-manifold there");
     else if (sharpness > SUBDIV_INFINITE)
-        sdv_say(x, "as the only face there makes it one under \"edge and corner\"");
+        sdv_say(x, ": it has one face, and the rule is \"edge and corner\"");
     else if (sharpness > 0)
         sdv_say_sharpness(x, sharpness);
     else
-        sdv_say(x, "as %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
+        sdv_say(x, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
     sdv_say(x, ".\n");
 }
 
@@ -9308,7 +9324,7 @@ static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
                 boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
                 "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
         sdv_say_sharp_edges(x, v, 1);
-        sdv_say(x, rule == SDV_DART ? " ends there. It moves as if it were smooth.\n" :
+        sdv_say(x, rule == SDV_DART ? " ends there.\nIt moves as if it were smooth.\n" :
                 ", a cubic B-spline.\n");
     }
 }
@@ -9327,7 +9343,7 @@ static void sdv_explain_vertex(sdv_explainer *x, int v)
         sdv_say(x, "\n    V = ");
         sdv_say_rule(x, rule, n);
     } else {
-        sdv_say(x, "On the next level it is %s. What fades away here has a mean sharpness of\n%s, "
+        sdv_say(x, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
                 "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
                 sdv_number_text(fading.weight, more), more, letters + rule, 1,
                 sdv_number_text(1 - fading.weight, less), letters + next, 1);
@@ -9381,9 +9397,11 @@ static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
         sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
                 sdv_face_of(level, level->across[h]));
     } else {
-        sdv_say(x, " is a crease, ");
+        sdv_say(x, " is a crease");
         sdv_say_sharpness(x, sharpness);
-        sdv_say(x, stays_sharp ? ".\n" : ", which ends before the next level.\n");
+        sdv_say(x, stays_sharp ? ".\n" : ".\nIt ends before the next level");
+        if (!stays_sharp) sdv_say(x, sharpness < 1 ? ", and so much of the point is still sharp:\n"
+                                                   : ".\n");
     }
 }
 
@@ -9398,7 +9416,7 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
     char more[32], less[32];
     sdv_say_edge_rule(x, e, stays_sharp);
     if (!crease && !smooth) {
-        sdv_say(x, "So much of the point is still sharp:\n\n    E = %s C + %s S",
+        sdv_say(x, "\n    E = %s C + %s S",
                 sdv_number_text((double)sharpness, more),
                 sdv_number_text(1 - (double)sharpness, less));
         sdv_cite(x, SDV_DKT98);
