@@ -525,6 +525,13 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  int first_point, int point_count,
                                                  const subdiv_options *opt);
 
+// Of so many locations on a surface prepared with SUBDIV_EXACT: those of subdiv_evaluate_at, with
+// du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt);
+
 // Frees what the library made and zeroes the struct.
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
@@ -6131,6 +6138,7 @@ typedef struct sdv_exact {
                                         // ~(2 patch) or ~(2 face of a nest + 1)
     unsigned char *absent;              // [face_count] without surface; NULL: none
     sdv_nest_kind *kinds;
+    int kind_count;
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
@@ -6597,6 +6605,7 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
     exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
                                                    sizeof(sdv_nest_kind));
+    exact->kind_count = (int)maker->kinds.count;
     exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
@@ -7169,25 +7178,34 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
+// The leaf of a location, where on it that is, and how much smaller than the face it is.
+static inline int sdv_find_leaf(const subdiv_surface *surface, int loop, const subdiv_location *at,
+                                double *x, double *y, double *scale)
+{
+    const int *nodes = surface->exact->nodes;
+    int f = surface->own_face ? surface->own_face[at->face] : at->face;
+    int slot = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
+    *x = at->u > 0 ? (double)at->u : 0;
+    *y = at->v > 0 ? (double)at->v : 0;
+    if (*x > 1) *x = 1;
+    if (*y > 1) *y = 1;
+    if (loop && *x + *y > 1) *y = 1 - *x;
+    for (*scale = 1; slot >= 0; *scale *= 2)
+        slot = nodes[slot + (loop ? sdv_descend_triangle(x, y, scale) : sdv_descend_quad(x, y))];
+    return slot;
+}
+
 static inline int sdv_put_location(const sdv_exact_evaluation *e, int loop, int i)
 {
     const subdiv_surface *surface = e->surface;
     const sdv_exact *exact = surface->exact;
-    const sdv_level *cage = &surface->order.cage;
     const subdiv_location *at = &e->locations[i];
     if (exact->absent && exact->absent[at->face]) {
         sdv_put_zeros(e, (size_t)i);
         return 1;
     }
-    int f = surface->own_face ? surface->own_face[at->face] : at->face;
-    int slot = sdv_face_node(cage, loop, f, at->corner);
-    double x = at->u > 0 ? (double)at->u : 0, y = at->v > 0 ? (double)at->v : 0, scale = 1;
-    if (x > 1) x = 1;
-    if (y > 1) y = 1;
-    if (loop && x + y > 1) y = 1 - x;
-    for (slot = exact->nodes[slot]; slot >= 0; scale *= 2)
-        slot = exact->nodes[slot + (loop ? sdv_descend_triangle(&x, &y, &scale)
-                                         : sdv_descend_quad(&x, &y))];
+    double x, y, scale;
+    int slot = sdv_find_leaf(surface, loop, at, &x, &y, &scale);
     size_t leaf = (size_t)(~slot >> 1);
     if (~slot & 1) return sdv_put_nest(e, (int)leaf, x, y, scale, (size_t)i);
     sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * leaf, loop,
@@ -7295,8 +7313,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 // of work points, and each of these, through its row, a sum of others, down to the cage's.
 
 typedef struct sdv_entry {
-    int   vertex;                       // of the cage, or a value's number
-    float weight;
+    double weight;
+    int    vertex;                      // of the cage, or a value's number
 } sdv_entry;
 
 typedef struct sdv_stencil_maker {
@@ -7368,7 +7386,7 @@ static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double 
     }
     const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
     for (int i = 0; i < make->sizes[point]; i++)
-        sdv_add_to_sum(make, entry[i].vertex, (double)entry[i].weight, w);
+        sdv_add_to_sum(make, entry[i].vertex, entry[i].weight, w);
 }
 
 static void sdv_end_sum(sdv_stencil_maker *make)
@@ -7433,7 +7451,7 @@ static void sdv_compose(sdv_stencil_maker *make, int point)
                                                    (size_t)make->size, sizeof *entry);
     for (int i = 0; i < make->size && entry; i++) {
         entry[i].vertex = make->vertices[i];
-        entry[i].weight = (float)make->sums[make->parts * i];
+        entry[i].weight = make->sums[make->parts * i];
     }
     make->starts[point] = make->known.count;
     make->sizes[point] = make->size;
@@ -7441,21 +7459,29 @@ static void sdv_compose(sdv_stencil_maker *make, int point)
     sdv_end_sum(make);
 }
 
-// What is no more than rounding of the largest weight becomes 0, and the largest takes the rest, so
-// that weights add up to what they should.
+// Gives what is missing from the total to the largest of count weights.
+static void sdv_balance(double *weights, int count, int stride, double total)
+{
+    double *largest = weights;
+    for (int i = 0; i < count; i++, weights += stride) {
+        if (fabs(*weights) > fabs(*largest)) largest = weights;
+        total -= *weights;
+    }
+    *largest += total;
+}
+
+// What is no more than rounding of the largest weight becomes 0.
 static void sdv_clean_part(sdv_stencil_maker *make, int part)
 {
-    double *sums = make->sums + part, left = part == 0 ? 1 : 0;
-    int parts = make->parts, largest = 0;
-    for (int i = 1; i < make->size; i++)
-        if (fabs(sums[parts * i]) > fabs(sums[parts * largest])) largest = i;
-    double least = (double)FLT_EPSILON * fabs(sums[parts * largest]);
+    double *sums = make->sums + part, largest = 0;
+    int parts = make->parts;
+    if (make->size == 0) return;                    // a face without a surface
+    for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
     for (int i = 0; i < make->size; i++) {
         double *w = &sums[parts * i];
-        *w = fabs(*w) <= least ? 0 : (double)(float)*w;
-        left -= *w;
+        *w = fabs(*w) <= (double)FLT_EPSILON * largest ? 0 : (double)(float)*w;
     }
-    sums[parts * largest] += left;
+    sdv_balance(sums, make->size, parts, part == 0 ? 1 : 0);
 }
 
 static void sdv_sort(int *numbers, int count)
@@ -7672,30 +7698,30 @@ static void sdv_add_limit_row(sdv_stencil_maker *make, const int *row)
     }
 }
 
-// The weights [parts] of control point j of a patch in a record; are they not all 0?
-static int sdv_record_weights(const sdv_makers *makers, const float *record, int j, double *w)
+// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
+// they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
 {
-    size_t group = makers->group * (size_t)(j / makers->lanes);
-    const float *weights = record + SDV_RECORD_NAME + group + j % makers->lanes;
-    int any = 0;
-    for (int k = 0; k < (makers->lanes == 3 ? 3 : 1); k++) {
-        w[k] = (double)weights[makers->lanes * k];
-        any |= fabs(w[k]) > 0;
-    }
-    return any;
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
+    sdv_compose_all(make, points, count);
+    for (int i = 0; i < count && !make->context->result; i++)
+        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
 }
 
-// Adds the control points of a patch; those that are mirrored have no weight.
+// Adds the control points of a patch.
 static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
 {
     const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
     size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
     const int *points = patches->points + i * (size_t)makers->width;
-    double w[3];
-    for (int j = 0; j < makers->width; j++)
-        if (sdv_record_weights(makers, record, j, w)) sdv_compose(make, points[j]);
-    for (int j = 0; j < makers->width && !make->context->result; j++)
-        if (sdv_record_weights(makers, record, j, w)) sdv_add_work_point(make, points[j], w);
+    double weights[3 * 16];
+    for (int j = 0; j < makers->width; j++) {
+        size_t group = makers->group * (size_t)(j / makers->lanes);
+        const float *w = record + SDV_RECORD_NAME + group + j % makers->lanes;
+        for (int k = 0; k < 3; k++)
+            weights[3 * j + k] = k < make->parts ? (double)w[makers->lanes * k] : 0;
+    }
+    sdv_add_rounded(make, points, makers->width, weights);
 }
 
 static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
@@ -7740,8 +7766,138 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     if (stencils) memset(stencils, 0, sizeof *stencils);
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_range(&context, surface, 0, 0, first_point, point_count);
+    if (surface) sdv_check_result(&context, surface);
     if (!context.result)
         sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    return context.result;
+}
+
+// Evaluates unit vectors at locations: those of the work points that a location's leaf looks at,
+// four at a time, in scratch memory that is 0 everywhere else.
+typedef struct sdv_probe {
+    const subdiv_surface *surface;
+    void            *scratch;
+    sdv_exact_memory memory;            // parts of it
+    subdiv_options   opt;
+    unsigned char   *seen;              // [work_count] work points
+    int             *points;            // [most points of a leaf] those of this one, each once
+    double          *weights;           // [3 * most]
+} sdv_probe;
+
+static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                          sdv_probe *probe)
+{
+    const sdv_exact *exact = surface->exact;
+    size_t size = subdiv_scratch_size(surface, 4), work = (size_t)surface->work_count, most = 16;
+    for (int i = 0; i < exact->kind_count; i++)
+        if ((size_t)exact->kinds[i].points > most) most = (size_t)exact->kinds[i].points;
+    memset(probe, 0, sizeof *probe);
+    probe->surface = surface;
+    probe->opt.user = context->user;
+    probe->scratch = sdv_new(context, arena, size, 1);
+    probe->seen = SDV_NEW(context, arena, unsigned char, work);
+    probe->points = SDV_NEW(context, arena, int, most);
+    probe->weights = SDV_NEW(context, arena, double, 3 * most);
+    if (context->result) return;
+    probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
+    memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
+    memset(probe->seen, 0, work);
+}
+
+// The work points that a leaf looks at. Of a patch also its level and its number there.
+static int sdv_probe_points(sdv_probe *probe, int slot, int *level, int *patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    const sdv_exact *exact = surface->exact;
+    int leaf = ~slot >> 1, count, distinct = 0;
+    const int *points;
+    *level = -1;
+    if (~slot & 1) {
+        const sdv_nest *nest = &exact->nests[exact->nest_faces[leaf].nest];
+        points = exact->nest_points + nest->first;
+        count = exact->kinds[nest->kind].points;
+    } else {
+        for (*level = 0; leaf >= surface->patches[*level].count; (*level)++)
+            leaf -= surface->patches[*level].count;
+        *patch = leaf;
+        count = sdv_control_points(&surface->rules);
+        points = surface->patches[*level].points + (size_t)count * (size_t)leaf;
+    }
+    for (int i = 0; i < count; i++) {
+        if (probe->seen[points[i]]) continue;
+        probe->seen[points[i]] = 1;
+        probe->points[distinct++] = points[i];
+    }
+    for (int i = 0; i < distinct; i++) probe->seen[probe->points[i]] = 0;
+    return distinct;
+}
+
+// Their weights: of the point, du and dv.
+static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const subdiv_location *at,
+                               int slot, int count, int level, int patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    float lanes[3][4];
+    subdiv_derivatives out = { lanes[0], lanes[1], lanes[2], NULL, NULL, NULL, NULL, 0 };
+    for (int first = 0; first < count; first += 4) {
+        int some = count - first < 4 ? count - first : 4;
+        const int *points = probe->points + first;
+        for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
+        if (level >= 0) {
+            const sdv_patches *patches = &surface->patches[level];
+            size_t width = (size_t)sdv_control_points(&surface->rules);
+            sdv_exact_patch(&surface->rules, &patches->items[patch],
+                            patches->points + width * (size_t)patch, probe->memory.work, 4,
+                            probe->memory.patches + 4 * SDV_SLOTS * (size_t)(~slot >> 1));
+        }
+        subdiv_result result = subdiv_evaluate_at(surface, 4, probe->scratch, 1, at, &out,
+                                                  &probe->opt);
+        if (result) sdv_fail(context, result, "out of memory");
+        for (int i = 0; i < some; i++) {
+            probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
+            for (int k = 0; k < 3 && !context->result; k++)
+                probe->weights[3 * (size_t)(first + i) + (size_t)k] = (double)lanes[k][i];
+        }
+    }
+}
+
+static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
+                            const subdiv_surface *surface, int count,
+                            const subdiv_location *locations)
+{
+    sdv_stencil_maker make;
+    sdv_probe probe;
+    const unsigned char *absent = surface->exact->absent;
+    sdv_stencil_maker_new(context, &make, surface, count, 3);
+    sdv_probe_new(context, &make.arena, surface, &probe);
+    for (int i = 0; i < count && !context->result; i++) {
+        const subdiv_location *at = &locations[i];
+        if (!absent || !absent[at->face]) {
+            double x, y, scale;
+            int level, patch = 0;
+            int slot = sdv_find_leaf(surface, surface->rules.loop, at, &x, &y, &scale);
+            int points = sdv_probe_points(&probe, slot, &level, &patch);
+            sdv_probe_location(context, &probe, at, slot, points, level, patch);
+            if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
+        }
+        if (!context->result) sdv_write_stencil(&make, i);
+    }
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_derivatives none;
+    memset(&none, 0, sizeof none);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_exact(&context, surface, 4, count, locations, &none);
+    if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
     return context.result;
 }
 

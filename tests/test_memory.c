@@ -252,6 +252,23 @@ static subdiv_result call_limit_stencils(const subdiv_mesh *cage, const subdiv_o
     return stencils_as(cage, 1, opt);
 }
 
+// On a face of the strip and, in a nest, at its pentagon.
+static subdiv_result call_stencils_at(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_stencils stencils, zero;
+    subdiv_location at[2] = { { 40, 0, 0.25f, 0.5f }, { cage->face_count - 2, 3, 0.9999f, 1 } };
+    subdiv_result result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_stencils_at(&stencils, surface, 2, at, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
 static subdiv_result call_explain(const subdiv_mesh *cage, const subdiv_options *opt)
 {
     char text[4096] = "";
@@ -419,6 +436,7 @@ static void test_stencils(void)
 {
     CHECK(check_call(call_stencils) > 1);
     CHECK(check_call(call_limit_stencils) > 1);
+    CHECK(check_call(call_stencils_at) > 1);
     CHECK(check_call(call_explain) > 1);
 }
 

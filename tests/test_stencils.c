@@ -203,6 +203,87 @@ static void test_parts(void)
     }
 }
 
+// ------------------------------------------------------------------------------------- anywhere
+
+// Places on each face, or on each quad of an n-gon: its vertex, its middle, near its vertices and
+// edges, on its edges.
+static int places_of(const subdiv_mesh *mesh, subdiv_location *at, int most)
+{
+    static const float places[9][2] = { {0, 0}, {0.5f, 0.25f}, {1e-5f, 3e-6f}, {0.875f, 0.1f},
+                                        {0.3f, 0}, {0, 1}, {0.04f, 0.03f}, {0.26f, 0.73f}, {1, 0} };
+    int count = 0;
+    for (int f = 0; f < mesh->face_count; f++) {
+        int size = mesh->face_size ? mesh->face_size : mesh->face_sizes[f];
+        int corners = mesh->scheme == SUBDIV_LOOP || size == 4 ? 1 : size;
+        for (int i = 0; i < 9 && count < most; i++) {
+            subdiv_location place = { f, (f + i) % corners, places[i][0], places[i][1] };
+            at[count++] = place;
+        }
+    }
+    return count;
+}
+
+// Each location's stencils beside evaluation of unit vectors. Derivatives have the size of their
+// weights as the measure.
+static void check_locations(const subdiv_surface *surface, const subdiv_mesh *mesh, int inputs)
+{
+    static subdiv_location at[400];
+    int count = places_of(mesh, at, 400);
+    size_t size = sizeof(float) * (size_t)count * (size_t)inputs;
+    float *in = units(inputs), *out[3];
+    void *scratch = malloc(subdiv_scratch_size(surface, inputs));
+    subdiv_stencils s;
+    for (int k = 0; k < 3; k++) out[k] = malloc(size);
+    subdiv_derivatives values = { out[0], out[1], out[2], NULL, NULL, NULL, NULL, 0 };
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, inputs, in, 0, scratch, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_at(surface, inputs, scratch, count, at, &values, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, count, at, NULL), SUBDIV_OK);
+    check_shape(&s, count, inputs);
+    for (int k = 0; k < 3; k++) {
+        const float *weights = k == 0 ? s.weights : k == 1 ? s.du : s.dv;
+        for (int i = 0; i < s.count; i++) {
+            const float *expected = out[k] + (size_t)i * (size_t)inputs;
+            double sum = 0, wanted = 0, largest = 1;
+            size_t j = s.offsets[i];
+            for (int v = 0; v < inputs; v++) {
+                wanted += (double)expected[v];
+                largest = fmax(largest, fabs((double)expected[v]));
+            }
+            for (int v = 0; v < inputs; v++) {
+                int there = j < s.offsets[i + 1] && s.indices[j] == v;
+                double weight = there ? (double)weights[j++] : 0;
+                sum += weight;
+                CHECK_NEAR(weight, expected[v], (k ? 5e-6 : 1e-6) * largest);
+            }
+            CHECK_NEAR(sum, k ? 0 : floor(wanted + 0.5), 1e-6 * largest);
+        }
+    }
+    subdiv_stencils_free(&s);
+    for (int k = 0; k < 3; k++) free(out[k]);
+    free(in), free(scratch);
+}
+
+static void test_anywhere(void)
+{
+    for (unsigned seed = 0; seed < 50; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        const subdiv_mesh *mesh = &c->mesh;
+        subdiv_surface *surface;
+        say_where("anywhere", seed, -1);
+        CHECK_EQUAL(subdiv_prepare(&surface, mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+        check_locations(surface, mesh, mesh->vertex_count);
+        subdiv_surface_free(surface);
+        if (mesh->uv_count > 0) {
+            CHECK_EQUAL(subdiv_prepare_face_varying(&surface, mesh, mesh->uv_count,
+                                                    mesh->face_uvs, mesh->uv_rule, SUBDIV_EXACT,
+                                                    NULL), SUBDIV_OK);
+            check_locations(surface, mesh, mesh->uv_count);
+            subdiv_surface_free(surface);
+        }
+        random_cage_free(c);
+    }
+}
+
 // ------------------------------------------------------------------------------------ the papers
 
 // So many weights p/q of a point and no others; and of its tangents' sizes.
@@ -500,11 +581,30 @@ static void test_errors(void)
         CHECK_TEXT(error.message, "the result has 26 points");
         CHECK(is_zero(&s));
     }
+    subdiv_location at = { 0, 0, 0.5f, 0.5f };
+    memset(&s, 0x55, sizeof s);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK(strstr(error.message, "SUBDIV_EXACT") != NULL);
+    CHECK(is_zero(&s));
     CHECK_EQUAL(subdiv_refined_stencils(&s, surface, 26, 0, &opt), SUBDIV_OK);
     CHECK_EQUAL(s.count, 0);
     subdiv_stencils_free(&s);
     subdiv_stencils_free(&s);
     subdiv_stencils_free(NULL);
+    subdiv_surface_free(surface);
+
+    CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refined_stencils(&s, surface, 0, 1, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(NULL, surface, 1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(&s, NULL, 1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, NULL, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, -1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    at.face = 6;
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, &at, &opt), SUBDIV_ERROR_INDEX);
+    CHECK(is_zero(&s));
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 0, NULL, &opt), SUBDIV_OK);
+    CHECK_EQUAL(s.count, 0);
+    subdiv_stencils_free(&s);
     subdiv_surface_free(surface);
 
     CHECK_EQUAL(subdiv_explain(NULL, 9, &c.mesh, 0, &opt), SUBDIV_ERROR_ARGUMENT);
@@ -530,6 +630,7 @@ int main(void)
     RUN(test_face_varying);
     RUN(test_limits);
     RUN(test_parts);
+    RUN(test_anywhere);
     RUN(test_papers);
     RUN(test_explained_masks);
     RUN(test_explained_catmull_clark);
