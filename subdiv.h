@@ -7765,8 +7765,8 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     sdv_context context = sdv_begin(opt);
     if (stencils) memset(stencils, 0, sizeof *stencils);
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_range(&context, surface, 0, 0, first_point, point_count);
     if (surface) sdv_check_result(&context, surface);
+    if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
     if (!context.result)
         sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
     return context.result;
