@@ -249,6 +249,21 @@ static int print_face_sizes(const subdiv_mesh *mesh, int max_face_size)
     return DONE;
 }
 
+// How many statements there are of each kind.
+static void print_statements(const subdiv_mesh *mesh)
+{
+    static const char *const words[] = {"g", "o", "s", "usemtl", "mtllib"};
+    printf("%-26s%d\n", "statements", mesh->statement_count);
+    for (int k = 0; k < 5; k++) {
+        size_t size = strlen(words[k]);
+        int count = 0;
+        for (int i = 0; i < mesh->statement_count; i++)
+            count += strncmp(mesh->statements[i], words[k], size) == 0 &&
+                     strchr(" \t", mesh->statements[i][size]) != NULL;
+        if (count) printf("  %-24s%d\n", words[k], count);
+    }
+}
+
 // A float with the fewest digits that tell it from others, behind a blank.
 static void print_float(float value)
 {
@@ -318,12 +333,15 @@ static int print_info(const subdiv_mesh *mesh, const subdiv_info *info, const fi
         {"corners", info->corner_count},
         {"holes", info->hole_count},
         {"components", info->component_count},
+        {"UVs", mesh->uv_count},
+        {"vertices with colours", mesh->colors ? mesh->vertex_count : 0},
     };
     printf("%-26s%d\n%-26s%d\n%-26s%d\n", "vertices", info->vertex_count, "edges",
            info->edge_count, "faces", info->face_count);
     if (print_face_sizes(mesh, info->max_face_size)) return FAILED;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         printf("%-26s%d\n", rows[i].name, rows[i].value);
+    print_statements(mesh);
     print_bounding_box(mesh);
     print_findings(odd);
     return flush_output();
@@ -474,16 +492,17 @@ static subdiv_result load(subdiv_mesh *cage, const command *cmd, const subdiv_op
     return result;
 }
 
-static int report(const subdiv_options *opt)
+// Names the file, where the message does not: of standard input, and once the cage is read.
+static void print_message(const char *kind, const char *file, const char *message)
 {
-    fprintf(stderr, "subdiv: %s\n", opt->error->message);
-    return FAILED;
+    int named = strncmp(message, file, strlen(file)) == 0;
+    fprintf(stderr, "subdiv: %s%s%s%s", kind, named ? "" : file, named ? "" : ": ", message);
 }
 
-// The same where the message does not know the name of the file: once the cage is read.
-static int report_cage(const command *cmd, const subdiv_options *opt)
+static int report(const char *file, const subdiv_options *opt)
 {
-    fprintf(stderr, "subdiv: %s: %s\n", cmd->input, opt->error->message);
+    print_message("", file, opt->error->message);
+    fputc('\n', stderr);
     return FAILED;
 }
 
@@ -496,7 +515,7 @@ static int add_creases(subdiv_mesh *cage, const command *cmd, const subdiv_optio
     if ((given[CREASE_ANGLE] == 1 && subdiv_crease_by_angle(cage, degrees, sharpness, opt)) ||
         (given[CREASE_GROUPS] == 1 && subdiv_crease_by_smoothing_groups(cage, sharpness, opt)) ||
         (given[CREASE_SEAMS] == 1 && subdiv_crease_by_uv_seams(cage, sharpness, opt)))
-        return report_cage(cmd, opt);
+        return report(cmd->input, opt);
     return DONE;
 }
 
@@ -507,7 +526,7 @@ static int inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
     findings odd = {{0}, {0}, {{{0}}}};
     subdiv_error before = *opt->error;
     if (subdiv_inspect(&info, cage, opt) ||
-        subdiv_check(odd.counts, cage, keep_finding, &odd, opt)) return report_cage(cmd, opt);
+        subdiv_check(odd.counts, cage, keep_finding, &odd, opt)) return report(cmd->input, opt);
     if (cmd->output) *opt->error = before;
     return print_info(cage, &info, &odd);
 }
@@ -546,7 +565,7 @@ static int check_output(subdiv_result result, const command *cmd, const subdiv_o
         FILE *file = fopen(cmd->output, "wb");
         if (file) fclose(file);
     }
-    return report(opt);
+    return report(writes_stdout(cmd) ? cmd->input : cmd->output, opt);
 }
 
 // What a run needs and main frees.
@@ -581,7 +600,7 @@ static int refine_then_save(work *w, const command *cmd, const subdiv_options *o
     subdiv_surface_free(w->surface);
     w->surface = NULL;
     subdiv_mesh_free(&w->cage);
-    if (result) return report_cage(cmd, opt);
+    if (result) return report(cmd->input, opt);
     end_step(w, "refine");
     result = writes_stdout(cmd) ? subdiv_save_obj_callback(&w->fine, write_stdout, NULL, opt)
                                 : subdiv_save_obj(&w->fine, cmd->output, opt);
@@ -606,7 +625,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
 {
     int info = cmd->given[INFO] == 1, timed = cmd->given[TIME] == 1;
     w->start = milliseconds();
-    if (load(&w->cage, cmd, opt)) return report(opt);
+    if (load(&w->cage, cmd, opt)) return report(cmd->input, opt);
     if (add_creases(&w->cage, cmd, opt)) return FAILED;
     end_step(w, "load");
     if (cmd->given[EXPLAIN] >= 0) return explain(&w->cage, cmd, opt);
@@ -617,7 +636,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     }
     int levels = cmd->given[LEVELS] >= 0 ? cmd->given[LEVELS] : 1;
     w->start = milliseconds();
-    if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report_cage(cmd, opt);
+    if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report(cmd->input, opt);
     end_step(w, "prepare");
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     int streams = cmd->given[STREAM] == 1 || (vertex_count > LARGE && !opt->limit);
@@ -629,9 +648,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
 static void print_warnings(const command *cmd, const subdiv_error *error)
 {
     if (error->warning_count == 0) return;
-    int named = strncmp(error->warning, cmd->input, strlen(cmd->input)) == 0;
-    fprintf(stderr, "subdiv: warning: %s%s%s", named ? "" : cmd->input, named ? "" : ": ",
-            error->warning);
+    print_message("warning: ", cmd->input, error->warning);
     if (error->warning_count > 1) fprintf(stderr, " (and %d more)", error->warning_count - 1);
     fputc('\n', stderr);
 }

@@ -481,7 +481,7 @@ same out one_and_one.obj
 subdiv -l2 box.obj box_itself.obj && cp box.obj itself.obj && subdiv -l2 itself.obj itself.obj
 same itself.obj two.obj
 ends 1 - < bad_vertex.obj
-says "line 2"
+says "-: line 2: "
 ends 1 - < /dev/null
 says "no vertices"
 ends 1 - <&-
@@ -653,6 +653,15 @@ fine "--info: counted from 0" grep -qx '  (faces, vertices and tags are counted 
 fine "--info: an edge" grep -qx '  edge 0-1 has 3 faces: 0, 2, 3' out
 fine "--info: a vertex" grep -qx '  no face has vertex 7' out
 fine "--info prints no mesh" sh -c '! grep -q "^[vf] " out'
+printf 'mtllib a\no b\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 1\ng a\nusemtl c\nf 1/1 2/2 3/1
+usemtl d\n' > named.obj
+ends 0 --info named.obj
+row UVs 2
+row 'vertices with colours' 3
+row statements 5
+row usemtl 2
+row mtllib 1
+fine "--info: no smoothing groups" sh -c '! grep -q "^  s " out'
 ends 0 --info box.obj info.obj
 same info.obj one.obj
 row vertices 8
