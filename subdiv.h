@@ -8280,8 +8280,8 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
         if (!absent || !absent[at->face]) {
             double x, y, scale;
             int level, patch = 0;
-            int slot = sdv_find_leaf(surface, surface->exact->nodes, surface->rules.loop, at, &x, &y,
-                                     &scale);
+            int slot = sdv_find_leaf(surface, surface->exact->nodes, surface->rules.loop, at, &x,
+                                     &y, &scale);
             int points = sdv_probe_points(&probe, slot, &level, &patch);
             sdv_probe_location(context, &probe, at, slot, points, level, patch);
             if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);

@@ -545,7 +545,7 @@ static int explain(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
         fputs(text, stdout);
         free(text);
     }
-    return result ? report_cage(cmd, opt) : flush_output();
+    return result ? report(cmd->input, opt) : flush_output();
 }
 
 static int writes_stdout(const command *cmd)
