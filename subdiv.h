@@ -1307,7 +1307,7 @@ static size_t sdv_find_endless(const float *numbers, size_t count)
 
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
 {
-    for (int f = 0; f < mesh->face_count; f++) {
+    for (int f = 0; f < (mesh->face_size > 2 ? 0 : mesh->face_count); f++) {
         int size = sdv_face_size(mesh, f);
         if (size < 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_FACE, f, -1, "face %d has %d vertices", f, size);
@@ -3374,7 +3374,7 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
-    if (stay < sharp && !dependent && levels < SDV_FOREVER) {
+    if (stay < sharp && !dependent && levels != SDV_FOREVER) {
         int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
         if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
     }
@@ -3610,14 +3610,15 @@ static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 // The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
 static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
 {
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), free = 1;
-    if (end - start != size) return SDV_ROUGH;
-    for (int h = start; h < end; h++) {
-        unsigned char kind = kinds[level->face_vertices[h]];
-        if (kind == SDV_ROUGH) return SDV_ROUGH;
+    int start = sdv_face_start(level, f), rough = 0, free = 1;
+    const int *vertices = level->face_vertices + start;
+    if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
+    for (int i = 0; i < size; i++) {
+        unsigned char kind = kinds[vertices[i]];
+        rough |= kind == SDV_ROUGH;
         free &= kind == SDV_FREE;
     }
-    return free ? SDV_FREE : SDV_EDGED;
+    return rough ? SDV_ROUGH : free ? SDV_FREE : SDV_EDGED;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
@@ -4013,7 +4014,8 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
 {
     size_t count = sdv_face_vertex_count(cage), triangles = count - 2 * (size_t)cage->face_count;
     int loop = cage->scheme == SUBDIV_LOOP, cut = 0;
-    for (int f = 0; loop && f < cage->face_count; f++) cut |= sdv_face_size(cage, f) != 3;
+    for (int f = 0; loop && cage->face_size != 3 && f < cage->face_count; f++)
+        cut |= sdv_face_size(cage, f) != 3;
     if (cut && triangles > INT_MAX) {
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the faces make too many triangles");
         return;
@@ -4058,7 +4060,7 @@ static void sdv_cut_holes(sdv_context *context, subdiv_surface *surface, subdiv_
 
 static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
 {
-    for (int f = 0; f < cage->face_count; f++)
+    for (int f = 0; f < cage->face_count && cage->face_size != 3; f++)
         if (sdv_face_size(cage, f) != 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_NOT_TRIANGLE, f, -1,
                           "face %d has %d vertices, and Loop needs triangles",
@@ -4633,18 +4635,15 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena_free(&scratch);
 }
 
-// The masks and strips that were written.
+// The masks that were written.
 static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
 {
     size_t masks = writer->masks.count, weights = writer->weights.count;
-    size_t strips = writer->strips.count;
     surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, masks);
     surface->masks.weights = SDV_NEW(context, &surface->points, float, weights);
-    surface->strips = SDV_NEW(context, &surface->points, sdv_strips, strips);
     if (context->result) return;
     sdv_copy(surface->masks.items, sdv_items(&writer->masks), masks, sizeof(sdv_weights));
     sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
-    sdv_copy(surface->strips, sdv_items(&writer->strips), strips, sizeof(sdv_strips));
 }
 
 // See >>exact-surface.
@@ -4676,6 +4675,10 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     if (surface->rules.limit && level.face_count && !context->result)
         sdv_prepare_limit(&writer, surface, &level);
+    surface->strips = SDV_NEW(context, &surface->points, sdv_strips, writer.strips.count);
+    if (!context->result)
+        sdv_copy(surface->strips, sdv_items(&writer.strips), writer.strips.count,
+                 sizeof(sdv_strips));
     sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
@@ -4940,7 +4943,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         sdv_no_result(surface);
         sdv_prepare_exact(context, surface, &built.level, built.hole, &scratch);
     } else if (!context->result && !alone) {
-        sdv_surviving_sharpness(context, surface, &built.level);
+        if (work.crease_count || work.corner_count)
+            sdv_surviving_sharpness(context, surface, &built.level);
         sdv_prepare_levels(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
@@ -6566,7 +6570,10 @@ static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
         sdv_triangle_polynomial(patch, same, 0, rules->linear, points, q);
         return;
     }
-    q->origin = sdv_load_quad(patch, same, points, p);
+    sdv_load_points(same, 16, points, p);
+    q->origin = p[5];
+    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
     sdv_quad_polynomial(p, 0, 0, rules->linear, q);
 }
 
@@ -6936,7 +6943,8 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_arena scratch = sdv_scratch();
     sdv_split split;
     int regular = level->face_size == (surface->rules.loop ? 3 : 4);
-    sdv_find_patches(maker->writer, &surface->arena, level, &surface->rules, SDV_FOREVER, patches);
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, SDV_FOREVER,
+                     patches);
     for (int f = 0; f < level->face_count && !context->result; f++)
         if (level->core[f] && !level->rough[f])
             ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
@@ -6951,11 +6959,10 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
         int loop = surface->rules.loop;
-        sdv_step *step = &surface->steps[depth];
         sdv_find_active(level, &split);
         sdv_number_faces(level, &split, loop);
         sdv_number_points(level, &split, loop);
-        if (!loop) sdv_step_faces(surface, level, &split, maker->writer, step);
+        if (!loop) sdv_step_faces(surface, level, &split, maker->writer, &surface->steps[depth]);
         sdv_step_points(surface, level, &split, maker->writer, &surface->steps[depth]);
     }
     if (!context->result)

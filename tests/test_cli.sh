@@ -711,5 +711,37 @@ ends 0 --time --info box.obj
 fine "--time --info: one line" test "$(wc -l < err)" -eq 1
 fine "--time --info: load" grep -q '^load ' err
 
+# The limit surface at samples: of a flat grid of nine quads, and of triangles around a point.
+{ for y in 0 1 2 3; do for x in 0 1 2 3; do echo "v $x $y 0"; done; done
+  for f in 1 2 3 5 6 7 9 10 11; do echo "f $f $((f + 1)) $((f + 5)) $((f + 4))"; done; } > flat.obj
+printf '4 0 0\n\n4 0.25 1\r\n 4\t1 .5\n' > samples.txt
+printf '1 1 0 1 0 0 0 1 0\n1.25 2 0 1 0 0 0 1 0\n2 1.5 0 1 0 0 0 1 0\n' > expected.txt
+ends 0 --eval samples.txt flat.obj
+same out expected.txt
+ends 0 --eval - flat.obj < samples.txt
+same out expected.txt
+ends 0 --eval=samples.txt -j 2 - < flat.obj
+same out expected.txt
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > corner.obj
+printf '0/1 0 0\n0/2 1 1\n' > samples.txt
+ends 0 -s bilinear --eval samples.txt corner.obj
+printf '1 0 0 -0.5 0.5 0 -0.5 0 0\n0.33333334 0.33333334 0 0.33333334 -0.16666667 0 0.33333334 -0.16666667 0\n' > expected.txt
+fine "--eval: the corner of a triangle" test "$(head -n 1 out)" = "$(head -n 1 expected.txt)"
+: > samples.txt
+ends 0 --eval samples.txt flat.obj
+fine "--eval: nothing for no samples" test ! -s out
+for line in '9 0 0' '4/1 0 0' '4 2 0' '4 0 -1' '4 nan 0' '4 0' '4 0 0 0' '-1 0 0' '4/ 0 0' 'x 0 0' '4 0 0x'
+do
+    printf '4 0 0\n%s\n4 1 1\n' "$line" > samples.txt
+    ends 1 --eval samples.txt flat.obj
+    says "samples.txt:2: "
+done
+ends 1 --eval no_such_file flat.obj
+says no_such_file
+ends 2 --eval samples.txt flat.obj out.obj
+ends 2 --eval samples.txt -l 2 flat.obj
+ends 2 --eval - -
+ends 2 --eval
+
 printf '%-24s %4d passed, %d failed\n' cli $passed $failed
 [ $failed = 0 ]
