@@ -47,13 +47,17 @@ enum { MIN_RUNS = 3, MAX_RUNS = 15 };
 static const double stage_seconds = 2;    // a stage ends after this time, or after its MAX_RUNS
 
 // The rows and columns of the table. PEAK is in bytes, all others in seconds.
-enum { COLD, WARM, PREPARE, FACES, CHAINED, STENCILS, FLOAT4, THREADED, PEAK, ROW_COUNT };
+enum {
+    COLD, WARM, PREPARE, FACES, CHAINED, STENCILS, FLOAT4, THREADED, NORMALS, NORMALS_CHAINED, PEAK,
+    ROW_COUNT
+};
 enum { OURS, THEIRS, LIMIT, COLUMN_COUNT };
 
 static const char *row_names[ROW_COUNT] = {
     "one-shot, fresh memory", "one-shot, re-used memory", "prepare", "faces",
     "evaluate xyz | chained", "evaluate xyz | stencils", "evaluate xyzw | stencils",
-    "evaluate xyz, 2 threads", "peak memory, bytes"
+    "evaluate xyz, 2 threads", "limit + normals | Limit", "limit + normals | chained",
+    "peak memory, bytes"
 };
 
 #ifdef BENCH_PEER
@@ -402,7 +406,7 @@ static void cold_ours(bench *b)
 static void cold_theirs(bench *b)
 {
     double before = peak_bytes(), start = now();
-    if (!library->prepare(b->rival)) return;
+    if (!library->prepare(b->rival, 0)) return;
     int vertex_count = library->result(b->rival);
     add_sample(b, COLD, THEIRS, now() - start);
     add_sample(b, PEAK, THEIRS, peak_bytes() - before);
@@ -454,7 +458,7 @@ static void warm_refine(bench *b)
         subdiv_surface_free(surface);
 
         start = now();
-        if (b->rival && library->prepare(b->rival)) {
+        if (b->rival && library->prepare(b->rival, 0)) {
             add_sample(b, PREPARE, THEIRS, now() - start);
             library->result(b->rival);
             add_sample(b, WARM, THEIRS, now() - start);
@@ -498,6 +502,18 @@ static void evaluate_theirs(bench *b, const animation *a)
     add_sample(b, FLOAT4, THEIRS, end - stencils);
 }
 
+// Theirs starts from the points of the last level, or from the cage as ours.
+static void normals_theirs(bench *b)
+{
+    double start = now();
+    library->chained(b->rival, b->cage.positions);
+    double chained = now();
+    library->normals(b->rival);
+    double end = now();
+    add_sample(b, NORMALS, THEIRS, end - chained);
+    add_sample(b, NORMALS_CHAINED, THEIRS, end - start);
+}
+
 static void open_animation(bench *b, animation *a, pool *threads)
 {
     subdiv_options none = {0};
@@ -531,7 +547,7 @@ static void evaluate(bench *b)
     keep_memory();
     pool_open(&threads);
     open_animation(b, &a, &threads);
-    int compare = b->rival && library->prepare(b->rival);
+    int compare = b->rival && library->prepare(b->rival, 0);
     if (compare) library->tables(b->rival);
     double begin = wall();
     for (int round = -1; go_on(round, begin); round++) {
@@ -550,6 +566,36 @@ static void evaluate(bench *b)
     if (compare) library->discard(b->rival);
     close_animation(&a);
     pool_close(&threads);
+}
+
+static void limit_normals(bench *b)
+{
+    subdiv_options opt = {0};
+    subdiv_surface *surface;
+    subdiv_limit out = {0};
+    keep_memory();
+    opt.limit = 1;
+    expect(b, subdiv_prepare(&surface, &b->cage, b->levels, &opt));
+    void *scratch = allocate(subdiv_scratch_size(surface, 3));
+    out.positions = (float *)allocate(position_bytes(b, 6));
+    out.normals = out.positions + 3 * (size_t)b->vertex_count;
+    int compare = b->rival && library->prepare(b->rival, 1);
+    double begin = wall();
+    for (int round = -1; go_on(round, begin); round++) {
+        b->warming_up = round < 0;
+        double start = now();
+        expect(b, subdiv_evaluate_limit(surface, b->cage.positions, 0, &out, scratch, NULL));
+        double end = now();
+        add_sample(b, NORMALS, OURS, end - start);
+        add_sample(b, NORMALS_CHAINED, OURS, end - start);
+        warm_limit(b, NORMALS, out.positions, position_bytes(b, 6));
+        warm_limit(b, NORMALS_CHAINED, out.positions, position_bytes(b, 6));
+        if (compare) normals_theirs(b);
+    }
+    if (compare) library->discard(b->rival);
+    free(out.positions);
+    free(scratch);
+    subdiv_surface_free(surface);
 }
 
 // -------------------------------------------------------------------------------------- report
@@ -574,6 +620,9 @@ static void print_heading(void)
         "faces       the indices alone, into the caller's array\n"
         "evaluate    new positions (and a 4th channel), into the caller's array; theirs: chained\n"
         "            PrimvarRefiner::Interpolate, or StencilTable::UpdateValues\n"
+        "limit +     limit positions and unit normals from new positions of the cage; theirs:\n"
+        "  normals   PrimvarRefiner::Limit with two tangents and their product, from the refined\n"
+        "            points alone, or from the cage by chained Interpolate as well\n"
         "memory      rise of the resident set of a new process at its peak, the result included\n"
         "speed-up    theirs / ours\n"
         "limit       memset of the bytes that ours writes, in memory of the same kind\n"
@@ -622,7 +671,8 @@ static void print_bench(bench *b)
     printf("  %-25s%9s%9s%9s%9s%10s%9s%10s\n", "", "subdiv.h", "min", library ? "theirs" : "-",
            "min", "speed-up", "limit", "ratio");
     for (int row = 0; row < ROW_COUNT; row++)
-        if (sort_cell(b, row, OURS) > 0 && (b->rival || row != STENCILS)) print_row(b, row);
+        if (sort_cell(b, row, OURS) > 0
+            && (b->rival || (row != STENCILS && row != NORMALS_CHAINED))) print_row(b, row);
     putchar('\n');
 }
 
@@ -637,7 +687,7 @@ static int run_bench(char *text)
         if (ok && b.rival) in_child(&b, cold_theirs);
         if (ok) in_child(&b, cold_limit);
     }
-    ok = ok && in_child(&b, warm_refine) && in_child(&b, evaluate);
+    ok = ok && in_child(&b, warm_refine) && in_child(&b, evaluate) && in_child(&b, limit_normals);
     if (ok) print_bench(&b);
     else fprintf(stderr, "bench: %s was not measured\n", b.name);
     close_bench(&b);

@@ -18,10 +18,10 @@ typedef struct peer_library {
     peer *(*open)(const subdiv_mesh *cage, int levels);
     void  (*close)(peer *p);
 
-    // One refinement: prepare makes the topology of all levels, 0 when refused; result makes the
-    // positions and face-vertices of the last one, in plain arrays, and returns how many vertices;
-    // discard frees everything.
-    int   (*prepare)(peer *p);
+    // One refinement: prepare makes the topology of all levels, 0 when refused, with what normals
+    // needs of the last one if limit is not 0; result makes the positions and face-vertices of the
+    // last one, in plain arrays, and returns how many vertices; discard frees everything.
+    int   (*prepare)(peer *p, int limit);
     int   (*result)(peer *p);
     void  (*discard)(peer *p);
 
@@ -31,6 +31,9 @@ typedef struct peer_library {
     void         (*tables)(peer *p);
     const float *(*chained)(peer *p, const float *in);
     const float *(*stencils)(peer *p, int channels, const float *in);
+
+    // Limit positions and unit normals of what chained has made, after prepare with limit.
+    void (*normals)(peer *p);
 } peer_library;
 
 extern const peer_library opensubdiv;

@@ -1,5 +1,6 @@
 // OpenSubdiv for bench.c: each task in the way that was found fastest on one thread.
 
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -57,6 +58,8 @@ struct peer {
     std::unique_ptr<const Far::StencilTable> table;
     std::vector<Array<Point>> points;      // by level, for re-evaluation
     Array<Point> positions;                // of the last level
+    Array<Point> limits[3];                // positions and tangents there; then the first tangent's
+                                           // place has the normal
     Array<int> face_vertices;
     Array<float> out;
 };
@@ -90,7 +93,25 @@ static void close_peer(peer *p)
     delete p;
 }
 
-static int prepare(peer *p)
+static void make_points(peer *p)
+{
+    std::vector<Array<Point>>((size_t)p->levels + 1).swap(p->points);
+    for (int l = 1; l <= p->levels; l++)
+        p->points[(size_t)l].make((size_t)p->refiner->GetLevel(l).GetNumVertices());
+}
+
+// Where a vertex has more faces than edges, Limit would write its tangents out of bounds.
+static int prepare_limit(peer *p)
+{
+    const Far::TopologyLevel &last = p->refiner->GetLevel(p->levels);
+    for (int v = 0; v < last.GetNumVertices(); v++)
+        if (last.GetVertexFaces(v).size() > last.GetVertexEdges(v).size()) return 0;
+    make_points(p);
+    for (Array<Point> &limit : p->limits) limit.make((size_t)last.GetNumVertices());
+    return 1;
+}
+
+static int prepare(peer *p, int limit)
 {
     const subdiv_mesh &cage = *p->cage;
     Far::TopologyDescriptor d;
@@ -113,8 +134,10 @@ static int prepare(peer *p)
     typedef Far::TopologyRefinerFactory<Far::TopologyDescriptor> Factory;
     p->refiner.reset(Factory::Create(d, Factory::Options(scheme, sdc_options(cage))));
     if (!p->refiner) return 0;
-    p->refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(p->levels));
-    return 1;
+    Far::TopologyRefiner::UniformOptions uniform(p->levels);
+    uniform.fullTopologyInLastLevel = limit;
+    p->refiner->RefineUniform(uniform);
+    return !limit || prepare_limit(p);
 }
 
 // Only two levels of points live at a time.
@@ -153,6 +176,7 @@ static void discard(peer *p)
     p->positions.free();
     p->face_vertices.free();
     p->out.free();
+    for (Array<Point> &limit : p->limits) limit.free();
 }
 
 static void make_tables(peer *p)
@@ -160,9 +184,7 @@ static void make_tables(peer *p)
     Far::StencilTableFactory::Options options;
     options.generateIntermediateLevels = false;
     p->table.reset(Far::StencilTableFactory::Create(*p->refiner, options));
-    std::vector<Array<Point>>((size_t)p->levels + 1).swap(p->points);
-    for (int l = 1; l <= p->levels; l++)
-        p->points[(size_t)l].make((size_t)p->refiner->GetLevel(l).GetNumVertices());
+    make_points(p);
     p->out.make(4 * (size_t)p->refiner->GetLevel(p->levels).GetNumVertices());
 }
 
@@ -190,11 +212,29 @@ static const float *stencils(peer *p, int channels, const float *in)
     return p->out.at;
 }
 
+static void normals(peer *p)
+{
+    const Far::PrimvarRefiner primvars(*p->refiner);
+    Point *position = p->limits[0].at, *u = p->limits[1].at, *v = p->limits[2].at;
+    primvars.Limit(p->points[(size_t)p->levels].at, position, u, v);
+    const int count = p->refiner->GetLevel(p->levels).GetNumVertices();
+    for (int i = 0; i < count; i++) {
+        const float *a = u[i].value, *b = v[i].value;
+        const Point n = { { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                            a[0] * b[1] - a[1] * b[0] } };
+        const float square = n.value[0] * n.value[0] + n.value[1] * n.value[1]
+                           + n.value[2] * n.value[2];
+        const float scale = square > 0 ? 1 / std::sqrt(square) : 0;
+        for (int k = 0; k < 3; k++) u[i].value[k] = scale * n.value[k];
+    }
+}
+
 #define TEXT(x) #x
 #define VERSION(a, b, c) TEXT(a) "." TEXT(b) "." TEXT(c)
 
 const peer_library opensubdiv = {
     "OpenSubdiv " VERSION(OPENSUBDIV_VERSION_MAJOR, OPENSUBDIV_VERSION_MINOR,
                           OPENSUBDIV_VERSION_PATCH),
-    open_peer, close_peer, prepare, make_result, discard, make_tables, chained, stencils
+    open_peer, close_peer, prepare, make_result, discard, make_tables, chained, stencils,
+    normals
 };
