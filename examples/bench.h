@@ -34,6 +34,15 @@ typedef struct peer_library {
 
     // Limit positions and unit normals of what chained has made, after prepare with limit.
     void (*normals)(peer *p);
+
+    // The limit surface anywhere, without prepare: surfaces makes all of them ready, 0 when
+    // refused. locate takes the places, and sample evaluates there. tessellate begins with the
+    // topology of the cage and goes through its faces, so many steps along each edge. Derivatives
+    // are left out where du and dv are NULL. discard frees everything.
+    int  (*surfaces)(peer *p);
+    void (*locate)(peer *p, int count, const subdiv_location *at);
+    void (*sample)(peer *p, float *points, float *du, float *dv);
+    void (*tessellate)(peer *p, int rate, float *points, float *du, float *dv);
 } peer_library;
 
 extern const peer_library opensubdiv;

@@ -18,8 +18,8 @@
 
 enum {
     ORACLE_DEPTH = 26,
-    ORACLE_MOST_FACES = 8192,
-    ORACLE_MOST = 32768               // vertices, edges, face-vertices
+    ORACLE_MOST_FACES = 2048,
+    ORACLE_MOST = 8192                // vertices, edges, face-vertices
 };
 
 // Faces and edges know each other; a boundary is an edge that is sharp forever. At the rim there
@@ -50,6 +50,7 @@ typedef struct oracle {
     int   edge_faces[ORACLE_MOST];
     int   map[ORACLE_MOST], edge_map[ORACLE_MOST];
     unsigned char marks[ORACLE_MOST];
+    unsigned char bare[ORACLE_MOST];  // of the cage's vertices: their faces have no surface
 } oracle;
 
 static inline int oracle_size(const oracle_mesh *m, int f)
@@ -463,8 +464,12 @@ static inline void oracle_sharpen(oracle *o, const subdiv_mesh *cage)
     }
     for (int i = 0; i < cage->corner_count; i++)
         m->corner[cage->corner_vertices[i]] = cage->corner_sharpness[i];
-    for (int e = 0; e < m->edge_count; e++)
+    for (int e = 0; e < m->edge_count; e++) {
+        const int open = o->edge_faces[e] < 2 && m->crease[e] < SUBDIV_INFINITE;
+        if (open && cage->boundary == SUBDIV_BOUNDARY_NONE && cage->scheme != SUBDIV_BILINEAR)
+            o->bare[m->ends[e][0]] = o->bare[m->ends[e][1]] = 1;
         if (o->edge_faces[e] < 2 || odd[e]) m->crease[e] = SUBDIV_INFINITE;
+    }
     for (int v = 0; v < m->vertex_count; v++) {
         int faces, edges = 0, boundary = 0, odd_edges = 0;
         const int fan = oracle_is_fan(o, v, &faces);
@@ -481,15 +486,28 @@ static inline void oracle_sharpen(oracle *o, const subdiv_mesh *cage)
     }
 }
 
+// Boundary rule "none" leaves no surface to faces at a boundary that is not sharp.
+static inline int oracle_is_bare(const oracle *o, int f)
+{
+    for (int h = o->cage.start[f]; h < o->cage.start[f + 1]; h++)
+        if (o->bare[o->cage.vertices[h]]) return 1;
+    return 0;
+}
+
 static inline void oracle_close(oracle *o)
 {
     free(o);
 }
 
-// Returns 0 without memory. The positions are copied.
+// Returns 0 without memory and for cages that are too large. The positions are copied.
 static inline int oracle_open(oracle **result, const subdiv_mesh *cage)
 {
-    oracle *o = *result = (oracle *)calloc(1, sizeof *o);
+    int corners = 0;
+    for (int f = 0; f < cage->face_count; f++)
+        corners += cage->face_size ? cage->face_size : cage->face_sizes[f];
+    const int fits = cage->vertex_count <= ORACLE_MOST && cage->face_count <= ORACLE_MOST_FACES
+                  && corners <= ORACLE_MOST;
+    oracle *o = *result = fits ? (oracle *)calloc(1, sizeof *o) : NULL;
     if (!o) return 0;
     oracle_mesh *m = &o->cage;
     o->scheme = cage->scheme;
