@@ -51,7 +51,8 @@
              >>refine    the one call, in two steps   >>animation  new values, same topology
              >>limit     points and normals of the    >>creases    from angles, groups, seams
                          limit surface                >>inspect    what a cage is made of, what
-             >>obj       reading and writing OBJ                   is odd about it
+             >>exact     the same at any (face, u, v)              is odd about it
+             >>obj       reading and writing OBJ
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
@@ -65,6 +66,7 @@
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
+             >>exact-surface  and anywhere between the points
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
              >>numbers  >>obj-read  >>obj-write  >>cleanup
    A student needs the three sections with a star and may skip the rest.
@@ -111,7 +113,7 @@
 
    WHAT IT DOES NOT DO (yet)
    -------------------------
-   Evaluation at (u, v). Never: GPU code, hierarchical edits, threads of its own, global state,
+   Never: GPU code, hierarchical edits, threads of its own, global state,
    printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
@@ -446,6 +448,55 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
+// --------------------------------------------------------------------------------- >>exact
+// The surface itself, at any point of any face: values, derivatives and normals, exactly, also at
+// and arbitrarily near to extraordinary vertices, creases and boundaries.
+//
+//     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
+//     void *scratch = malloc(subdiv_scratch_size(surface, 3));
+//     subdiv_evaluate_begin(surface, 3, cage.positions, 0, scratch, &opt);
+//     subdiv_evaluate_at(surface, 3, scratch, count, locations, &out, &opt);
+//
+// Faces of 3 and 4 vertices are those of the schemes below; vertex 0 is at u = v = 0:
+//
+//     3-----2       2             any other polygon under Catmull-Clark and bilinear: a quad for
+//     |     |       | \           each of its vertices, at the vertex, the middle of the edge that
+//   v |     |     v |   \         leads on from there, the centre, and the middle of the edge
+//     0-----1       0-----1       before, counter-clockwise
+//        u             u
+#define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
+
+typedef struct subdiv_location {
+    int   face, corner;               // from 0; corner: the vertex of an n-gon whose quad it is on,
+    float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
+} subdiv_location;
+
+// Where to put them: each an array of so many channels a location, or NULL.
+typedef struct subdiv_derivatives {
+    float *points, *du, *dv, *duu, *duv, *dvv;
+    float *normals;                   // [3] of length 1, or 0: of the first three channels
+    int    stride;                    // floats from location to location in all; 0: they are dense
+} subdiv_derivatives;
+
+// After subdiv_prepare with SUBDIV_EXACT and subdiv_evaluate_begin, as often as you like and on any
+// threads: scratch is only read. Derivatives are with respect to u and v. Where the first ones are
+// 0 or infinite, at an extraordinary vertex, they are their limits along the edges of the face in
+// units that shrink with the surface, as if the vertex were regular; at an infinitely sharp
+// corner or dart their lengths mean nothing. The second ones are 0 there. On a crease all belong
+// to the face. The dart of an infinite crease is where the surface around it ends up, which is not
+// where >>limit, as OpenSubdiv, puts it.
+//
+// Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
+// face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
+// give zeros. Errors, before anything is written: INDEX, ARGUMENT (u, v outside the face by more
+// than rounding, normals of fewer than 3 channels, a surface not prepared so); and MEMORY: samples
+// close to a vertex of high valence take some.
+SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
+                                            const void *scratch, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_derivatives *out,
+                                            const subdiv_options *opt);
+
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
 // list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
@@ -650,6 +701,14 @@ static void     sdv_store_three(float *p, sdv_four a)
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
+    __m128 low = _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab));
+    ab = _mm_unpackhi_ps(a, b);
+    cd = _mm_unpackhi_ps(c, d);
+    return _mm_add_ps(low, _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab)));
+}
 #elif defined(__ARM_NEON) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
@@ -665,6 +724,15 @@ static void     sdv_store_three(float *p, sdv_four a)
     vst1_f32(p, vget_low_f32(a));
     vst1q_lane_f32(p + 2, a, 2);
 }
+static float32x2_t sdv_pairs(float32x4_t a)
+{
+    return vpadd_f32(vget_low_f32(a), vget_high_f32(a));
+}
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    return vcombine_f32(vpadd_f32(sdv_pairs(a), sdv_pairs(b)),
+                        vpadd_f32(sdv_pairs(c), sdv_pairs(d)));
+}
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #define SDV_SIMD
@@ -679,6 +747,15 @@ static void     sdv_store_three(float *p, sdv_four a)
 {
     wasm_v128_store64_lane(p, a, 0);
     wasm_v128_store32_lane(p + 2, a, 2);
+}
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    v128_t even = wasm_f32x4_add(wasm_i32x4_shuffle(a, b, 0, 2, 4, 6),
+                                 wasm_i32x4_shuffle(a, b, 1, 3, 5, 7));
+    v128_t odd = wasm_f32x4_add(wasm_i32x4_shuffle(c, d, 0, 2, 4, 6),
+                                wasm_i32x4_shuffle(c, d, 1, 3, 5, 7));
+    return wasm_f32x4_add(wasm_i32x4_shuffle(even, odd, 0, 2, 4, 6),
+                          wasm_i32x4_shuffle(even, odd, 1, 3, 5, 7));
 }
 #endif
 
@@ -722,6 +799,15 @@ static sdv_four sdv_minus(sdv_four a, sdv_four b)
 static sdv_four sdv_times(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] *= b.x[i];
+    return a;
+}
+
+// Lane i: the sum of all lanes of vector number i, (0 + 1) + (2 + 3).
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    sdv_four four[4] = { a, b, c, d };
+    for (int i = 0; i < 4; i++)
+        a.x[i] = (four[i].x[0] + four[i].x[1]) + (four[i].x[2] + four[i].x[3]);
     return a;
 }
 #endif
@@ -1682,7 +1768,10 @@ static int sdv_is_boundary(const sdv_level *level, int h)
     return level->across[h] == h;
 }
 
-// Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole.
+// Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole, and is
+// no part of the surface either.
+#define SDV_DROPPED 2
+
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
@@ -1691,7 +1780,7 @@ static void sdv_open_boundary(sdv_cage *cage)
         int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
         for (int i = 0; i < 2; i++)
             for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
-                cage->hole[sdv_face_of(level, k)] = 1;
+                cage->hole[sdv_face_of(level, k)] = SDV_DROPPED;
     }
 }
 
@@ -2976,6 +3065,9 @@ static int sdv_control_points(const sdv_rules *rules)
     return rules->loop ? 12 : 16;
 }
 
+// So many levels never end: then a patch's place is that of its face.
+#define SDV_FOREVER 1000
+
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
 // sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading),
@@ -3191,6 +3283,7 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
     if (rules->linear) sdv_gather_linear(level, h, size, points);
     else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
     else sdv_gather_quad(level, h, patch, fan, points);
+    levels = levels == SDV_FOREVER ? 0 : levels;
     patch->h = place.h;
     patch->row = (int)((unsigned)place.row << levels);
     patch->column = (int)((unsigned)place.column << levels);
@@ -3583,6 +3676,7 @@ struct subdiv_surface {
     sdv_masks masks;                    // of all rows
     sdv_limit_rows limit;               // of a limit, instead of last
     subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
+    struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     int       work_count;               // work points
     sdv_order order;
     int       face_count;               // all faces, also those without values
@@ -4256,6 +4350,22 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena_free(&scratch);
 }
 
+// The masks that were written.
+static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
+{
+    size_t masks = writer->masks.count, weights = writer->weights.count;
+    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, masks);
+    surface->masks.weights = SDV_NEW(context, &surface->arena, float, weights);
+    if (context->result) return;
+    sdv_copy(surface->masks.items, sdv_items(&writer->masks), masks, sizeof(sdv_weights));
+    sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
+}
+
+// See >>exact-surface.
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
+static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                              const unsigned char *hole, sdv_arena *arena);
+
 // Level by level from the cage, whose arena it frees.
 static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                                sdv_arena *arena)
@@ -4280,14 +4390,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     if (surface->rules.limit && level.face_count && !context->result)
         sdv_prepare_limit(&writer, surface, &level);
-    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
-    surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
-    if (!context->result) {
-        sdv_copy(surface->masks.items, sdv_items(&writer.masks), writer.masks.count,
-                 sizeof(sdv_weights));
-        sdv_copy(surface->masks.weights, sdv_items(&writer.weights), writer.weights.count,
-                 sizeof(float));
-    }
+    sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -4296,7 +4399,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
 static void sdv_set_order(subdiv_surface *surface)
 {
     sdv_order *order = &surface->order;
-    int n = 1 << surface->levels, vertices = surface->cage_vertex_count;
+    int n = surface->exact ? 1 : 1 << surface->levels, vertices = surface->cage_vertex_count;
     order->loop = surface->rules.loop;
     order->n = n;
     order->m = n / 2;
@@ -4320,6 +4423,12 @@ static void sdv_count_fine_faces(subdiv_surface *surface, int keep_holes)
         if (surface->hole[f] && keep_holes) fine->hole_count += parts;
     }
     surface->first_face[surface->face_count] = fine->face_count;
+}
+
+// SUBDIV_EXACT has no result: no points, no faces.
+static void sdv_no_result(subdiv_surface *surface)
+{
+    surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
 }
 
 // Level 0: everything as it is.
@@ -4359,6 +4468,7 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
     memset(surface, 0, sizeof *surface);
     surface->arena = arena;
     surface->levels = levels;
+    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface);
     return surface;
 }
 
@@ -4405,7 +4515,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     if (!context->result)
         sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
-    sdv_check_size(context, &shape, made->levels, seams.level.edge_count);
+    sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
         sdv_arena_free(&scratch);
         return;
@@ -4415,9 +4525,15 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->cage_face_count = seams.level.face_count;
     made->order.cage = seams.level;
     made->rules.linear |= values->rule == SUBDIV_UV_ALL;
-    made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES;
+    // In the limit the points inside straight edges need no care: they are on a straight crease.
+    made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES && !made->exact;
     made->rules.limit = 0;
     sdv_set_order(made);
+    if (made->exact) {
+        sdv_no_result(made);
+        sdv_prepare_exact(context, made, &seams.level, cage->hole, &scratch);
+        return;
+    }
     sdv_prepare_levels(context, made, &seams.level, &scratch);
 }
 
@@ -4511,7 +4627,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     sdv_copy_faces(context, surface, &work, cage);
     if (context->result) return;
     sdv_cut_holes(context, surface, &work, cage);
-    sdv_check_size(context, &work, surface->levels, -1);
+    sdv_check_size(context, &work, surface->exact ? 0 : surface->levels, -1);
     surface->cage_face_count = surface->face_count = work.face_count;
     if (made && surface->cage_face) {
         int *indices = SDV_NEW(context, &surface->arena, int, sdv_face_vertex_count(&work));
@@ -4526,14 +4642,18 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     }
 
     sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
-    sdv_check_size(context, &work, surface->levels, built.level.edge_count);
+    if (!surface->exact)
+        sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     sdv_new_levels(context, surface);
     surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
     if (!context->result) {
         sdv_set_rules(surface, cage, &built, opt);
         if (made) sdv_prepare_values(context, made, surface, &work, &built, &values);
     }
-    if (!context->result && !alone) {
+    if (!context->result && !alone && surface->exact) {
+        sdv_no_result(surface);
+        sdv_prepare_exact(context, surface, &built.level, built.hole, &scratch);
+    } else if (!context->result && !alone) {
         sdv_surviving_sharpness(context, surface, &built.level);
         sdv_prepare_levels(context, surface, &built.level, &scratch);
     }
@@ -4545,7 +4665,8 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
 {
     if (surface) *surface = NULL;
     else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
+    if (levels < 0 && levels != SUBDIV_EXACT)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
     if (!context->result) sdv_check_mesh(context, cage);
     if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
         sdv_check_triangles(context, cage);
@@ -4562,10 +4683,10 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
-    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
-    made->rules.limit = opt && opt->limit;
+    if (cage->uv_count > 0 && !made->exact) made->uv = sdv_new_surface(&context, levels);
+    made->rules.limit = opt && opt->limit && !made->exact;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
-    if (!context.result) sdv_keep_data(&context, made, cage);
+    if (!context.result && !made->exact) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
         context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
     if (context.result) subdiv_surface_free(made);
@@ -5469,7 +5590,8 @@ SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
 
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 {
-    if (surface->levels == 0 || surface->cage_face_count == 0) return surface->fine.vertex_count;
+    if (surface->levels == 0 || surface->cage_face_count == 0 || surface->exact)
+        return surface->fine.vertex_count;
     return sdv_first_inside(&surface->order, cage_face);
 }
 
@@ -5479,8 +5601,14 @@ static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
     return surface->at_level_1 ? surface->at_level_1 : surface;
 }
 
+// See >>exact-surface.
+static size_t sdv_exact_size(const subdiv_surface *surface, int channels);
+static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
+                            size_t in_stride, void *scratch, const subdiv_options *opt);
+
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
+    if (surface->exact) return sdv_exact_size(surface, channels);
     surface = sdv_maker(surface);
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
@@ -5504,6 +5632,10 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, scratch, &in_stride);
     if (context.result) return context.result;
+    if (surface->exact) {
+        sdv_exact_begin(surface, channels, in, (size_t)in_stride, scratch, opt);
+        return SUBDIV_OK;
+    }
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.surface = sdv_maker(surface);
@@ -5513,6 +5645,14 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     evaluation.work = (float *)scratch;
     sdv_make_work(&evaluation, opt);
     return SUBDIV_OK;
+}
+
+// SUBDIV_EXACT has no points to make.
+static void sdv_check_result(sdv_context *context, const subdiv_surface *surface)
+{
+    if (!context->result && surface->exact)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
+                 "the surface was prepared with SUBDIV_EXACT, for subdiv_evaluate_at");
 }
 
 static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
@@ -5551,6 +5691,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
     sdv_context context = sdv_begin(opt);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_values(&context, surface, channels, scratch, &out_stride);
+    sdv_check_result(&context, surface);
     if (!context.result)
         sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
     if (context.result) return context.result;
@@ -5571,6 +5712,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
     sdv_arena arena = sdv_scratch();
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, out, &out_stride);
+    sdv_check_result(&context, surface);
     if (context.result) return context.result;
     if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
     if (!context.result)
@@ -5766,6 +5908,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else if (!surface->fine.face_size && surface->fine.face_count)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
+    sdv_check_result(&context, surface);
     if (!context.result) sdv_make_fine_faces(surface, face_vertices, cage_faces, opt);
     return context.result;
 }
@@ -5833,6 +5976,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else if (surface->is_values)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
+    sdv_check_result(&context, surface);
     if (context.result) return context.result;
 
     subdiv_mesh made;
@@ -5878,6 +6022,1232 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     subdiv_surface_free(surface);
     *fine = out;
     return result;
+}
+
+// -------------------------------------------------------------------------- >>exact-surface
+// The limit surface anywhere. The cage is refined where it is not regular, until every face left
+// is a patch, whose polynomial is the surface, or in a nest: the faces around one irregular vertex
+// that look the same on every level from here on, half as large. They are the faces of a closed
+// ring, or those between two sharp edges.
+//
+//     +-------+-------+        Of the four children of a face in a nest, three are patches (p), the
+//     |       |       |        fourth is in the nest of the next level. Which points that level
+//     |   p   |   p   |        has and how they follow is the same at all such vertices, and is
+//     |       |       |        kept once: a nest kind. A sample near the vertex goes down from
+//     +---+---+-------+        nest to nest until it is on a patch; what the vertex itself has is
+//     | n | p |       |        subtracted and the rest doubled at every step, so that nothing
+//     +---+---+   p   |        gets lost, however near it is.
+//     | n | n |       |
+//     v---+---+-------+
+//
+// A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
+
+#define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
+#define SDV_NEST_LEVEL 4                // nests start there or deeper
+#define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
+
+// The powers of x and y of each coefficient.
+static const unsigned char sdv_powers[2][SDV_SLOTS][2] = {
+    { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
+      {0,2}, {1,2}, {2,2}, {3,2}, {0,3}, {1,3}, {2,3}, {3,3} },
+    { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
+      {0,2}, {1,2}, {0,3}, {1,3}, {0,4}, {4,0}, {0,0}, {0,0} } };
+
+// The coefficients of a patch from its control points. Patches with the same sharp edges share it.
+typedef struct sdv_matrix {
+    uint32_t key;
+    double weights[SDV_SLOTS][16];
+} sdv_matrix;
+
+// Points of a nest: the vertex; then of each face, counter-clockwise, as far as two faces away,
+//
+//     Catmull-Clark   5   4        Loop      .        the vertex v, and what continues the last
+//                     .   2   3              . 2      face of a nest that is no ring: its 0, 1.
+//                     v . 0 . 1              v 0 1
+typedef struct sdv_nest_kind {
+    int      faces, ring;
+    sdv_rule rule;                      // of the vertex; a dart's ring starts at its sharp edge
+    int      points;
+    int      work_count;                // the points, and those of the next level
+    sdv_step step;                      // which its rows make
+    int     *below;                     // [points] the same points of the next level's nest
+    int     *children;                  // [4 * faces] their patches; -1: in the nest
+    sdv_patches patches;
+    int     *matrices;                  // [patches.count]
+    double  *limit;                     // [3 * points] weights of the limit and of two tangents,
+                                        // of a smooth ring and a crease; NULL: none
+} sdv_nest_kind;
+
+typedef struct sdv_nest {
+    int kind, first;                    // where its points start
+} sdv_nest;
+
+typedef struct sdv_nest_face {
+    int nest, face, turn;               // the vertex of the nest is its vertex number turn
+} sdv_nest_face;
+
+typedef struct sdv_exact {
+    int patch_count;
+    int *nodes;                         // first those of faces, or of an n-gon's quads; a leaf is
+                                        // ~(2 patch) or ~(2 face of a nest + 1)
+    unsigned char *absent;              // [face_count] without surface; NULL: none
+    sdv_nest_kind *kinds;
+    sdv_nest *nests;
+    int *nest_points;                   // work points
+    sdv_nest_face *nest_faces;
+    sdv_matrix *matrices;
+} sdv_exact;
+
+// While it is made.
+typedef struct sdv_exact_maker {
+    sdv_writer     *writer;
+    subdiv_surface *surface;
+    sdv_array nodes, kinds, nests, nest_points, nest_faces, matrices;
+    int      *slots;                    // [face_count of the level] their nodes
+} sdv_exact_maker;
+
+// The first node of a face, or the node of an n-gon's quad.
+static inline int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
+{
+    if (cage->face_size == (loop ? 3 : 4)) return f;
+    return sdv_face_start(cage, f) + corner;
+}
+
+// Appends count cleared items.
+static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, size_t item)
+{
+    void *room = sdv_array_room(context, array, count, item);
+    if (!room) return NULL;
+    memset(room, 0, count * item);
+    array->count += count;
+    return room;
+}
+
+// In the order of sdv_powers, for the channels of the polynomial.
+static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
+{
+    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
+    for (int k = 0; k < SDV_SLOTS; k++)
+        slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
+}
+
+static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
+                                 const float *points, sdv_polynomial *q)
+{
+    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    if (rules->loop) sdv_triangle_polynomial(patch, same, 0, rules->linear, points, q);
+    else sdv_quad_polynomial(patch, same, 0, rules->linear, points, q);
+}
+
+// What a patch makes of unit vectors, four at a time. All weights are multiples of 1/36, so that
+// rounding gives them back.
+static int sdv_find_matrix(sdv_exact_maker *maker, const sdv_patch *patch)
+{
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_matrix *known = (sdv_matrix *)sdv_items(&maker->matrices);
+    uint32_t key = patch->sharp;
+    for (int i = 0; i < 3; i++) key = key << 4 | patch->fan[i];
+    for (size_t i = 0; i < maker->matrices.count; i++) if (known[i].key == key) return (int)i;
+    sdv_matrix *matrix = (sdv_matrix *)sdv_append(maker->writer->context, &maker->matrices, 1,
+                                                  sizeof *matrix);
+    if (!matrix) return 0;
+    matrix->key = key;
+    for (int first = 0; first < sdv_control_points(rules); first += 4) {
+        float unit[64] = { 0 }, lanes[4];
+        sdv_polynomial q;
+        sdv_four slots[SDV_SLOTS];
+        for (int i = 0; i < 4; i++) unit[4 * (first + i) + i] = 1;
+        sdv_limit_polynomial(rules, patch, unit, &q);
+        q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
+        sdv_pack(&q, slots);
+        for (int k = 0; k < SDV_SLOTS; k++) {
+            sdv_store(lanes, slots[k]);
+            for (int i = 0; i < 4; i++)
+                matrix->weights[k][first + i] = floor(36 * (double)lanes[i] + 0.5) / 36;
+        }
+    }
+    return (int)maker->matrices.count - 1;
+}
+
+// The points of a nest whose first face is that of h, a face-vertex at its vertex.
+static void sdv_nest_points(const sdv_level *level, int h, int faces, int ring, int loop, int *out)
+{
+    *out++ = sdv_point_at(level, h);
+    for (int i = 0; i < faces; i++) {
+        int next = sdv_next(level, h), beside = level->across[next];
+        int outer = sdv_previous(level, beside), last = i + 1 == faces && !ring;
+        int tip = level->across[loop ? sdv_next(level, beside) : outer];
+        int end = loop ? level->across[outer] : level->across[sdv_next(level, next)];
+        *out++ = sdv_point_at(level, next);
+        if (loop) {
+            *out++ = sdv_point_at(level, sdv_previous(level, tip));
+            *out++ = sdv_point_at(level, outer);
+        } else {
+            *out++ = sdv_point_at(level, sdv_next(level, sdv_next(level, beside)));
+            *out++ = sdv_point_at(level, sdv_next(level, next));
+            *out++ = sdv_point_at(level, outer);
+            *out++ = sdv_point_at(level, sdv_next(level, sdv_next(level, tip)));
+            *out++ = sdv_point_at(level, sdv_previous(level, tip));
+        }
+        if (last) {
+            *out++ = sdv_point_at(level, sdv_previous(level, h));
+            *out++ = sdv_point_at(level, sdv_previous(level, end));
+        }
+        if (!last) h = sdv_around(level, h);
+    }
+}
+
+// The faces of a nest and those around it, as a mesh: for each face of the nest four faces.
+static void sdv_nest_mesh(const sdv_nest_kind *kind, int loop, int *faces)
+{
+    static const int quads[16] = { -1, 0, 2, 6, 0, 1, 3, 2, 2, 3, 4, 5, 6, 2, 5, 7 };
+    static const int triangles[12] = { -1, 0, 6, 0, 2, 6, 0, 1, 2, 6, 2, 7 };
+    int width = loop ? 3 : 6, size = loop ? 12 : 16;
+    for (int i = 0; i < kind->faces; i++) {
+        int first = 1 + width * i, next = i + 1 == kind->faces && kind->ring ? 1 : first + width;
+        for (int j = 0; j < size; j++) {
+            int k = loop ? triangles[j] : quads[j];         // 6, 7: the next face's 0, 1
+            *faces++ = k < 0 ? 0 : k < 6 ? first + k : next + k - 6;
+        }
+    }
+}
+
+// Weights of the limit and of tangents along the first edge and a quarter turn away, scaled so that
+// for a regular vertex they are the derivatives.
+static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nest_kind *kind,
+                           sdv_arena *arena, sdv_arena *scratch)
+{
+    int n = kind->faces, loop = rules->loop, width = loop ? 3 : 6, edges = n + !kind->ring;
+    double *t = SDV_NEW(context, scratch, double, 4 * (size_t)n + 8), *t0 = t, *t1 = t + 2 * n + 4;
+    sdv_mask mask = sdv_limit_mask(rules, kind->rule, n);
+    kind->limit = SDV_NEW(context, arena, double, 3 * (size_t)kind->points);
+    if (context->result) return;
+    if (kind->ring) sdv_smooth_tangents(n, loop, t0, t1);
+    else sdv_crease_tangents(n, loop, t0, t1);
+    double norm[2] = { 0, 0 }, wave = 4;
+    if (loop && !kind->ring) wave = 1 + 2 * cos(3.14159265358979323846 / n);
+    for (int i = 0; i < edges; i++) {
+        int inner = kind->ring || (i > 0 && i < n);
+        norm[0] += t0[1 + i] * t0[1 + i] / (kind->ring ? 4 : 1);
+        norm[1] += inner ? t1[1 + i] * t1[1 + i] / wave : 0;
+    }
+    for (int i = 0; i < n && !loop; i++)
+        for (int k = 0; k < 2; k++) norm[k] += t[k * (2 * n + 4) + 1 + edges + i] *
+                                               t[k * (2 * n + 4) + 1 + edges + i];
+    for (int k = 0; k < 3; k++) {
+        double *w = kind->limit + k * kind->points, *from = k == 1 ? t0 : t1;
+        double scale = k && norm[k - 1] > 0 ? 1 / norm[k - 1] : 1;
+        for (int i = 0; i < kind->points; i++) w[i] = 0;
+        w[0] = k ? scale * from[0] : mask.self;
+        for (int i = 0; i < edges; i++)
+            w[1 + width * i] = k ? scale * from[1 + i] :
+                               mask.edge + (i == 0 || i == n ? mask.crease : 0);
+        for (int i = 0; i < n && !loop; i++)
+            w[3 + width * i] = k ? scale * from[1 + edges + i] : mask.face;
+    }
+}
+
+// Which patches the children of a nest's faces are.
+static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const sdv_split *split,
+                              const sdv_level *next, sdv_arena *scratch)
+{
+    sdv_context *context = maker->writer->context;
+    int loop = maker->surface->rules.loop, count = 0;
+    int *patch = SDV_NEW(context, scratch, int, next->face_count);
+    kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
+    kind->matrices = SDV_NEW(context, &maker->surface->arena, int, kind->patches.count);
+    if (context->result) return;
+    for (int f = 0; f < next->face_count; f++)
+        patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
+    for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
+        kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
+    for (int i = 0; i < kind->patches.count && !context->result; i++)
+        kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
+}
+
+// Of the two triangles around a vertex of valence 2, each has an edge of its own across from it, not
+// one that both and their neighbours share as in the cage of a mesh.
+static void sdv_part_triangles(sdv_level *level, int dart)
+{
+    static const int pairs[2][2] = { { 1, 5 }, { 13, 17 } };
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            level->across[pairs[i][k]] = pairs[i][1 - k];
+            level->sharpness[pairs[i][k]] = 0;
+            level->vertex_sharpness[1 + 3 * i] = 0;
+            level->creased[1 + 3 * i] = (unsigned char)(dart && i == 0);
+        }
+}
+
+// Builds a kind: one step of refinement of a small mesh.
+static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
+{
+    int crease[4] = { 0, 1, 1, 2 };
+    float forever[2] = { SUBDIV_INFINITE, SUBDIV_INFINITE };
+    sdv_context *context = maker->writer->context;
+    subdiv_surface *surface = maker->surface;
+    const sdv_rules *rules = &surface->rules;
+    int loop = rules->loop, n = kind->faces;
+    sdv_arena scratch = sdv_scratch();
+    subdiv_mesh mesh;
+    sdv_cage cage;
+    sdv_split split;
+    sdv_level next;
+    memset(&mesh, 0, sizeof mesh);
+    kind->points = 1 + (loop ? 3 : 6) * n + (kind->ring ? 0 : 2);
+    mesh.vertex_count = kind->points;
+    mesh.face_count = 4 * n;
+    mesh.face_size = loop ? 3 : 4;
+    mesh.face_vertices = SDV_NEW(context, &scratch, int, 16 * (size_t)n);
+    mesh.crease_count = kind->rule == SDV_DART ? 2 : 0;
+    mesh.crease_vertices = crease;
+    mesh.corner_count = kind->rule == SDV_CORNER;
+    mesh.corner_vertices = crease;
+    mesh.crease_sharpness = mesh.corner_sharpness = forever;
+    if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
+    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
+    if (!context->result && loop && n == 2 && kind->ring)
+        sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
+    if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
+    kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
+    if (!context->result) {
+        for (int f = 0; f < 4 * n; f++) cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
+        memset(cage.level.vertex_done, 0, (size_t)kind->points);
+        memset(cage.level.edge_done, 0, (size_t)cage.level.face_vertex_count);
+        sdv_find_active(&cage.level, &split);
+        sdv_number_faces(&cage.level, &split, loop);
+        sdv_number_points(&cage.level, &split);
+        sdv_step_faces(surface, &cage.level, &split, 0, maker->writer, &kind->step);
+        sdv_step_points(surface, &cage.level, &split, maker->writer, &kind->step);
+    }
+    if (!context->result)
+        sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
+    if (!context->result) {
+        kind->work_count = next.first_point + next.vertex_count;
+        sdv_find_patches(context, &surface->arena, &next, rules, SDV_FOREVER, &kind->patches);
+    }
+    if (!context->result) {
+        sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
+        sdv_nest_children(maker, kind, &split, &next, &scratch);
+    }
+    if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
+        sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
+    sdv_arena_free(&scratch);
+}
+
+static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_rule rule)
+{
+    const sdv_nest_kind *known = (const sdv_nest_kind *)sdv_items(&maker->kinds);
+    sdv_nest_kind kind;
+    int count = (int)maker->kinds.count;
+    for (int i = 0; i < count; i++)
+        if (known[i].faces == faces && known[i].ring == ring && known[i].rule == rule) return i;
+    memset(&kind, 0, sizeof kind);
+    kind.faces = faces;
+    kind.ring = ring;
+    kind.rule = rule;
+    sdv_build_nest_kind(maker, &kind);
+    sdv_nest_kind *made = (sdv_nest_kind *)sdv_append(maker->writer->context, &maker->kinds, 1,
+                                                      sizeof kind);
+    if (made) *made = kind;
+    return count;
+}
+
+static int sdv_settled(float sharpness)
+{
+    return sharpness <= 0 || sharpness >= SUBDIV_INFINITE;
+}
+
+// Is nothing at a vertex semi-sharp?
+static int sdv_vertex_settled(const sdv_level *level, int v)
+{
+    int settled = sdv_settled(level->vertex_sharpness[v]);
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
+        settled &= sdv_settled(level->sharpness[h]) &&
+                   sdv_settled(level->sharpness[sdv_previous(level, h)]);
+    return settled;
+}
+
+// Is the vertex of h regular as seen from its face?
+static sdv_fan sdv_fan_at(const sdv_level *level, const sdv_rules *rules, int h)
+{
+    sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h], SDV_FOREVER);
+    return sdv_find_fan(level, kind, h, rules->loop);
+}
+
+// Are the neighbours in the faces from h on regular, creased only along the first and last edge?
+static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, int faces, int ring)
+{
+    int v = level->face_vertices[h], partner = level->partner ? level->partner[v] : -1;
+    if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
+        return 0;
+    for (int i = 0; i < faces; i++) {
+        int next = sdv_next(level, h), before = sdv_previous(level, h);
+        sdv_fan fan = sdv_fan_at(level, rules, next);
+        if (i > 0 || ring ? fan != SDV_FAN_RING : fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)
+            return 0;
+        if (rules->loop ? level->sharpness[next] > 0
+                        : sdv_fan_at(level, rules, sdv_next(level, next)) != SDV_FAN_RING) return 0;
+        fan = sdv_fan_at(level, rules, before);
+        if (i + 1 == faces && !ring && (fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)) return 0;
+        if (i + 1 < faces) h = sdv_around(level, h);
+    }
+    return 1;
+}
+
+// The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
+// number, or -2, at all its faces, and face_at where they stand in it.
+static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h, int *at,
+                          int *face_at)
+{
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_context *context = maker->writer->context;
+    int first = h, faces = 1, i, number = -2;
+    while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
+    int ring = i == h;
+    for (i = first; (i = sdv_counter_clockwise(level, i)) >= 0 && i != first; ) faces++;
+    int last = first;
+    for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
+    sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
+    int dart = rule == SDV_DART && !ring &&
+               sdv_same_edge(level, first, sdv_previous(level, last));
+    if (sdv_is_nest(level, rules, first, faces, ring)) {
+        if (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE)) rule = SDV_CORNER;
+        number = (int)maker->nests.count;
+        int kind = sdv_find_nest_kind(maker, faces, ring || dart, rule);
+        sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
+        if (context->result) return;
+        size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
+        nest->kind = kind;
+        nest->first = (int)maker->nest_points.count;
+        int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
+        if (points) sdv_nest_points(level, first, faces, ring || dart, rules->loop, points);
+    }
+    for (i = 0; i < faces; i++) {
+        at[first] = number;
+        face_at[first] = i;
+        if (i + 1 < faces) first = sdv_counter_clockwise(level, first);
+    }
+}
+
+// Turns the rough faces of nests into leaves.
+static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level)
+{
+    sdv_context *context = maker->writer->context;
+    sdv_arena scratch = sdv_scratch();
+    int *at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
+    int *face_at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) at[h] = -1;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), found = -1;
+        for (int h = start; h < end && level->rough[f] && !context->result; h++) {
+            if (sdv_fan_at(level, &maker->surface->rules, h) != SDV_FAN_ROUGH) continue;
+            if (at[h] == -1) sdv_find_nest(maker, level, h, at, face_at);
+            found = h;
+        }
+        if (found < 0 || context->result || at[found] < 0) continue;
+        int number = (int)maker->nest_faces.count;
+        sdv_nest_face *face = (sdv_nest_face *)sdv_append(context, &maker->nest_faces, 1,
+                                                          sizeof *face);
+        if (!face) continue;
+        face->nest = at[found];
+        face->face = face_at[found];
+        face->turn = found - start;
+        level->rough[f] = 0;
+        ((int *)sdv_items(&maker->nodes))[maker->slots[f]] = ~(2 * number + 1);
+    }
+    sdv_arena_free(&scratch);
+}
+
+// The nodes of the next level's faces.
+static void sdv_exact_children(sdv_exact_maker *maker, const sdv_level *level,
+                               const sdv_split *split, const sdv_level *next, sdv_arena *arena)
+{
+    sdv_context *context = maker->writer->context;
+    int loop = maker->surface->rules.loop, size = loop ? 3 : 4;
+    int *slots = SDV_NEW(context, arena, int, next->face_count);
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), count = sdv_face_end(level, f) - start;
+        int first = maker->slots[f];
+        if (!level->rough[f]) continue;
+        if (count == size) {
+            int four = (int)maker->nodes.count;
+            if (!sdv_append(context, &maker->nodes, 4, sizeof(int))) continue;
+            ((int *)sdv_items(&maker->nodes))[first] = four;
+            first = four;
+            count = 4;
+        }
+        for (int i = 0; i < count; i++)
+            slots[split->child[start + (loop ? f : 0) + i] / size] = first + i;
+    }
+    maker->slots = slots;
+}
+
+// Does the next level fit, with at most four children a face-vertex?
+static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *surface,
+                                 const sdv_level *level)
+{
+    double most = 4.0 * level->face_vertex_count + 4.0 * level->vertex_count;
+    if (most + surface->work_count > INT_MAX / 2)
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh make too many points");
+}
+
+// A level: its patches and nests become leaves; then the rows to the next level, if any face is
+// left.
+static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level, sdv_level *next,
+                            sdv_arena *next_arena)
+{
+    subdiv_surface *surface = maker->surface;
+    sdv_context *context = maker->writer->context;
+    sdv_patches *patches = &surface->patches[depth];
+    sdv_arena scratch = sdv_scratch();
+    sdv_split split;
+    int regular = level->face_size == (surface->rules.loop ? 3 : 4);
+    sdv_find_patches(context, &surface->arena, level, &surface->rules, SDV_FOREVER, patches);
+    for (int f = 0; f < level->face_count && !context->result; f++)
+        if (level->core[f] && !level->rough[f])
+            ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
+                ~(2 * surface->exact->patch_count++);
+    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level);
+    surface->work_count = level->first_point + level->vertex_count;
+    next->face_count = 0;
+    if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
+    SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
+    sdv_check_exact_size(context, surface, level);
+    sdv_split_new(context, &scratch, level, &split);
+    if (!context->result) {
+        sdv_find_active(level, &split);
+        sdv_number_faces(level, &split, surface->rules.loop);
+        sdv_number_points(level, &split);
+        sdv_step_faces(surface, level, &split, 0, maker->writer, &surface->steps[depth]);
+        sdv_step_points(surface, level, &split, maker->writer, &surface->steps[depth]);
+    }
+    if (!context->result)
+        sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
+    if (!context->result) sdv_exact_children(maker, level, &split, next, next_arena);
+    sdv_arena_free(&scratch);
+}
+
+// Faces without a surface: dropped by boundary "none", or without values.
+static void sdv_find_absent(sdv_context *context, subdiv_surface *surface,
+                            const unsigned char *hole)
+{
+    int any = 0, faces = surface->face_count;
+    for (int f = 0; f < faces; f++)
+        any |= hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
+    if (!any) return;
+    unsigned char *absent = SDV_NEW(context, &surface->arena, unsigned char, faces);
+    surface->exact->absent = absent;
+    for (int f = 0; f < faces && absent; f++)
+        absent[f] = hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
+}
+
+static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *array, size_t item)
+{
+    void *kept = sdv_new(context, arena, array->count, item);
+    if (kept) sdv_copy(kept, sdv_items(array), array->count, item);
+    sdv_array_free(array);
+    return kept;
+}
+
+static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
+{
+    subdiv_surface *surface = maker->surface;
+    sdv_exact *exact = surface->exact;
+    sdv_arena *arena = &surface->arena;
+    exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
+    exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
+                                                   sizeof(sdv_nest_kind));
+    exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
+    exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
+    exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
+                                                        sizeof(sdv_nest_face));
+    exact->matrices = (sdv_matrix *)sdv_keep_array(context, arena, &maker->matrices,
+                                                   sizeof(sdv_matrix));
+}
+
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
+{
+    surface->levels = SDV_EXACT_LEVELS;
+    surface->exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
+    if (surface->exact) memset(surface->exact, 0, sizeof *surface->exact);
+}
+
+static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                              const unsigned char *hole, sdv_arena *arena)
+{
+    sdv_arena next_arena = sdv_scratch();
+    sdv_level level = *cage, next = level;
+    sdv_writer writer;
+    sdv_exact_maker maker;
+    memset(&maker, 0, sizeof maker);
+    sdv_writer_new(context, &writer);
+    maker.writer = &writer;
+    maker.surface = surface;
+    maker.slots = SDV_NEW(context, arena, int, level.face_count);
+    sdv_append(context, &maker.nodes, (size_t)level.face_vertex_count, sizeof(int));
+    if (!context->result) {
+        memset(level.core, 1, (size_t)level.face_count);
+        memset(level.edge_done, 0, (size_t)level.face_vertex_count);
+        memset(level.vertex_done, 0, (size_t)level.vertex_count);
+        for (int f = 0; f < level.face_count; f++)
+            maker.slots[f] = sdv_face_node(&level, surface->rules.loop, f, 0);
+        sdv_level_fade(&level);
+        surface->work_count = level.vertex_count;
+        sdv_find_absent(context, surface, hole);
+    }
+    for (int i = 0; level.face_count && !context->result; i++) {
+        sdv_exact_level(&maker, i, &level, &next, &next_arena);
+        sdv_arena_free(arena);
+        *arena = next_arena;
+        next_arena = sdv_scratch();
+        level = next;
+    }
+    sdv_keep_exact(context, &maker);
+    sdv_keep_masks(context, surface, &writer);
+    sdv_writer_free(&writer);
+    sdv_arena_free(arena);
+}
+
+// The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
+// in their last digits alone; then the coefficients of each patch, channel by channel.
+typedef struct sdv_exact_memory {
+    double *work;                       // [4 * work_count] for every four channels
+    float  *patches;                    // [SDV_SLOTS * channels * patch_count]
+} sdv_exact_memory;
+
+static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
+{
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
+}
+
+static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
+{
+    return sizeof(double) + sdv_exact_work_size(surface, channels) +
+           SDV_SLOTS * sizeof(float) * (size_t)channels * (size_t)surface->exact->patch_count;
+}
+
+static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int channels, void *scratch)
+{
+    sdv_exact_memory memory;
+    size_t beyond = (size_t)((uintptr_t)scratch % sizeof(double));
+    char *base = (char *)scratch + (beyond ? sizeof(double) - beyond : 0);
+    memory.work = (double *)(void *)base;
+    memory.patches = (float *)(void *)(base + sdv_exact_work_size(surface, channels));
+    return memory;
+}
+
+// Rows as sdv_apply, in doubles.
+static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
+                           double *work)
+{
+    if (block == end) return;
+    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
+    const int *row = rows->items + rows->starts[block];
+    double *out = work + 4 * (size_t)(rows->first + first);
+    if (last > rows->count) last = rows->count;
+    for (int i = first; i < last; i++, out += 4) {
+        const sdv_weights *mask = &masks->items[row[0]];
+        const double *p0 = work + 4 * (size_t)row[1];
+        double sum[4] = { 0, 0, 0, 0 };
+        for (int j = 1; j < mask->count; j++) {
+            const double *p = work + 4 * (size_t)row[1 + j];
+            double w = mask->first < 0 ? (double)mask->even
+                                       : (double)masks->weights[mask->first + j];
+            for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
+        }
+        for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
+        row += 1 + mask->count;
+    }
+}
+
+// Jobs of an evaluation.
+typedef struct sdv_exact_evaluation {
+    const subdiv_surface *surface;
+    int channels;
+    const float *in;
+    size_t in_stride;
+    sdv_exact_memory memory;
+    int step, jobs;
+    int count;                          // locations, and where what is asked of each goes: value,
+    const subdiv_location *locations;   // du, dv, duu, duv, dvv; or NULL
+    float *out[6], *normals;
+    size_t stride, normal_stride;
+    int order;                          // of the highest derivative
+    unsigned char failed[256];          // jobs that got no memory
+    const subdiv_options *opt;
+} sdv_exact_evaluation;
+
+static void sdv_exact_input_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    const subdiv_surface *surface = e->surface;
+    int end = sdv_share(surface->cage_vertex_count, job + 1, e->jobs);
+    for (int v = sdv_share(surface->cage_vertex_count, job, e->jobs); v < end; v++) {
+        const float *in = e->in + e->in_stride * (size_t)(surface->source ? surface->source[v] : v);
+        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++)
+            e->memory.work[(size_t)(c / 4) * 4 * (size_t)surface->work_count + 4 * (size_t)v +
+                           (size_t)(c & 3)] = c < e->channels ? (double)in[c] : 0;
+    }
+}
+
+static void sdv_exact_share(const sdv_exact_evaluation *e, const sdv_rows *rows, int job)
+{
+    int blocks = (int)sdv_row_blocks(rows->count);
+    int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
+    for (int c = 0; c < e->channels; c += 4)
+        sdv_exact_rows(&e->surface->masks, rows, block, end,
+                       e->memory.work + (size_t)c * (size_t)e->surface->work_count);
+}
+
+static void sdv_exact_faces_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    sdv_exact_share(e, &e->surface->steps[e->step].faces, job);
+}
+
+static void sdv_exact_points_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    sdv_exact_share(e, &e->surface->steps[e->step].vertices, job);
+    sdv_exact_share(e, &e->surface->steps[e->step].edges, job);
+}
+
+// The polynomial of a patch from its work points, four channels or fewer.
+static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, const int *points,
+                            const double *work, int lanes, float *out)
+{
+    float relative[64], lane[4];
+    sdv_polynomial q;
+    sdv_four slots[SDV_SLOTS];
+    const double *origin = work + 4 * (size_t)points[rules->loop ? 4 : 5];
+    for (int i = 0; i < sdv_control_points(rules); i++)
+        for (int c = 0; c < 4; c++)
+            relative[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
+    sdv_limit_polynomial(rules, patch, relative, &q);
+    sdv_pack(&q, slots);
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        sdv_store(lane, slots[k]);
+        for (int c = 0; c < lanes; c++) out[SDV_SLOTS * c + k] = lane[c];
+    }
+    for (int c = 0; c < lanes; c++)
+        out[SDV_SLOTS * c] = (float)(origin[c] + (double)out[SDV_SLOTS * c]);
+}
+
+static void sdv_exact_patches_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    const subdiv_surface *surface = e->surface;
+    int first = sdv_share(surface->exact->patch_count, job, e->jobs);
+    int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs), base = 0;
+    size_t size = SDV_SLOTS * (size_t)e->channels;
+    size_t width = (size_t)sdv_control_points(&surface->rules);
+    for (int i = 0; i < surface->levels; base += surface->patches[i++].count) {
+        const sdv_patches *patches = &surface->patches[i];
+        int from = first > base ? first - base : 0, to = end - base;
+        if (to > patches->count) to = patches->count;
+        for (int k = from; k < to; k++)
+            for (int c = 0; c < e->channels; c += 4)
+                sdv_exact_patch(&surface->rules, &patches->items[k],
+                                patches->points + width * (size_t)k,
+                                e->memory.work + (size_t)c * (size_t)surface->work_count,
+                                e->channels - c < 4 ? e->channels - c : 4,
+                                e->memory.patches + size * (size_t)(base + k) +
+                                SDV_SLOTS * (size_t)c);
+    }
+}
+
+static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
+                            size_t in_stride, void *scratch, const subdiv_options *opt)
+{
+    sdv_exact_evaluation e;
+    memset(&e, 0, sizeof e);
+    e.surface = surface;
+    e.channels = channels;
+    e.in = in;
+    e.in_stride = in_stride;
+    e.memory = sdv_exact_parts(surface, channels, scratch);
+    e.jobs = sdv_jobs(surface->cage_vertex_count, 4096);
+    sdv_run(opt, sdv_exact_input_job, &e, e.jobs);
+    for (e.step = 0; e.step < surface->levels; e.step++) {
+        const sdv_step *step = &surface->steps[e.step];
+        e.jobs = sdv_jobs(step->faces.count, 4096);
+        sdv_run(opt, sdv_exact_faces_job, &e, e.jobs);
+        e.jobs = sdv_jobs(step->vertices.count + step->edges.count, 4096);
+        sdv_run(opt, sdv_exact_points_job, &e, e.jobs);
+    }
+    e.jobs = sdv_jobs(surface->exact->patch_count, 256);
+    sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
+}
+
+// The weights of the coefficients for a value and its derivatives at (x, y): first ones are scaled
+// by s, second ones by its square.
+static inline void sdv_quad_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+{
+    float powers[4] = { 1, x, x * x, x * x * x };
+    float along[4] = { 0, s, 2 * s * x, 3 * s * (x * x) }, ss = s * s;
+    float bend[4] = { 0, 0, 2 * ss, 6 * ss * x };
+    sdv_four p = sdv_load(powers), zero = sdv_all(0);
+    sdv_four y1 = sdv_all(y), y2 = sdv_all(y * y), y3 = sdv_all(y * y * y);
+    w[0][0] = p;
+    w[0][1] = sdv_times(p, y1);
+    w[0][2] = sdv_times(p, y2);
+    w[0][3] = sdv_times(p, y3);
+    if (order == 0) return;
+    sdv_four d = sdv_load(along), up1 = sdv_all(s), up2 = sdv_all(2 * s * y);
+    sdv_four up3 = sdv_all(3 * s * (y * y));
+    w[1][0] = d;
+    w[1][1] = sdv_times(d, y1);
+    w[1][2] = sdv_times(d, y2);
+    w[1][3] = sdv_times(d, y3);
+    w[2][0] = zero;
+    w[2][1] = sdv_times(p, up1);
+    w[2][2] = sdv_times(p, up2);
+    w[2][3] = sdv_times(p, up3);
+    if (order == 1) return;
+    sdv_four b = sdv_load(bend);
+    w[3][0] = b;
+    w[3][1] = sdv_times(b, y1);
+    w[3][2] = sdv_times(b, y2);
+    w[3][3] = sdv_times(b, y3);
+    w[4][0] = w[5][0] = w[5][1] = zero;
+    w[4][1] = sdv_times(d, up1);
+    w[4][2] = sdv_times(d, up2);
+    w[4][3] = sdv_times(d, up3);
+    w[5][2] = sdv_times(p, sdv_all(2 * ss));
+    w[5][3] = sdv_times(p, sdv_all(6 * ss * y));
+}
+
+static inline void sdv_set_four(sdv_four *w, float a, float b, float c, float d)
+{
+    float four[4] = { a, b, c, d };
+    *w = sdv_load(four);
+}
+
+static inline void sdv_triangle_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+{
+    float xx = x * x, yy = y * y, ss = s * s;
+    sdv_set_four(&w[0][0], 1, x, xx, x * xx);
+    w[0][1] = sdv_times(w[0][0], sdv_all(y));
+    sdv_set_four(&w[0][2], yy, x * yy, y * yy, x * (y * yy));
+    sdv_set_four(&w[0][3], yy * yy, xx * xx, 0, 0);
+    if (order == 0) return;
+    sdv_set_four(&w[1][0], 0, s, 2 * s * x, 3 * s * xx);
+    w[1][1] = sdv_times(w[1][0], sdv_all(y));
+    sdv_set_four(&w[1][2], 0, s * yy, 0, s * (y * yy));
+    sdv_set_four(&w[1][3], 0, 4 * s * (x * xx), 0, 0);
+    w[2][0] = sdv_all(0);
+    w[2][1] = sdv_times(w[0][0], sdv_all(s));
+    sdv_set_four(&w[2][2], 2 * s * y, 2 * s * (x * y), 3 * s * yy, 3 * s * (x * yy));
+    sdv_set_four(&w[2][3], 4 * s * (y * yy), 0, 0, 0);
+    if (order == 1) return;
+    sdv_set_four(&w[3][0], 0, 0, 2 * ss, 6 * ss * x);
+    w[3][1] = sdv_times(w[3][0], sdv_all(y));
+    w[3][2] = w[4][0] = w[4][3] = w[5][0] = w[5][1] = sdv_all(0);
+    sdv_set_four(&w[3][3], 0, 12 * ss * xx, 0, 0);
+    w[4][1] = sdv_times(w[1][0], sdv_all(s));
+    sdv_set_four(&w[4][2], 0, 2 * ss * y, 0, 3 * ss * yy);
+    sdv_set_four(&w[5][2], 2 * ss, 2 * ss * x, 6 * ss * y, 6 * ss * (x * y));
+    sdv_set_four(&w[5][3], 12 * ss * yy, 0, 0, 0);
+}
+
+// The sums of up to four channels.
+static inline sdv_four sdv_exact_sums(const float *data, int lanes, const sdv_four *w)
+{
+    sdv_four sum[4];
+    for (int i = 0; i < 4; i++) {
+        const float *p = data + SDV_SLOTS * (i < lanes ? i : 0);
+        if (i > 0 && i >= lanes) sum[i] = sum[0];
+        else sum[i] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[0]),
+                                        sdv_times(sdv_load(p + 4), w[1])),
+                               sdv_plus(sdv_times(sdv_load(p + 8), w[2]),
+                                        sdv_times(sdv_load(p + 12), w[3])));
+    }
+    return sdv_sums(sum[0], sum[1], sum[2], sum[3]);
+}
+
+// Values, derivatives and normal on a patch, at location i.
+static inline void sdv_put_patch(const sdv_exact_evaluation *e, const float *data, int loop,
+                                 float x, float y, float s, size_t i)
+{
+    sdv_four w[6][4];
+    int channels = e->channels;
+    if (loop) sdv_triangle_weights(x, y, s, e->order, w);
+    else sdv_quad_weights(x, y, s, e->order, w);
+    for (int k = 0; k < 6; k++) {
+        float *out = e->out[k];
+        if (!out) continue;
+        out += e->stride * i;
+        if (channels == 3) {
+            sdv_store_three(out, sdv_exact_sums(data, 3, w[k]));
+            continue;
+        }
+        for (int c = 0; c < channels; c += 4) {
+            int lanes = channels - c < 4 ? channels - c : 4;
+            sdv_store_some(out + c, sdv_exact_sums(data + SDV_SLOTS * c, lanes, w[k]), lanes);
+        }
+    }
+    if (e->normals) {
+        float t[8];
+        sdv_store(t, sdv_exact_sums(data, 3, w[1]));
+        sdv_store(t + 4, sdv_exact_sums(data, 3, w[2]));
+        sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+    }
+}
+
+// Which child of a face, and where on it; a middle triangle is turned by half.
+static inline int sdv_descend_quad(double *x, double *y)
+{
+    int right = *x >= 0.5, up = *y >= 0.5;
+    *x = 2 * *x - right;
+    *y = 2 * *y - up;
+    return right ^ (up * 3);
+}
+
+static inline int sdv_descend_triangle(double *x, double *y, double *scale)
+{
+    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y <= 0.5 ? 0 : 3;
+    *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
+    *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
+    if (child == 3) *scale = -*scale;
+    return child;
+}
+
+#define SDV_NEST_STACK 256              // work points; nests with more take memory
+
+// A sample in a nest, four channels at a time.
+typedef struct sdv_nest_sample {
+    const subdiv_surface *surface;
+    const sdv_nest_kind *kind;
+    int     face;
+    double  x, y;                       // as seen from the vertex
+    double *w;                          // [4 * work_count] points: (p - base) / shrink
+    double  base[4], shrink;
+    double  values[6][4];               // what comes out; derivatives are those in x and y
+    double  normal[2][4];               // tangents for the normal
+} sdv_nest_sample;
+
+static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
+{
+    const int *points = s->surface->exact->nest_points + nest->first;
+    for (int c = 0; c < 4; c++) s->base[c] = work[4 * (size_t)points[0] + (size_t)c];
+    for (int i = 0; i < s->kind->points; i++)
+        for (int c = 0; c < 4; c++)
+            s->w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
+    s->shrink = 1;
+}
+
+// The points of the next level.
+static void sdv_nest_refine(sdv_nest_sample *s)
+{
+    const sdv_masks *masks = &s->surface->masks;
+    const sdv_step *step = &s->kind->step;
+    const sdv_rows *rows[3] = { &step->faces, &step->vertices, &step->edges };
+    for (int i = 0; i < 3; i++)
+        sdv_exact_rows(masks, rows[i], 0, (int)sdv_row_blocks(rows[i]->count), s->w);
+}
+
+static void sdv_nest_go_down(sdv_nest_sample *s)
+{
+    const sdv_nest_kind *kind = s->kind;
+    sdv_nest_refine(s);
+    double vertex[4];
+    for (int c = 0; c < 4; c++) vertex[c] = s->w[4 * kind->below[0] + c];
+    for (int c = 0; c < 4; c++) s->base[c] += s->shrink * vertex[c];
+    for (int i = 0; i < kind->points; i++)
+        for (int c = 0; c < 4; c++)
+            s->w[4 * i + c] = 2 * (s->w[4 * kind->below[i] + c] - vertex[c]);
+    s->shrink /= 2;
+}
+
+// From the patch of a child, where (x, y) is not in the next nest.
+static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
+{
+    int loop = s->surface->rules.loop, count = loop ? 12 : 16;
+    double scale = 2;
+    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
+    int patch = s->kind->children[4 * s->face + child];
+    const sdv_matrix *matrix = &s->surface->exact->matrices[s->kind->matrices[patch]];
+    const int *points = s->kind->patches.points + count * patch;
+    double px[5] = { 1, x, x * x, x * x * x, x * x * x * x };
+    double py[5] = { 1, y, y * y, y * y * y, y * y * y * y };
+    memset(s->values, 0, sizeof s->values);
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        int i = sdv_powers[loop][k][0], j = sdv_powers[loop][k][1];
+        double c[4] = { 0, 0, 0, 0 };
+        for (int p = 0; p < count; p++)
+            for (int l = 0; l < 4; l++) c[l] += matrix->weights[k][p] * s->w[4 * points[p] + l];
+        double dx = i ? i * px[i - 1] : 0, dy = j ? j * py[j - 1] : 0;
+        double dxx = i > 1 ? i * (i - 1) * px[i - 2] : 0;
+        double dyy = j > 1 ? j * (j - 1) * py[j - 2] : 0;
+        double w[6] = { px[i] * py[j], scale * dx * py[j], scale * px[i] * dy, 4 * dxx * py[j],
+                        4 * dx * dy, 4 * px[i] * dyy };
+        for (int d = 0; d < 6; d++)
+            for (int l = 0; l < 4; l++) s->values[d][l] += w[d] * c[l];
+    }
+    for (int l = 0; l < 4; l++) {
+        s->values[0][l] = s->base[l] + s->shrink * s->values[0][l];
+        for (int d = 3; d < 6; d++) s->values[d][l] /= s->shrink;
+    }
+    memcpy(s->normal, s->values[1], sizeof s->normal);
+}
+
+// At the vertex itself: by the limit masks, if there are any. Else far down, along both edges and,
+// for the normal, between them. Second derivatives are 0.
+static void sdv_nest_masks(sdv_nest_sample *s)
+{
+    const sdv_nest_kind *kind = s->kind;
+    double sum[3][4], a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 4; c++) {
+            sum[k][c] = 0;
+            for (int i = 0; i < kind->points; i++)
+                sum[k][c] += kind->limit[k * kind->points + i] * s->w[4 * i + c];
+        }
+    for (int c = 0; c < 4; c++) {
+        s->values[0][c] = s->base[c] + sum[0][c];
+        for (int i = 0; i < 2; i++) {
+            s->values[1 + i][c] = cos((s->face + i) * a) * sum[1][c] +
+                                  sin((s->face + i) * a) * sum[2][c];
+            s->normal[i][c] = sum[1 + i][c];
+        }
+    }
+}
+
+static void sdv_nest_vertex(sdv_nest_sample *s)
+{
+    double along[2][4], normal[2][4];
+    if (s->kind->limit) {
+        sdv_nest_masks(s);
+    } else {
+        for (int i = 0; i < 100; i++) sdv_nest_go_down(s);
+        sdv_nest_refine(s);
+        for (int i = 0; i < 3; i++) {
+            sdv_nest_patch(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
+            if (i < 2) memcpy(along[i], s->values[1 + i], sizeof along[i]);
+            else memcpy(normal, s->normal, sizeof normal);
+        }
+        memcpy(s->values[1], along, sizeof along);
+        memcpy(s->normal, normal, sizeof normal);
+        memcpy(s->values[0], s->base, sizeof s->base);
+    }
+    memset(s->values[3], 0, 3 * sizeof s->values[3]);
+}
+
+static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
+{
+    double size = s->surface->rules.loop ? s->x + s->y : s->x > s->y ? s->x : s->y;
+    int down;
+    sdv_nest_load(s, nest, work);
+    if (size <= 0) {
+        sdv_nest_vertex(s);
+        return;
+    }
+    frexp(size, &down);
+    down = down > 0 ? 0 : -down;
+    for (int i = 0; i < down; i++) sdv_nest_go_down(s);
+    sdv_nest_refine(s);
+    sdv_nest_patch(s, ldexp(s->x, down), ldexp(s->y, down));
+}
+
+// What the coordinates of a face are as seen from its vertex number turn: those of row 2 i and
+// 2 i + 1 times (u, v), plus an offset.
+static const signed char sdv_turns[2][4][4] = {
+    { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
+    { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
+
+// Derivatives in u and v from those in x and y, with the scale of the face.
+static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
+{
+    double ss = scale * scale;
+    for (int c = 0; c < 4; c++) {
+        double dx = s->values[1][c], dy = s->values[2][c];
+        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
+        s->values[1][c] = scale * (t[0] * dx + t[2] * dy);
+        s->values[2][c] = scale * (t[1] * dx + t[3] * dy);
+        s->values[3][c] = ss * (t[0] * t[0] * dxx + 2 * t[0] * t[2] * dxy + t[2] * t[2] * dyy);
+        s->values[4][c] = ss * (t[0] * t[1] * dxx + (t[0] * t[3] + t[1] * t[2]) * dxy +
+                                t[2] * t[3] * dyy);
+        s->values[5][c] = ss * (t[1] * t[1] * dxx + 2 * t[1] * t[3] * dxy + t[3] * t[3] * dyy);
+    }
+}
+
+static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s, int c, size_t i)
+{
+    for (int k = 0; k < 6; k++)
+        for (int l = 0; l < 4 && c + l < e->channels && e->out[k]; l++) {
+            double value = s->values[k][l];
+            e->out[k][e->stride * i + (size_t)(c + l)] =
+                (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
+        }
+    if (!e->normals || c > 0) return;
+    const double *a = s->normal[0], *b = s->normal[1];
+    double n[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                    a[0] * b[1] - a[1] * b[0] };
+    sdv_make_unit(n, e->normals + e->normal_stride * i);
+}
+
+static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, double y, double scale,
+                        size_t i)
+{
+    const subdiv_surface *surface = e->surface;
+    const sdv_exact *exact = surface->exact;
+    const sdv_nest_face *face = &exact->nest_faces[index];
+    const sdv_nest *nest = &exact->nests[face->nest];
+    const signed char *t = sdv_turns[surface->rules.loop][face->turn];
+    double small[4 * SDV_NEST_STACK], z = 1 - x - y;
+    sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
+    sdv_arena arena = sdv_new_arena(0);
+    sdv_nest_sample s;
+    s.surface = surface;
+    s.kind = &exact->kinds[nest->kind];
+    s.face = face->face;
+    if (surface->rules.loop) {
+        s.x = face->turn == 0 ? x : face->turn == 1 ? y : z;
+        s.y = face->turn == 0 ? y : face->turn == 1 ? z : x;
+    } else {
+        s.x = face->turn == 0 ? x : face->turn == 1 ? y : face->turn == 2 ? 1 - x : 1 - y;
+        s.y = face->turn == 0 ? y : face->turn == 1 ? 1 - x : face->turn == 2 ? 1 - y : x;
+    }
+    if (s.y < 0) s.y = 0;
+    if (s.x < 0) s.x = 0;
+    s.w = s.kind->work_count <= SDV_NEST_STACK ? small
+        : SDV_NEW(&context, &arena, double, 4 * (size_t)s.kind->work_count);
+    for (int c = 0; c < e->channels && s.w; c += 4) {
+        sdv_nest_evaluate(&s, nest, e->memory.work + (size_t)c * (size_t)surface->work_count);
+        sdv_nest_turn(&s, t, scale);
+        sdv_nest_put(e, &s, c, i);
+    }
+    sdv_arena_free(&arena);
+    return s.w != NULL;
+}
+
+// Faces without a surface have zeros.
+static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
+{
+    for (int k = 0; k < 6; k++)
+        for (int c = 0; c < e->channels && e->out[k]; c++) e->out[k][e->stride * i + (size_t)c] = 0;
+    for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
+}
+
+static inline int sdv_put_location(const sdv_exact_evaluation *e, int loop, int i)
+{
+    const subdiv_surface *surface = e->surface;
+    const sdv_exact *exact = surface->exact;
+    const sdv_level *cage = &surface->order.cage;
+    const subdiv_location *at = &e->locations[i];
+    if (exact->absent && exact->absent[at->face]) {
+        sdv_put_zeros(e, (size_t)i);
+        return 1;
+    }
+    int f = surface->own_face ? surface->own_face[at->face] : at->face;
+    int slot = sdv_face_node(cage, loop, f, at->corner);
+    double x = at->u > 0 ? (double)at->u : 0, y = at->v > 0 ? (double)at->v : 0, scale = 1;
+    if (x > 1) x = 1;
+    if (y > 1) y = 1;
+    if (loop && x + y > 1) y = 1 - x;
+    for (slot = exact->nodes[slot]; slot >= 0; scale *= 2)
+        slot = exact->nodes[slot + (loop ? sdv_descend_triangle(&x, &y, &scale)
+                                         : sdv_descend_quad(&x, &y))];
+    size_t leaf = (size_t)(~slot >> 1);
+    if (~slot & 1) return sdv_put_nest(e, (int)leaf, x, y, scale, (size_t)i);
+    sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * leaf, loop,
+                  (float)x, (float)y, (float)scale, (size_t)i);
+    return 1;
+}
+
+static void sdv_locations_job(void *context, int job)
+{
+    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    int end = sdv_share(e->count, job + 1, e->jobs), loop = e->surface->rules.loop;
+    int done = 1;
+    for (int i = sdv_share(e->count, job, e->jobs); i < end; i++)
+        done &= loop ? sdv_put_location(e, 1, i) : sdv_put_location(e, 0, i);
+    e->failed[job] = !done;
+}
+
+// The first location that is not there.
+static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
+                                const subdiv_location *locations)
+{
+    const float over = 1 + 1e-6f;
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop;
+    for (int i = 0; i < count; i++) {
+        const subdiv_location *at = &locations[i];
+        int corners = 1, f = at->face;
+        if (f < 0 || f >= surface->face_count) {
+            sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
+                     f, surface->face_count);
+            return;
+        }
+        if (surface->own_face) f = surface->own_face[f];
+        if (f >= 0 && !loop) corners = sdv_face_end(cage, f) - sdv_face_start(cage, f);
+        if (corners == 4) corners = 1;
+        if (at->corner < 0 || (f >= 0 && at->corner >= corners)) {
+            sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i,
+                     at->face, at->corner);
+            return;
+        }
+        if (!(at->u >= 1 - over && at->v >= 1 - over && (loop ? at->u + at->v <= over
+                                                             : at->u <= over && at->v <= over))) {
+            sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
+            return;
+        }
+    }
+}
+
+static void sdv_check_exact(sdv_context *context, const subdiv_surface *surface, int channels,
+                            int count, const subdiv_location *locations,
+                            const subdiv_derivatives *out)
+{
+    if (context->result) return;
+    int values = out->points || out->du || out->dv || out->duu || out->duv || out->dvv;
+    if (!surface->exact)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared with SUBDIV_EXACT");
+    else if (count < 0 || (count > 0 && !locations))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, count < 0 ? "count is %d" : "locations is NULL",
+                 count);
+    else if (out->normals && channels < 3)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "normals of %d channels", channels);
+    else if (out->stride && ((values && out->stride < channels) ||
+                             (out->normals && out->stride < 3) || out->stride < 0))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is too small", out->stride);
+    else
+        sdv_check_locations(context, surface, count, locations);
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
+                                            const void *scratch, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_derivatives *out,
+                                            const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    int stride = 0;
+    sdv_check_values(&context, surface, channels, scratch, &stride);
+    if (!out) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "out is NULL");
+    sdv_check_exact(&context, surface, channels, count, locations, out);
+    if (context.result) return context.result;
+    sdv_exact_evaluation e;
+    float *to[6] = { out->points, out->du, out->dv, out->duu, out->duv, out->dvv };
+    memset(&e, 0, sizeof e);
+    e.surface = surface;
+    e.channels = channels;
+    e.memory = sdv_exact_parts(surface, channels, (void *)(size_t)scratch);     // only read
+    e.count = count;
+    e.locations = locations;
+    memcpy(e.out, to, sizeof to);
+    e.normals = out->normals;
+    e.stride = (size_t)(out->stride ? out->stride : channels);
+    e.normal_stride = (size_t)(out->stride ? out->stride : 3);
+    e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
+    e.opt = opt;
+    e.jobs = sdv_jobs(count, 1024);
+    sdv_run(opt, sdv_locations_job, &e, e.jobs);
+    if (memchr(e.failed, 1, sizeof e.failed))
+        sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
+    return context.result;
 }
 
 // ---------------------------------------------------------------------------- >>generators
@@ -8308,6 +9678,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
 {
     sdv_context context = sdv_begin(opt);
     if (!surface || !write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    sdv_check_result(&context, surface);
     if (context.result) return context.result;
     if (surface->levels == 0)
         return sdv_stream_copy(&context, surface, positions, write, user, opt);
