@@ -693,6 +693,7 @@ typedef __m128 sdv_four;
 static sdv_four sdv_load(const float *p)               { return _mm_loadu_ps(p); }
 static void     sdv_store(float *p, sdv_four a)        { _mm_storeu_ps(p, a); }
 static sdv_four sdv_all(float x)                       { return _mm_set1_ps(x); }
+static sdv_four sdv_of(float a, float b, float c, float d) { return _mm_setr_ps(a, b, c, d); }
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
@@ -716,6 +717,11 @@ typedef float32x4_t sdv_four;
 static sdv_four sdv_load(const float *p)               { return vld1q_f32(p); }
 static void     sdv_store(float *p, sdv_four a)        { vst1q_f32(p, a); }
 static sdv_four sdv_all(float x)                       { return vdupq_n_f32(x); }
+static sdv_four sdv_of(float a, float b, float c, float d)
+{
+    float x[4] = { a, b, c, d };
+    return vld1q_f32(x);
+}
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
@@ -740,6 +746,7 @@ typedef v128_t sdv_four;
 static sdv_four sdv_load(const float *p)               { return wasm_v128_load(p); }
 static void     sdv_store(float *p, sdv_four a)        { wasm_v128_store(p, a); }
 static sdv_four sdv_all(float x)                       { return wasm_f32x4_splat(x); }
+static sdv_four sdv_of(float a, float b, float c, float d) { return wasm_f32x4_make(a, b, c, d); }
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
@@ -782,6 +789,12 @@ static sdv_four sdv_all(float x)
 {
     sdv_four a = { { x, x, x, x } };
     return a;
+}
+
+static sdv_four sdv_of(float a, float b, float c, float d)
+{
+    sdv_four four = { { a, b, c, d } };
+    return four;
 }
 
 static sdv_four sdv_plus(sdv_four a, sdv_four b)
@@ -6265,8 +6278,8 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
         kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
 }
 
-// Of the two triangles around a vertex of valence 2, each has an edge of its own across from it, not
-// one that both and their neighbours share as in the cage of a mesh.
+// Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
+// not one that both and their neighbours share as in the cage of a mesh.
 static void sdv_part_triangles(sdv_level *level, int dart)
 {
     static const int pairs[2][2] = { { 1, 5 }, { 13, 17 } };
@@ -6784,71 +6797,62 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
 // by s, second ones by its square.
 static inline void sdv_quad_weights(float x, float y, float s, int order, sdv_four (*w)[4])
 {
-    float powers[4] = { 1, x, x * x, x * x * x };
-    float along[4] = { 0, s, 2 * s * x, 3 * s * (x * x) }, ss = s * s;
-    float bend[4] = { 0, 0, 2 * ss, 6 * ss * x };
-    sdv_four p = sdv_load(powers), zero = sdv_all(0);
-    sdv_four y1 = sdv_all(y), y2 = sdv_all(y * y), y3 = sdv_all(y * y * y);
+    float xx = x * x, yy = y * y, ss = s * s;
+    sdv_four y1 = sdv_all(y), y2 = sdv_all(yy), y3 = sdv_all(y * yy), p = sdv_of(1, x, xx, x * xx);
     w[0][0] = p;
     w[0][1] = sdv_times(p, y1);
     w[0][2] = sdv_times(p, y2);
     w[0][3] = sdv_times(p, y3);
     if (order == 0) return;
-    sdv_four d = sdv_load(along), up1 = sdv_all(s), up2 = sdv_all(2 * s * y);
-    sdv_four up3 = sdv_all(3 * s * (y * y));
-    w[1][0] = d;
-    w[1][1] = sdv_times(d, y1);
-    w[1][2] = sdv_times(d, y2);
-    w[1][3] = sdv_times(d, y3);
-    w[2][0] = zero;
-    w[2][1] = sdv_times(p, up1);
+    sdv_four along = sdv_of(0, s, 2 * s * x, 3 * s * xx);
+    sdv_four up = sdv_all(s), up2 = sdv_all(2 * s * y), up3 = sdv_all(3 * s * yy);
+    w[1][0] = along;
+    w[1][1] = sdv_times(along, y1);
+    w[1][2] = sdv_times(along, y2);
+    w[1][3] = sdv_times(along, y3);
+    w[2][0] = sdv_all(0);
+    w[2][1] = sdv_times(p, up);
     w[2][2] = sdv_times(p, up2);
     w[2][3] = sdv_times(p, up3);
     if (order == 1) return;
-    sdv_four b = sdv_load(bend);
-    w[3][0] = b;
-    w[3][1] = sdv_times(b, y1);
-    w[3][2] = sdv_times(b, y2);
-    w[3][3] = sdv_times(b, y3);
-    w[4][0] = w[5][0] = w[5][1] = zero;
-    w[4][1] = sdv_times(d, up1);
-    w[4][2] = sdv_times(d, up2);
-    w[4][3] = sdv_times(d, up3);
+    sdv_four bend = sdv_of(0, 0, 2 * ss, 6 * ss * x);
+    w[3][0] = bend;
+    w[3][1] = sdv_times(bend, y1);
+    w[3][2] = sdv_times(bend, y2);
+    w[3][3] = sdv_times(bend, y3);
+    w[4][0] = w[5][0] = w[5][1] = sdv_all(0);
+    w[4][1] = sdv_times(along, up);
+    w[4][2] = sdv_times(along, up2);
+    w[4][3] = sdv_times(along, up3);
     w[5][2] = sdv_times(p, sdv_all(2 * ss));
     w[5][3] = sdv_times(p, sdv_all(6 * ss * y));
-}
-
-static inline void sdv_set_four(sdv_four *w, float a, float b, float c, float d)
-{
-    float four[4] = { a, b, c, d };
-    *w = sdv_load(four);
 }
 
 static inline void sdv_triangle_weights(float x, float y, float s, int order, sdv_four (*w)[4])
 {
     float xx = x * x, yy = y * y, ss = s * s;
-    sdv_set_four(&w[0][0], 1, x, xx, x * xx);
+    w[0][0] = sdv_of(1, x, xx, x * xx);
     w[0][1] = sdv_times(w[0][0], sdv_all(y));
-    sdv_set_four(&w[0][2], yy, x * yy, y * yy, x * (y * yy));
-    sdv_set_four(&w[0][3], yy * yy, xx * xx, 0, 0);
+    w[0][2] = sdv_of(yy, x * yy, y * yy, x * (y * yy));
+    w[0][3] = sdv_of(yy * yy, xx * xx, 0, 0);
     if (order == 0) return;
-    sdv_set_four(&w[1][0], 0, s, 2 * s * x, 3 * s * xx);
+    w[1][0] = sdv_of(0, s, 2 * s * x, 3 * s * xx);
     w[1][1] = sdv_times(w[1][0], sdv_all(y));
-    sdv_set_four(&w[1][2], 0, s * yy, 0, s * (y * yy));
-    sdv_set_four(&w[1][3], 0, 4 * s * (x * xx), 0, 0);
+    w[1][2] = sdv_of(0, s * yy, 0, s * (y * yy));
+    w[1][3] = sdv_of(0, 4 * s * (x * xx), 0, 0);
     w[2][0] = sdv_all(0);
     w[2][1] = sdv_times(w[0][0], sdv_all(s));
-    sdv_set_four(&w[2][2], 2 * s * y, 2 * s * (x * y), 3 * s * yy, 3 * s * (x * yy));
-    sdv_set_four(&w[2][3], 4 * s * (y * yy), 0, 0, 0);
+    w[2][2] = sdv_of(2 * s * y, 2 * s * (x * y), 3 * s * yy, 3 * s * (x * yy));
+    w[2][3] = sdv_of(4 * s * (y * yy), 0, 0, 0);
     if (order == 1) return;
-    sdv_set_four(&w[3][0], 0, 0, 2 * ss, 6 * ss * x);
+    w[3][0] = sdv_of(0, 0, 2 * ss, 6 * ss * x);
     w[3][1] = sdv_times(w[3][0], sdv_all(y));
     w[3][2] = w[4][0] = w[4][3] = w[5][0] = w[5][1] = sdv_all(0);
-    sdv_set_four(&w[3][3], 0, 12 * ss * xx, 0, 0);
+    w[3][3] = sdv_of(0, 12 * ss * xx, 0, 0);
     w[4][1] = sdv_times(w[1][0], sdv_all(s));
-    sdv_set_four(&w[4][2], 0, 2 * ss * y, 0, 3 * ss * yy);
-    sdv_set_four(&w[5][2], 2 * ss, 2 * ss * x, 6 * ss * y, 6 * ss * (x * y));
-    sdv_set_four(&w[5][3], 12 * ss * yy, 0, 0, 0);
+    w[4][2] = sdv_of(0, 2 * ss * y, 0, 3 * ss * yy);
+    w[5][2] = sdv_of(2 * ss, 2 * ss * x, 6 * ss * y, 6 * ss * (x * y));
+    w[5][3] = sdv_of(12 * ss * yy, 0, 0, 0);
 }
 
 // The sums of up to four channels.
@@ -6866,33 +6870,42 @@ static inline sdv_four sdv_exact_sums(const float *data, int lanes, const sdv_fo
     return sdv_sums(sum[0], sum[1], sum[2], sum[3]);
 }
 
-// Values, derivatives and normal on a patch, at location i.
+// What is asked for of a patch, at location i, from the weights of values and derivatives.
+static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data,
+                             const sdv_four (*w)[4], size_t i)
+{
+    for (int k = 0; k < 6; k++)
+        for (int c = 0; c < e->channels && e->out[k]; c += 4) {
+            int lanes = e->channels - c < 4 ? e->channels - c : 4;
+            sdv_store_some(e->out[k] + e->stride * i + c,
+                           sdv_exact_sums(data + SDV_SLOTS * c, lanes, w[k]), lanes);
+        }
+}
+
+static void sdv_put_normal(const sdv_exact_evaluation *e, const float *data,
+                           const sdv_four (*w)[4], size_t i)
+{
+    float t[8];
+    sdv_store(t, sdv_exact_sums(data, 3, w[1]));
+    sdv_store(t + 4, sdv_exact_sums(data, 3, w[2]));
+    sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+}
+
 static inline void sdv_put_patch(const sdv_exact_evaluation *e, const float *data, int loop,
                                  float x, float y, float s, size_t i)
 {
     sdv_four w[6][4];
-    int channels = e->channels;
+    size_t at = e->stride * i;
     if (loop) sdv_triangle_weights(x, y, s, e->order, w);
     else sdv_quad_weights(x, y, s, e->order, w);
-    for (int k = 0; k < 6; k++) {
-        float *out = e->out[k];
-        if (!out) continue;
-        out += e->stride * i;
-        if (channels == 3) {
-            sdv_store_three(out, sdv_exact_sums(data, 3, w[k]));
-            continue;
-        }
-        for (int c = 0; c < channels; c += 4) {
-            int lanes = channels - c < 4 ? channels - c : 4;
-            sdv_store_some(out + c, sdv_exact_sums(data + SDV_SLOTS * c, lanes, w[k]), lanes);
-        }
+    if (e->channels != 3 || e->order == 2) {
+        sdv_put_channels(e, data, (const sdv_four (*)[4])w, i);
+    } else {
+        if (e->out[0]) sdv_store_three(e->out[0] + at, sdv_exact_sums(data, 3, w[0]));
+        if (e->out[1]) sdv_store_three(e->out[1] + at, sdv_exact_sums(data, 3, w[1]));
+        if (e->out[2]) sdv_store_three(e->out[2] + at, sdv_exact_sums(data, 3, w[2]));
     }
-    if (e->normals) {
-        float t[8];
-        sdv_store(t, sdv_exact_sums(data, 3, w[1]));
-        sdv_store(t + 4, sdv_exact_sums(data, 3, w[2]));
-        sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
-    }
+    if (e->normals) sdv_put_normal(e, data, (const sdv_four (*)[4])w, i);
 }
 
 // Which child of a face, and where on it; a middle triangle is turned by half.
@@ -7130,71 +7143,88 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-static inline int sdv_put_location(const sdv_exact_evaluation *e, int loop, int i)
+// A coordinate without its rounding.
+static inline double sdv_on_face(float u)
+{
+    return u < 0 ? 0 : u > 1 ? 1 : (double)u;
+}
+
+static inline int sdv_put_location(const sdv_exact_evaluation *e, const int *nodes, int loop,
+                                   size_t i)
 {
     const subdiv_surface *surface = e->surface;
-    const sdv_exact *exact = surface->exact;
-    const sdv_level *cage = &surface->order.cage;
     const subdiv_location *at = &e->locations[i];
-    if (exact->absent && exact->absent[at->face]) {
-        sdv_put_zeros(e, (size_t)i);
+    double x = sdv_on_face(at->u), y = sdv_on_face(at->v), scale = 1;
+    int f = at->face;
+    if (surface->exact->absent && surface->exact->absent[f]) {
+        sdv_put_zeros(e, i);
         return 1;
     }
-    int f = surface->own_face ? surface->own_face[at->face] : at->face;
-    int slot = sdv_face_node(cage, loop, f, at->corner);
-    double x = at->u > 0 ? (double)at->u : 0, y = at->v > 0 ? (double)at->v : 0, scale = 1;
-    if (x > 1) x = 1;
-    if (y > 1) y = 1;
+    if (surface->own_face) f = surface->own_face[f];
+    int node = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
     if (loop && x + y > 1) y = 1 - x;
-    for (slot = exact->nodes[slot]; slot >= 0; scale *= 2)
-        slot = exact->nodes[slot + (loop ? sdv_descend_triangle(&x, &y, &scale)
-                                         : sdv_descend_quad(&x, &y))];
-    size_t leaf = (size_t)(~slot >> 1);
-    if (~slot & 1) return sdv_put_nest(e, (int)leaf, x, y, scale, (size_t)i);
-    sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * leaf, loop,
-                  (float)x, (float)y, (float)scale, (size_t)i);
+    for (; node >= 0; scale *= 2)
+        node = nodes[node + (loop ? sdv_descend_triangle(&x, &y, &scale)
+                                  : sdv_descend_quad(&x, &y))];
+    if (~node & 1) return sdv_put_nest(e, ~node >> 1, x, y, scale, i);
+    sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * (size_t)(~node >> 1),
+                  loop, (float)x, (float)y, (float)scale, i);
     return 1;
 }
 
-static void sdv_locations_job(void *context, int job)
+static void sdv_quads_job(void *context, int job)
 {
     sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
-    int end = sdv_share(e->count, job + 1, e->jobs), loop = e->surface->rules.loop;
-    int done = 1;
-    for (int i = sdv_share(e->count, job, e->jobs); i < end; i++)
-        done &= loop ? sdv_put_location(e, 1, i) : sdv_put_location(e, 0, i);
-    e->failed[job] = !done;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    for (; i < end; i++)
+        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 0, i);
+}
+
+static void sdv_triangles_job(void *context, int job)
+{
+    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    for (; i < end; i++)
+        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 1, i);
+}
+
+// Is a location there?
+static inline int sdv_is_location(const subdiv_surface *surface, const subdiv_location *at)
+{
+    const float under = -1e-6f, over = 1 + 1e-6f;
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, f = at->face;
+    if (f < 0 || f >= surface->face_count) return 0;
+    if (!(at->u >= under && at->v >= under && at->u <= over && at->v <= over)) return 0;
+    if (loop && at->u + at->v > over) return 0;
+    if (at->corner == 0) return 1;
+    if (surface->own_face) f = surface->own_face[f];
+    if (f < 0) return at->corner > 0;
+    return at->corner > 0 && sdv_is_ngon(&surface->order, f) &&
+           at->corner < sdv_face_end(cage, f) - sdv_face_start(cage, f);
 }
 
 // The first location that is not there.
 static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
                                 const subdiv_location *locations)
 {
-    const float over = 1 + 1e-6f;
-    const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop;
-    for (int i = 0; i < count; i++) {
-        const subdiv_location *at = &locations[i];
-        int corners = 1, f = at->face;
-        if (f < 0 || f >= surface->face_count) {
-            sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
-                     f, surface->face_count);
-            return;
-        }
-        if (surface->own_face) f = surface->own_face[f];
-        if (f >= 0 && !loop) corners = sdv_face_end(cage, f) - sdv_face_start(cage, f);
-        if (corners == 4) corners = 1;
-        if (at->corner < 0 || (f >= 0 && at->corner >= corners)) {
-            sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i,
-                     at->face, at->corner);
-            return;
-        }
-        if (!(at->u >= 1 - over && at->v >= 1 - over && (loop ? at->u + at->v <= over
-                                                             : at->u <= over && at->v <= over))) {
-            sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
-            return;
-        }
+    int i = 0;
+    while (i < count && sdv_is_location(surface, &locations[i])) i++;
+    if (i == count) return;
+    subdiv_location at = locations[i];
+    if (at.face < 0 || at.face >= surface->face_count) {
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
+                 at.face, surface->face_count);
+        return;
     }
+    at.u = at.v = 0;
+    if (sdv_is_location(surface, &at))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
+    else
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i, at.face,
+                 at.corner);
 }
 
 static void sdv_check_exact(sdv_context *context, const subdiv_surface *surface, int channels,
@@ -7244,7 +7274,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
-    sdv_run(opt, sdv_locations_job, &e, e.jobs);
+    sdv_run(opt, surface->rules.loop ? sdv_triangles_job : sdv_quads_job, &e, e.jobs);
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
