@@ -6919,7 +6919,7 @@ static inline int sdv_descend_quad(double *x, double *y)
 
 static inline int sdv_descend_triangle(double *x, double *y, double *scale)
 {
-    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y <= 0.5 ? 0 : 3;
+    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
     *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
     *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
     if (child == 3) *scale = -*scale;
