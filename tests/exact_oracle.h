@@ -5,7 +5,7 @@
 // h * h is small, first derivatives as h is.
 //
 //     oracle_open(&o, &cage);
-//     oracle_evaluate(o, face, corner, u, v, ORACLE_DEPTH, out);      out[0] point, [1] d/du, [2] d/dv
+//     oracle_evaluate(o, face, corner, u, v, ORACLE_DEPTH, out);   out: the point, d/du, d/dv
 //     oracle_close(o);
 #ifndef EXACT_ORACLE_H
 #define EXACT_ORACLE_H
@@ -269,8 +269,8 @@ static inline void oracle_set_edge(oracle_mesh *to, int e, int a, int b, float s
     to->crease[e] = sharpness;
 }
 
-// The child of face-vertex h's edge (or of the edge before) at h's vertex. Children of edge e are 2 e
-// and 2 e + 1; the edges inside the faces follow, one for each face-vertex.
+// The child of face-vertex h's edge (or of the edge before) at h's vertex. Children of edge e are
+// 2 e and 2 e + 1; the edges inside the faces follow, one for each face-vertex.
 static inline int oracle_edge_child(const oracle_mesh *m, int f, int h, int before)
 {
     const int e = m->edges[before ? oracle_turn(m, f, h, -1) : h];

@@ -8,7 +8,8 @@
 //
 // A file's scheme is that of its name, loop_ or bilinear_ in front, unless --scheme says otherwise.
 // Each file is compared as it is and with every other boundary, creasing and triangle rule in turn.
-// --continuity prints how smooth both are at extraordinary vertices. --record writes what OpenSubdiv makes of the cages in DIR, for tests/test_recorded.c.
+// --continuity prints how smooth both are at extraordinary vertices. --record writes what OpenSubdiv
+// makes of the cages in DIR, for tests/test_recorded.c.
 
 #include <algorithm>
 #include <cmath>
@@ -886,8 +887,8 @@ struct Place {
     Vector point, normal;
 };
 
-// How a surface does near vertex 0: the largest angle, in degrees, between the normals on both sides
-// of an edge there; the largest angle to the exact normal, and distance to the exact point.
+// How a surface does near vertex 0: the largest angle, in degrees, between the normals on both
+// sides of an edge there; the largest angle to the exact normal, and distance to the exact point.
 struct Quality {
     double between = 0, normal = 0, point = 0;
 };
@@ -973,8 +974,9 @@ static void compare_continuity()
 {
     const int valences[] = { 3, 4, 5, 6, 7, 8, 10, 12, 16, 20, 30, 40, 50 };
     const char *schemes[] = { "Catmull-Clark", "Loop" };
-    printf("Near an extraordinary vertex: the largest angle between the normals on both sides of an\n"
-           "edge and to the exact normal, in degrees, and distance to the exact point, edges 1 long\n"
+    printf("Near an extraordinary vertex: the largest angle between the normals on both sides of\n"
+           "an edge, the largest to the exact normal, in degrees, and the largest distance to the\n"
+           "exact point, where edges of the cage are about 1 long\n"
            "               valence  subdiv.h                    OpenSubdiv's Bfr, 1 level   "
            "2 levels (default)\n");
     for (int scheme = 0; scheme < 2; scheme++) {

@@ -68,7 +68,7 @@ static double length(vec a)
     return sqrt(a.x[0] * a.x[0] + a.x[1] * a.x[1] + a.x[2] * a.x[2]);
 }
 
-// ------------------------------------------------------------------------------ many places at once
+// -------------------------------------------------------------------------- many places at once
 
 // Places on one surface and what is there.
 typedef struct sampler {
@@ -235,20 +235,28 @@ static void choose_place(random_cage *random, sampler *s)
     add_place(s, f, corner, uv[0], uv[1]);
 }
 
+// The first seeds, and some that were not right once: creases through vertices where fins meet.
+static unsigned seed_number(int i)
+{
+    static const unsigned chosen[] = { 730, 756, 3193 };
+    return i < 3 ? chosen[i] : (unsigned)i - 2;
+}
+
 static void test_random_cages(void)
 {
     static sampler s;
     test_context = context;
-    for (unsigned seed = 1; seed <= 300; seed++) {
+    for (int i = 0; i < 200; i++) {
+        const unsigned seed = seed_number(i);
         random_cage *random = random_cage_new(seed, FEATURES);
         oracle *o = NULL;
         sprintf(context, "seed %u", seed);
         CHECK(random && oracle_open(&o, &random->mesh));
         if (!o || !open_sampler(&s, &random->mesh)) return;
-        for (int i = 0; i < PLACES; i++) choose_place(random, &s);
+        for (int k = 0; k < PLACES; k++) choose_place(random, &s);
         evaluate_places(&s);
-        for (int i = 0; i < s.count; i++)
-            if (!oracle_is_bare(o, s.at[i].face)) check_place(&s, o, i);
+        for (int k = 0; k < s.count; k++)
+            if (!oracle_is_bare(o, s.at[k].face)) check_place(&s, o, k);
         close_sampler(&s);
         oracle_close(o);
         random_cage_free(random);
@@ -392,7 +400,8 @@ static void test_edges(void)
 {
     static sampler s;
     test_context = context;
-    for (unsigned seed = 1; seed <= 200; seed++) {
+    for (int i = 0; i < 120; i++) {
+        const unsigned seed = seed_number(i);
         random_cage *random = random_cage_new(seed, FEATURES & ~RANDOM_BILINEAR);
         oracle *o = NULL;
         sprintf(context, "seed %u", seed);
@@ -432,7 +441,8 @@ static void test_smooth_vertices(void)
                     CHECK_NEAR(gap, 0, position_tolerance * s.extent);
                     if (!(angle < 1e-4))
                         TEST_REPORT("normals %g apart at distance %g", angle, distances[k]);
-                    if (k == 0) CHECK_NEAR(length(cross(value(&s, 0, 6), value(&s, i, 6))), 0, 1e-5);
+                    const double turn = length(cross(value(&s, 0, 6), value(&s, i, 6)));
+                    if (k == 0) CHECK_NEAR(turn, 0, 1e-5);
                 }
             }
             close_sampler(&s);
