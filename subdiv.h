@@ -342,7 +342,11 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 // Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
 // it for positions every frame, and for whatever else the cage's vertices carry. A surface that
 // was prepared with opt->linear has the same order of points but interpolates straight, as for data
-// that must not overshoot.
+// that must not overshoot. For instance 5 weights a vertex, and a material a face:
+//
+//     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
+//     for (int f = 0; f < fine.face_count; f++)
+//         fine_material[f] = material[fine.cage_faces[f]];
 
 // What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
@@ -354,13 +358,14 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// Face-varying values: as with UVs, each vertex of each face has one of value_count values, indices
-// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They
-// are a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces
-// gives the indices of the fine faces (-1 where there are none). Value i stays value i at the
-// first vertex that has it; vertices of the cage that share it have values of their own from
-// level 1 on, behind all others. Faces whose vertices do not all have values are none of its cage
-// faces. rule says what happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
+// Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
+// more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
+// and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
+// [vertex_count] values, faces gives the indices of the fine faces (-1 where there are none). Value
+// i stays value i at the first vertex that has it; vertices of the cage that share it have values
+// of their own from level 1 on, behind all others. Faces whose vertices do not all have values are
+// none of its cage faces. rule says what happens at seams, see subdiv_uv_rule. Errors as
+// subdiv_prepare.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -595,7 +600,9 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
 //     f v/vt/vn ...                        in all forms, with negative indices, before or behind
 //                                          what it names; any number of vertices
-//     g o s usemtl mtllib                  kept as they stand, with the face that follows
+//     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
+//                                          a comment if blanks are around it: "Material #25" is a
+//                                          name
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
@@ -604,7 +611,8 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
 // The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
-// all of theirs, with one warning for all such faces. Normals are passed over, their indices too.
+// all of theirs, with one warning for those that name some vt and one for those that name none.
+// Normals are passed over, their indices too.
 // Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
 // are skipped, and how many points and lines, free-form and unknown statements were. What would
 // change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
@@ -1253,7 +1261,7 @@ static size_t sdv_find_endless(const float *numbers, size_t count)
 
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
 {
-    for (int f = 0; f < mesh->face_count; f++) {
+    for (int f = 0; f < (mesh->face_size > 2 ? 0 : mesh->face_count); f++) {
         int size = sdv_face_size(mesh, f);
         if (size < 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_FACE, f, -1, "face %d has %d vertices", f, size);
@@ -1572,11 +1580,12 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
 // Lists the face-vertices at each vertex, in rising order.
 static void sdv_level_lists(sdv_level *level)
 {
-    for (int v = 0; v < level->vertex_count; v++) level->vertex_first[v] = -1;
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next;
+    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
     for (int h = level->face_vertex_count - 1; h >= 0; h--) {
-        int *first = &level->vertex_first[level->face_vertices[h]];
-        level->vertex_next[h] = *first;
-        *first = h;
+        next[h] = first[vertices[h]];
+        first[vertices[h]] = h;
     }
 }
 
@@ -1602,58 +1611,75 @@ static int sdv_joins(const sdv_level *level, int h, int a, int b)
     return (from == a && to == b) || (from == b && to == a);
 }
 
-// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence.
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of ends
+// with as many the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
-    return level->vertex_faces[a] <= level->vertex_faces[b] ? a : b;
+    int more = level->vertex_faces[a] - level->vertex_faces[b];
+    return more < 0 || (more == 0 && a < b) ? a : b;
 }
 
-// Takes h as one more of the ring of edge e, which starts at first and ends at last, and returns
-// the new last. A face has an edge once: its later ones are left for edges of their own, -2.
-static int sdv_join_edge(sdv_cage *cage, int e, int first, int last, int h)
+typedef struct sdv_listed_edge {        // at its smaller end
+    int other;                          // the other end
+    int next;                           // the next edge there, or -1
+    int last;                           // the last face-vertex of its ring so far
+} sdv_listed_edge;
+
+// An edge begins with face-vertex h.
+static int sdv_new_edge(sdv_level *level, int h)
 {
-    sdv_level *level = &cage->level;
-    if (h <= first || level->face_edges[h] != -1) return last;
-    if (sdv_face_of(level, h) == sdv_face_of(level, last)) {
-        int before = first, later = h > last ? h : last;
-        cage->edge_nonmanifold[e] = 1;
-        level->face_edges[later] = -2;
-        if (later == h) return last;
-        while (level->across[before] != last) before = level->across[before];
-        last = before;
-    }
-    if (last != first || level->face_vertices[h] == level->face_vertices[first])
-        cage->edge_nonmanifold[e] = 1;
+    int e = level->edge_count++;
     level->face_edges[h] = e;
+    level->edge_first[e] = h;
+    level->across[h] = h;
+    return e;
+}
+
+// Takes h as one more of the ring of edge e, behind the last one.
+static void sdv_join_edge(sdv_level *level, int e, int last, int h)
+{
+    level->face_edges[h] = e;
+    level->across[h] = level->across[last];
     level->across[last] = h;
-    level->across[h] = first;
-    return h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
-// ends are the same vertex, or when one face has it twice: then each time is an edge of its own.
-static void sdv_cage_edges(sdv_cage *cage)
+// ends are the same vertex, or when one face has it twice: then each later time is an edge of its
+// own.
+static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
-    for (int h = 0; h < level->face_vertex_count; h++) level->face_edges[h] = -1;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (level->face_edges[h] >= 0) continue;
-        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
-        int e = level->edge_count++, last = h, alone = a == b || level->face_edges[h] == -2;
-        level->face_edges[h] = e;
-        level->edge_first[e] = h;
-        level->across[h] = h;
-        cage->edge_nonmanifold[e] = (unsigned char)alone;
-        if (alone) continue;
-        int v = sdv_smaller_end(level, a, b), other = a + b - v;
-        for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
-            int p = sdv_previous(level, k);
-            if (level->face_vertices[p] == other) last = sdv_join_edge(cage, e, h, last, p);
-            if (level->face_vertices[sdv_next(level, k)] == other)
-                last = sdv_join_edge(cage, e, h, last, k);
+    const int *vertices = level->face_vertices;
+    sdv_arena scratch = sdv_scratch();
+    int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
+    sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        for (int h = start; h < end; h++) {
+            int a = vertices[h], b = vertices[h + 1 < end ? h + 1 : start];
+            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
+            while (e >= 0 && edges[e].other != other) e = edges[e].next;
+            if (a == b) {
+                cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else if (e < 0) {
+                e = sdv_new_edge(level, h);
+                edges[e].other = other;
+                edges[e].next = listed[v];
+                edges[e].last = h;
+                listed[v] = e;
+            } else if (edges[e].last >= start) {
+                cage->edge_nonmanifold[e] = cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else {
+                int first = level->edge_first[e], last = edges[e].last;
+                if (last != first || vertices[first] == a) cage->edge_nonmanifold[e] = 1;
+                sdv_join_edge(level, e, last, h);
+                edges[e].last = h;
+            }
         }
     }
+    sdv_arena_free(&scratch);
 }
 
 // The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
@@ -1726,21 +1752,6 @@ static int sdv_is_fan(const sdv_level *level, int v)
     }
     for (h = first; level->across[h] != h; met++) h = sdv_next(level, level->across[h]);
     return met == level->vertex_faces[v];
-}
-
-static void sdv_find_nonmanifold_vertices(sdv_cage *cage)
-{
-    const sdv_level *level = &cage->level;
-    unsigned char *nonmanifold = cage->vertex_nonmanifold;
-    memset(nonmanifold, 0, (size_t)level->vertex_count);
-    for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (!cage->edge_nonmanifold[e]) continue;
-        nonmanifold[level->face_vertices[h]] = 1;
-        nonmanifold[level->face_vertices[sdv_next(level, h)]] = 1;
-    }
-    for (int v = 0; v < level->vertex_count; v++)
-        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
 }
 
 static void sdv_sharpen_edge(sdv_level *level, int e, float sharpness)
@@ -1830,23 +1841,25 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
+    unsigned char *nonmanifold = cage->vertex_nonmanifold;
+    memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (level->sharpness[h] < SUBDIV_INFINITE &&
-            (cage->edge_nonmanifold[e] || sdv_is_boundary(level, h)))
+        int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
+        if (level->sharpness[h] <= 0 && !odd && !sdv_is_boundary(level, h)) continue;
+        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+        if (odd) nonmanifold[a] = nonmanifold[b] = 1;
+        if (level->sharpness[h] < SUBDIV_INFINITE && (odd || sdv_is_boundary(level, h)))
             sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
+        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
         if (level->vertex_sharpness[v] >= SUBDIV_INFINITE) continue;
         int single = boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER && level->vertex_faces[v] == 1 &&
                      sdv_count_edges_at(cage, v).count == 2;
-        if (single || (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
+        if (single || (nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
             level->vertex_sharpness[v] = SDV_IMPLIED;
     }
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (level->sharpness[h] > 0)
-            level->creased[level->face_vertices[h]] =
-                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // Faces, as face-vertices; starts and faces of face-vertices where sizes are not all 3 or all 4.
@@ -1893,12 +1906,13 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
+    memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
     memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
     for (int h = 0; h < level->face_vertex_count; h++)
         level->vertex_faces[level->face_vertices[h]]++;
     sdv_level_lists(level);
-    sdv_cage_edges(cage);
-    sdv_find_nonmanifold_vertices(cage);
+    sdv_cage_edges(context, cage);
+    if (context->result) return;
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
     sdv_user_sharpness(context, scratch, cage, mesh);
@@ -2342,50 +2356,47 @@ static int sdv_is_ngon(const sdv_order *order, int f)
 
 // The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
 // vertex and, of a quad, the one before are seen from their other ends.
-static sdv_grid sdv_face_grid(const sdv_order *order, int h)
+static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
-    sdv_grid grid;
-    grid.size = order->n;
-    grid.triangle = order->loop;
-    grid.inside = sdv_first_inside(order, sdv_face_of(&order->cage, h));
-    for (int i = 0; i <= last; i++) grid.corner[i] = v[i];
-    grid.side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
-    grid.side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
-    grid.side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
-    grid.side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
-    return grid;
+    grid->size = order->n;
+    grid->triangle = order->loop;
+    grid->inside = sdv_first_inside(order, f);
+    for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
+    grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
+    grid->side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
+    grid->side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
+    grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
 // The quad at face-vertex h of an n-gon: vertex, middle of the edge, centre, middle of the edge
 // before. The second half of that edge is seen backwards.
-static sdv_grid sdv_ngon_grid(const sdv_order *order, int h)
+static void sdv_ngon_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
-    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), m = order->m;
+    int start = sdv_face_start(cage, f), m = order->m;
     int size = sdv_face_end(cage, f) - start, before = sdv_previous(cage, h);
     int centre = sdv_first_inside(order, f), spokes = centre + m;   // backwards from its edge
-    sdv_grid grid;
-    grid.size = m;
-    grid.triangle = 0;
-    grid.inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
-    grid.side[0] = sdv_edge_side(order, h, 0);
-    grid.side[3] = sdv_edge_side(order, before, 1);
-    grid.side[1].first = spokes + (h - start) * (m - 1);
-    grid.side[2].first = spokes + (before - start) * (m - 1);
-    grid.side[1].step = grid.side[2].step = -1;
-    grid.corner[0] = cage->face_vertices[h];
-    grid.corner[1] = grid.side[0].first + grid.side[0].step * m;
-    grid.corner[2] = centre;
-    grid.corner[3] = grid.side[3].first + grid.side[3].step * m;
-    return grid;
+    grid->size = m;
+    grid->triangle = 0;
+    grid->inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
+    grid->side[0] = sdv_edge_side(order, h, 0);
+    grid->side[3] = sdv_edge_side(order, before, 1);
+    grid->side[1].first = spokes + (h - start) * (m - 1);
+    grid->side[2].first = spokes + (before - start) * (m - 1);
+    grid->side[1].step = grid->side[2].step = -1;
+    grid->corner[0] = cage->face_vertices[h];
+    grid->corner[1] = grid->side[0].first + grid->side[0].step * m;
+    grid->corner[2] = centre;
+    grid->corner[3] = grid->side[3].first + grid->side[3].step * m;
 }
 
-static sdv_grid sdv_grid_at(const sdv_order *order, int h)
+static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
-    return sdv_is_ngon(order, sdv_face_of(&order->cage, h)) ? sdv_ngon_grid(order, h)
-                                                            : sdv_face_grid(order, h);
+    int f = sdv_face_of(&order->cage, h);
+    if (sdv_is_ngon(order, f)) sdv_ngon_grid(order, f, h, grid);
+    else sdv_face_grid(order, f, h, grid);
 }
 
 static int sdv_side_index(const sdv_grid *grid, int side, int t)
@@ -2442,16 +2453,14 @@ typedef struct sdv_row {
     int size, left, right;              // columns 0 to size
 } sdv_row;
 
-static sdv_row sdv_grid_points(const sdv_grid *grid, int row)
+static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
 {
     const int *corner = grid->corner;
     int n = grid->size, first = row == 0, last = row == n, top = grid->triangle ? 2 : 3;
-    sdv_row points;
-    points.size = grid->triangle ? n - row : n;
-    points.line = sdv_grid_line(grid, row);
-    points.left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
-    points.right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
-    return points;
+    points->size = grid->triangle ? n - row : n;
+    points->line = sdv_grid_line(grid, row);
+    points->left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
+    points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
 }
 
 // The fine faces between two rows of points, low and high: quads a b c d.
@@ -2506,7 +2515,9 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
 static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
 {
-    sdv_row low = sdv_grid_points(grid, row), high = sdv_grid_points(grid, row + 1);
+    sdv_row low, high;
+    sdv_grid_points(grid, row, &low);
+    sdv_grid_points(grid, row + 1, &high);
     return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
@@ -2516,7 +2527,8 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
     for (int h = start; h < start + grids; h++) {
-        sdv_grid grid = sdv_grid_at(order, h);
+        sdv_grid grid;
+        sdv_grid_at(order, h, &grid);
         for (int row = 0; row < grid.size; row++) out = sdv_grid_faces(&grid, row, out);
     }
     return out;
@@ -2573,7 +2585,8 @@ typedef struct sdv_known_mask {
 // Writes rows.
 typedef struct sdv_writer {
     sdv_context *context;
-    sdv_array    masks, weights;        // sdv_weights, floats: grow, and are copied at the end
+    sdv_array    masks, weights;        // sdv_weights, floats: grow, and are copied at the end,
+    sdv_array    strips;                // as are sdv_strips
     sdv_known_mask  last;               // the mask of the last row
     sdv_known_mask *known;              // [SDV_KNOWN_MASKS] by their hash
     sdv_arena    arena;
@@ -2586,6 +2599,7 @@ static void sdv_writer_free(sdv_writer *writer)
 {
     sdv_array_free(&writer->masks);
     sdv_array_free(&writer->weights);
+    sdv_array_free(&writer->strips);
     sdv_arena_free(&writer->arena);
 }
 
@@ -2784,18 +2798,23 @@ typedef struct sdv_split {
     int vertex_points, face_points, edge_points, faces;
 } sdv_split;
 
+// What face points need, and what the next level needs besides.
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
-    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     memset(split, 0, sizeof *split);
-    sdv_reserve(context, arena, 8 * ((size_t)level->face_vertex_count + vertices + faces) + 1024);
     split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
-    split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
     split->face = SDV_NEW(context, arena, int, level->face_count);
+}
+
+static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                           sdv_split *split)
+{
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
+    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
+    split->vertex = SDV_NEW(context, arena, int, vertices);
     split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
-    split->child = SDV_NEW(context, arena, int,
-                           (size_t)level->face_vertex_count + (size_t)level->face_count);
+    split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
 }
 
 static void sdv_find_active(const sdv_level *level, sdv_split *split)
@@ -2808,13 +2827,26 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
     }
 }
 
+// Numbers the face points, of the faces that have an active vertex, from first on.
+static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
+{
+    int next = first;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - first;
+}
+
 // Numbers the children: each face-vertex has one where its vertex is active, and knows the
 // face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
 // that all descendants have their parent's orientation, and so with triangles; of any other polygon
 // it becomes vertex 0. The middle child of a triangle is there for two active vertices.
 static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
 {
-    int face = 0, point = 0, size = loop ? 3 : 4;
+    int face = 0, size = loop ? 3 : 4;
     for (int f = 0; f < level->face_count; f++) {
         int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
         int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
@@ -2825,20 +2857,17 @@ static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
             active++;
         }
         if (loop) child[3] = active >= 2 ? size * face++ : -1;
-        split->face[f] = active && !loop ? point++ : -1;
     }
     split->faces = face;
-    split->face_points = point;
 }
 
-// Numbers what the next level will have: vertex points, face points, edge points.
-static void sdv_number_points(const sdv_level *level, sdv_split *split)
+// Numbers what the next level will have: vertex points, face points (none under Loop), edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
 {
     int next = 0;
     for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
     split->vertex_points = next;
-    for (int f = 0; f < level->face_count; f++)
-        if (split->face[f] >= 0) split->face[f] += next;
+    if (!loop) sdv_number_face_points(level, split, next);
     next += split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++) {
         if (!sdv_is_edge(level, h)) continue;
@@ -2862,7 +2891,7 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         next->vertex_done[point] = level->vertex_done[v];
         next->vertex_faces[point] = level->vertex_faces[v];
     }
-    for (int f = 0; f < level->face_count; f++) {
+    for (int f = 0; f < level->face_count && !rules->loop; f++) {
         int point = split->face[f];
         if (point < 0) continue;
         next->vertex_sharpness[point] = 0;
@@ -3054,6 +3083,7 @@ typedef struct sdv_patch {
     unsigned char sharp;                // bit i: edge i is sharp
     unsigned char owned;                // which of its sides and vertices it writes, see below
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
+    unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
 } sdv_patch;
 
 // Bits of owned. A triangle's slanted side is its right one, its last vertex top left.
@@ -3097,26 +3127,194 @@ static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
     return sdv_lasts(sharpness, levels, rules) || (just && !rules->limit);
 }
 
+// A quad whose edge is semi-sharp, as the crease goes straight on with the same sharpness, is still
+// a product of curves. Across the crease, of sharpness s, the rows of control points
+//
+//     low      p0 | p1   p2   p3     the crease is row p1; high: p0   p1   p2 | p3, it is p2
+//
+// stay those of a sharp edge for c = ceil(s) levels, from where on they are a smooth B-spline's:
+// inside, those beside a mirrored row; outside, p1 + (p0 - p1) / 2^c, as the row beside the edge
+// goes half the way to it on each level; and the edge itself, p1, but for a fraction f of the
+// last level (c - 1 levels before it) that blends:
+//
+//     p1 + (1 - f)/8 (inside - 2 p1 + outside)       of level c - 1
+//
+// So the quad is cut into strips: beside the crease those of level c whose control rows it changes,
+// one segment wide (two if there is a fraction), and the rest, which does not know that the edge
+// will ever be smooth.
+typedef struct sdv_strip {
+    int   from, to;                     // segments of the last level that it covers
+    int   origin, unit;                 // its own segment: where it starts, how long it is
+    int   smooth;                       // beside a crease that is smooth by then; others: mirrored
+    float rows[4][4];                   // smooth: its control rows, as sums of the patch's
+} sdv_strip;
+
+typedef struct sdv_strips {
+    float low, high;                    // sharpness of the two edges, 0: not semi-sharp
+    int   levels, count;
+    sdv_strip items[5];
+} sdv_strips;
+
+// Point t of the control points of the level with segments of length h, as a sum of p0 to p3: the
+// polynomial of sdv_cubic.
+static void sdv_cubic_weights(double t, double h, double *w)
+{
+    double s = (1 - h * h) / 6 + t * t / 2, c = t * (t * t - h * h) / 6;
+    w[0] = s - t / 2 - c;
+    w[1] = 1 - 2 * s + 3 * c;
+    w[2] = s + t / 2 - 3 * c;
+    w[3] = c;
+}
+
+// Row i of level c while the edges are sharp, counted from the low one, as a sum of p0 to p3.
+static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
+{
+    double h = ldexp(1, -c), *w = row;
+    sdv_cubic_weights(i * h, h, w);
+    if (strips->low > 0) {                              // p0 = 2 p1 - p2
+        w[1] += 2 * w[0];
+        w[2] -= w[0];
+        w[0] = 0;
+    }
+    if (strips->high > 0) {                             // p3 = 2 p2 - p1
+        w[2] += 2 * w[3];
+        w[1] -= w[3];
+        w[3] = 0;
+    }
+}
+
+// The row outside of row p[edge], seen from inside.
+static void sdv_outside_row(int c, int edge, double *row)
+{
+    double h = ldexp(1, -c);
+    for (int k = 0; k < 4; k++) row[k] = 0;
+    row[edge] = 1 - h;
+    row[edge == 1 ? 0 : 3] = h;
+}
+
+// Row i of level c, on which the edges are smooth.
+static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
+{
+    int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
+    double s = low ? strips->low : strips->high, fraction = s - floor(s), outside[4], inside[4];
+    sdv_sharp_row(strips, c, i, row);
+    if (s <= 0 || (i > 0 && i < last)) return;
+    if (i < 0 || i > last) sdv_outside_row(c, edge, row);
+    if (i < 0 || i > last || fraction <= 0) return;
+    sdv_outside_row(c - 1, edge, outside);
+    sdv_sharp_row(strips, c - 1, low ? 1 : last / 2 - 1, inside);
+    for (int k = 0; k < 4; k++)
+        row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
+}
+
+// The strip from segment first to last of level c. A smooth one is its own segment, another a part
+// of the patch's.
+static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
+{
+    sdv_strip *strip = &strips->items[strips->count++];
+    int length = 1 << (strips->levels - c);
+    double row[4];
+    strip->smooth = smooth;
+    strip->from = first * length;
+    strip->to = (last + 1) * length;
+    strip->unit = smooth ? length : 1 << strips->levels;
+    strip->origin = smooth ? strip->from : 0;
+    for (int j = 0; j < 4 && smooth; j++) {
+        sdv_strip_row(strips, c, first + j - 1, row);
+        for (int k = 0; k < 4; k++) strip->rows[j][k] = (float)row[k];
+    }
+}
+
+// Cuts a quad, of so many levels to go. What is sharper than that is sharp on all of them.
+static sdv_strips sdv_cut_strips(float low, float high, int levels)
+{
+    double s = low > high ? low : high;
+    int lasts = s > levels, c = lasts ? 0 : (int)ceil(s), width = s > floor(s) ? 2 : 1;
+    int end = 1 << c, left = c && low > 0 ? width : 0, right = end - (c && high > 0 ? width : 0);
+    sdv_strips strips;
+    memset(&strips, 0, sizeof strips);
+    strips.low = low;
+    strips.high = high;
+    strips.levels = levels;
+    if (left > right) left = right = end;
+    for (int i = 0; i < left; i++) sdv_add_strip(&strips, c, i, i, 1);
+    if (left < right) sdv_add_strip(&strips, c, left, right - 1, 0);
+    for (int i = right; i < end; i++) sdv_add_strip(&strips, c, i, i, 1);
+    return strips;
+}
+
 // How the surface goes on at a vertex, down to the last level.
-typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_EDGED, SDV_PINNED } sdv_kind;
+typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_LINED, SDV_EDGED, SDV_PINNED } sdv_kind;
+
+// Are all faces at v of the regular size, and so many?
+static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int size)
+{
+    if (level->vertex_faces[v] != count) return 0;
+    if (level->face_size) return level->face_size == size;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        if (sdv_size_of(level, h) != size) return 0;
+    return 1;
+}
 
 // Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
 static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
 {
-    int size = rules->loop ? 3 : 4;
-    if (level->vertex_faces[v] != (rules->loop ? 6 : 4)) return SDV_ROUGH;
-    if (level->face_size) return level->face_size == size ? SDV_FREE : SDV_ROUGH;
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        if (sdv_size_of(level, h) != size) return SDV_ROUGH;
-    return SDV_FREE;
+    int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
+                              : sdv_has_regular_faces(level, v, 4, 4);
+    return regular ? SDV_FREE : SDV_ROUGH;
 }
 
-// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Everything else is rough.
+// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge. -1 if there
+// is none.
+static int sdv_around(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h), across = level->across[before];
+    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
+                                                                                       : across;
+}
+
+// Do as many faces close around the vertex of h as it has?
+static int sdv_ring_closes(const sdv_level *level, int h)
+{
+    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
+    for (int i = 1; i < faces; i++) {
+        at = sdv_around(level, at);
+        if (at < 0 || at == h) return 0;
+    }
+    return sdv_around(level, at) == h;
+}
+
+// Do two creases that cross fade each for itself? Then the blend of the vertex point, which is by
+// the mean of what ends on this level, is that of one crease, or there is none.
+static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
+{
+    int whole = a <= floorf(a) && b <= floorf(b);
+    if (a <= 0 || b <= 0 || a >= SUBDIV_INFINITE || b >= SUBDIV_INFINITE) return 1;
+    if (rules->creasing == SUBDIV_CREASING_CHAIKIN) return whole && a <= b && a >= b;
+    return whole || ceilf(a) < ceilf(b) || ceilf(a) > ceilf(b);
+}
+
+// Do creases go straight on through a regular vertex, with the same sharpness?
+static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
+{
+    int h = level->vertex_first[v];
+    float s[4];
+    if (rules->loop || level->vertex_sharpness[v] > 0) return 0;
+    if (!sdv_has_regular_faces(level, v, 4, 4) || !sdv_ring_closes(level, h)) return 0;
+    for (int i = 0; i < 4; i++, h = sdv_around(level, h)) {
+        if (level->across[level->across[h]] != h) return 0;
+        s[i] = level->sharpness[h];
+    }
+    return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
+}
+
+// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
+// creases that go straight on, or end where a crease that stays runs across. All else is rough.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
-    int sharp = 0, stay = 0, last = 0;
+    int sharp = 0, stay = 0, last = 0, dependent = level->partner && level->partner[v] >= 0;
     if (rules->linear) return SDV_FREE;
-    if (level->partner && level->partner[v] >= 0) v = level->partner[v];
+    if (dependent) v = level->partner[v];
     float s = level->vertex_sharpness[v];
     if (s <= 0 && !level->creased[v]) return sdv_smooth_kind(level, rules, v);
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
@@ -3130,6 +3328,10 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
+    if (stay < sharp && !dependent && levels != SDV_FOREVER) {
+        int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
+        if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
+    }
     if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
     return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
@@ -3171,6 +3373,8 @@ static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int lo
 {
     int faces = loop ? 3 : 2, size = loop ? 3 : 4, right = h, left = h, count = 1;
     if (kind == SDV_FREE) return SDV_FAN_RING;
+    if (kind == SDV_LINED)
+        return level->vertex_faces[level->face_vertices[h]] == 4 ? SDV_FAN_RING : SDV_FAN_FIRST;
     if (kind == SDV_ROUGH) return SDV_FAN_ROUGH;
     for (int i = sdv_clockwise(level, h); i >= 0 && count <= faces; i = sdv_clockwise(level, i)) {
         right = i;
@@ -3264,26 +3468,51 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
-// Looks at the edges and vertices of a face, unless all is free: which edges are sharp and how its
-// vertices' fans go on. Does it have a patch?
-static int sdv_find_fans(const sdv_level *level, const sdv_rules *rules,
+// The number of the strips between two edges; 0 if they differ, or there are too many already.
+static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels)
+{
+    sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
+    int count = (int)writer->strips.count;
+    if (low > 0 && high > 0 && (low < high || low > high)) return 0;
+    for (int i = count; i > 0; i--) {
+        float d = strips[i - 1].low - low, e = strips[i - 1].high - high;
+        if (d * d + e * e <= 0 && strips[i - 1].levels == levels) return i;
+    }
+    strips = (sdv_strips *)sdv_array_room(writer->context, &writer->strips, 1, sizeof *strips);
+    if (!strips || count == UCHAR_MAX) return 0;
+    *strips = sdv_cut_strips(low, high, levels);
+    return (int)++writer->strips.count;
+}
+
+// Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
+// which semi-sharp, and how its vertices' fans go on. Does it have a patch?
+static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                          const unsigned char *kinds, int h, int size, int levels,
                          sdv_patch *patch, sdv_fan *fan)
 {
+    float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
-        if (s > 0 && !sdv_stays(s, levels, rules)) return 0;
-        patch->sharp |= (unsigned char)((s > 0) << i);
+        if (s > 0 && !sdv_stays(s, levels, rules)) semi[i] = s;
+        else patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
         fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
         if (fan[i] == SDV_FAN_ROUGH) return 0;
         if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
     }
-    return 1;
+    if (semi[0] + semi[1] + semi[2] + semi[3] <= 0) return 1;
+    for (int i = 0; i < size; i++) {
+        int at = h + i, next = h + (i + 1) % size;
+        if (semi[i] > 0 && (kinds[level->face_vertices[at]] != SDV_LINED ||
+                            kinds[level->face_vertices[next]] != SDV_LINED)) return 0;
+    }
+    patch->up = (unsigned char)sdv_find_strips(writer, semi[0], semi[2], levels);
+    patch->along = (unsigned char)sdv_find_strips(writer, semi[3], semi[1], levels);
+    return patch->up && patch->along;
 }
 
 // Makes the patch of face f, if it has one. free: so are all its vertices.
-static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
+static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int levels, int is_free,
                           sdv_patch *patch, int *points)
 {
@@ -3292,7 +3521,8 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
     sdv_place place = level->places ? level->places[f] : sdv_first_place(h);
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(level, rules, kinds, h, size, levels, patch, fan)) return 0;
+    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch, fan))
+        return 0;
     if (rules->linear) sdv_gather_linear(level, h, size, points);
     else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
     else sdv_gather_quad(level, h, patch, fan, points);
@@ -3306,42 +3536,50 @@ static int sdv_make_patch(const sdv_level *level, const sdv_rules *rules,
 
 static void sdv_mark_edge(sdv_level *level, int h)
 {
+    unsigned char *done = level->edge_done;
+    const int *across = level->across;
     int k = h;
-    do level->edge_done[k] = 1;
-    while ((k = level->across[k]) != h);
+    do done[k] = 1;
+    while ((k = across[k]) != h);
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
 // has an edge or vertex writes its points, unless a level before did.
 static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h, owned = 0;
+    const int *vertices = level->face_vertices + h;
+    unsigned char *edges = level->edge_done + h, *done = level->vertex_done;
     for (int i = 0; i < size; i++) {
-        unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
-        int bit = size == 3 && i == 2 ? 3 : i, k = h + i;
-        patch->owned |= (unsigned char)(!level->edge_done[k] << bit | !*vertex << (4 + bit));
-        *vertex = 1;
-        sdv_mark_edge(level, k);
+        int bit = size == 3 && i == 2 ? 3 : i, v = vertices[i];
+        owned |= !done[v] << (4 + bit);
+        done[v] = 1;
+        if (edges[i]) continue;
+        owned |= 1 << bit;
+        sdv_mark_edge(level, h + i);
     }
+    patch->owned = (unsigned char)owned;
 }
 
 // The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
 static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
 {
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), free = 1;
-    if (end - start != size) return SDV_ROUGH;
-    for (int h = start; h < end; h++) {
-        unsigned char kind = kinds[level->face_vertices[h]];
-        if (kind == SDV_ROUGH) return SDV_ROUGH;
+    int start = sdv_face_start(level, f), rough = 0, free = 1;
+    const int *vertices = level->face_vertices + start;
+    if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
+    for (int i = 0; i < size; i++) {
+        unsigned char kind = kinds[vertices[i]];
+        rough |= kind == SDV_ROUGH;
         free &= kind == SDV_FREE;
     }
-    return free ? SDV_FREE : SDV_EDGED;
+    return rough ? SDV_ROUGH : free ? SDV_FREE : SDV_EDGED;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
-static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *level,
+static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, int levels, sdv_patches *patches)
 {
+    sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
     int size = rules->loop ? 3 : 4, most = 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
@@ -3363,8 +3601,8 @@ static void sdv_find_patches(sdv_context *context, sdv_arena *arena, sdv_level *
         if (face_kinds[f] == SDV_ROUGH) continue;
         sdv_patch *patch = &patches->items[patches->count];
         int *points = patches->points + width * (size_t)patches->count;
-        if (!sdv_make_patch(level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE, patch,
-                            points))
+        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE,
+                            patch, points))
             continue;
         sdv_claim(level, f, patch);
         level->rough[f] = 0;
@@ -3680,11 +3918,14 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
+    sdv_arena points;                   // of what makes points alone: rows and patches
+    int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
     sdv_patches *patches;               // [levels]
+    sdv_strips  *strips;                // of semi-sharp patches, counted from 1
     sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
     sdv_limit_rows limit;               // of a limit, instead of last
@@ -3720,22 +3961,24 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied; under Loop cut into triangles when the options ask for it: fans
+// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for it: fans
 // around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
     size_t count = sdv_face_vertex_count(cage), triangles = count - 2 * (size_t)cage->face_count;
     int loop = cage->scheme == SUBDIV_LOOP, cut = 0;
-    for (int f = 0; loop && f < cage->face_count; f++) cut |= sdv_face_size(cage, f) != 3;
+    for (int f = 0; loop && cage->face_size != 3 && f < cage->face_count; f++)
+        cut |= sdv_face_size(cage, f) != 3;
     if (cut && triangles > INT_MAX) {
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the faces make too many triangles");
         return;
     }
     if (cut) count = 3 * triangles;
-    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
-    work->face_sizes = NULL;
     if (loop) work->face_size = 3;
+    if (work->face_size) work->face_sizes = NULL;
+    if (surface->borrows && !cut) return;
+    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
     if (!work->face_size)
         work->face_sizes = SDV_NEW(context, &surface->arena, int, cage->face_count);
     if (cut) surface->cage_face = SDV_NEW(context, &surface->arena, int, triangles);
@@ -3771,7 +4014,7 @@ static void sdv_cut_holes(sdv_context *context, subdiv_surface *surface, subdiv_
 
 static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
 {
-    for (int f = 0; f < cage->face_count; f++)
+    for (int f = 0; f < cage->face_count && cage->face_size != 3; f++)
         if (sdv_face_size(cage, f) != 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_NOT_TRIANGLE, f, -1,
                           "face %d has %d vertices, and Loop needs triangles",
@@ -3942,6 +4185,7 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
 {
     if (cage->vertex_faces[v] == 0) return 1;
     if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
+    if (!cage->creased[v] && cage->vertex_sharpness[v] <= 0) return 0;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
@@ -3961,7 +4205,7 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
         count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
     if (count == 0) return;
     int faces = surface->cage_face_count ? surface->cage_face_count : 1;
-    sdv_begin_result(writer, &surface->arena, &surface->copies, 3 * (size_t)count, faces);
+    sdv_begin_result(writer, &surface->points, &surface->copies, 3 * (size_t)count, faces);
     if (writer->context->result) return;
     sdv_go_to_face(writer, 0);
     for (int v = 0; v < cage->vertex_count; v++)
@@ -3983,14 +4227,14 @@ static size_t sdv_row_blocks(int rows)
 // Face points become work points: behind the vertex points of the next level, or alone if the
 // next level is the last.
 static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_split *split,
-                           int last, sdv_writer *writer, sdv_step *step)
+                           sdv_writer *writer, sdv_step *step)
 {
-    int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
+    int next = level->first_point + level->vertex_count;
     size_t size = 0;
     for (int f = 0; f < level->face_count; f++)
         if (split->face[f] >= 0)
             size += 1 + (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
-    sdv_begin_rows(writer, &surface->arena, &step->faces, size,
+    sdv_begin_rows(writer, &surface->points, &step->faces, size,
                    sdv_row_blocks(split->face_points), next + split->vertex_points);
     for (int f = 0; f < level->face_count && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
@@ -4007,7 +4251,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     size_t size = 0;
     for (int v = 0; v < level->vertex_count; v++)
         if (split->active[v]) size += sdv_vertex_row_size(level, v, rules->loop);
-    sdv_begin_rows(writer, &surface->arena, &step->vertices, size,
+    sdv_begin_rows(writer, &surface->points, &step->vertices, size,
                    sdv_row_blocks(split->vertex_points), next);
     for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
         if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
@@ -4016,7 +4260,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     next += split->vertex_points + split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
-    sdv_begin_rows(writer, &surface->arena, &step->edges, size,
+    sdv_begin_rows(writer, &surface->points, &step->edges, size,
                    sdv_row_blocks(split->edge_points), next);
     for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
@@ -4037,7 +4281,7 @@ static void sdv_aim(sdv_targets *targets, int f)
     if (!level->places) return;
     targets->place = level->places[f];
     if (targets->place.h != targets->h)
-        targets->grid = sdv_grid_at(targets->order, targets->h = targets->place.h);
+        sdv_grid_at(targets->order, targets->h = targets->place.h, &targets->grid);
 }
 
 // So far from vertex 0, in segments of the last level.
@@ -4117,7 +4361,7 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
     for (int h = 0; h < level->face_vertex_count; h++)
         if (!level->edge_done[h] && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
     for (int f = 0; f < level->face_count && !order->loop; f++) size += 3 * (size_t)level->rough[f];
-    sdv_begin_result(writer, &surface->arena, &surface->last, size, surface->cage_face_count);
+    sdv_begin_result(writer, &surface->points, &surface->last, size, surface->cage_face_count);
     for (int f = 0; f < level->face_count && !writer->context->result; f++)
         if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
     if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
@@ -4181,26 +4425,6 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
     if (!mask) return 0;
     *mask = made;
     return *known = (int)limit->masks.count++;
-}
-
-// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge: a dart is
-// smooth. -1 if there is none.
-static int sdv_around(const sdv_level *level, int h)
-{
-    int before = sdv_previous(level, h), across = level->across[before];
-    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
-                                                                                       : across;
-}
-
-// Do as many faces close around the vertex of h as it has?
-static int sdv_ring_closes(const sdv_level *level, int h)
-{
-    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
-    for (int i = 1; i < faces; i++) {
-        at = sdv_around(level, at);
-        if (at < 0 || at == h) return 0;
-    }
-    return sdv_around(level, at) == h;
 }
 
 // The points of count faces from h on, counter-clockwise: the neighbours, of a crease also the one
@@ -4283,7 +4507,7 @@ static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
     for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
         sdv_place place = level->places[f];
         if (!level->core[f]) continue;
-        if (place.h != h_grid) grid = sdv_grid_at(&surface->order, h_grid = place.h);
+        if (place.h != h_grid) sdv_grid_at(&surface->order, h_grid = place.h, &grid);
         sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
         for (int i = 0; i < size; i++) {
             int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
@@ -4315,11 +4539,11 @@ static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const
     limit.known = SDV_NEW(context, &scratch, int, known);
     limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
     for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
-    sdv_begin_result(writer, &surface->arena, &surface->limit.rows, size,
+    sdv_begin_result(writer, &surface->points, &surface->limit.rows, size,
                      surface->cage_face_count);
     sdv_write_limit(&limit, surface);
-    surface->limit.masks = SDV_NEW(context, &surface->arena, sdv_limit_weights, limit.masks.count);
-    surface->limit.weights = SDV_NEW(context, &surface->arena, float, limit.weights.count);
+    surface->limit.masks = SDV_NEW(context, &surface->points, sdv_limit_weights, limit.masks.count);
+    surface->limit.weights = SDV_NEW(context, &surface->points, float, limit.weights.count);
     if (!context->result) {
         sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
                  sizeof(sdv_limit_weights));
@@ -4342,17 +4566,19 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(context, &surface->arena, level, rules, surface->levels - depth,
+    sdv_find_patches(writer, &surface->points, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     sdv_split_new(context, &scratch, level, &split);
+    if (!last) sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
         sdv_find_active(level, &split);
-        sdv_number_faces(level, &split, rules->loop);
-        sdv_number_points(level, &split);
-        sdv_step_faces(surface, level, &split, last, writer, step);
+        if (!last) sdv_number_faces(level, &split, rules->loop);
+        if (!last) sdv_number_points(level, &split, rules->loop);
+        else if (!rules->loop) sdv_number_face_points(level, &split, 0);
+        if (!rules->loop) sdv_step_faces(surface, level, &split, writer, step);
         surface->work_count += split.face_points;
         if (last) sdv_last_rows(surface, level, writer);
         else sdv_step_points(surface, level, &split, writer, step);
@@ -4367,8 +4593,8 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
 static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
 {
     size_t masks = writer->masks.count, weights = writer->weights.count;
-    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, masks);
-    surface->masks.weights = SDV_NEW(context, &surface->arena, float, weights);
+    surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, masks);
+    surface->masks.weights = SDV_NEW(context, &surface->points, float, weights);
     if (context->result) return;
     sdv_copy(surface->masks.items, sdv_items(&writer->masks), masks, sizeof(sdv_weights));
     sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
@@ -4403,6 +4629,10 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     if (surface->rules.limit && level.face_count && !context->result)
         sdv_prepare_limit(&writer, surface, &level);
+    surface->strips = SDV_NEW(context, &surface->points, sdv_strips, writer.strips.count);
+    if (!context->result)
+        sdv_copy(surface->strips, sdv_items(&writer.strips), writer.strips.count,
+                 sizeof(sdv_strips));
     sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
@@ -4667,7 +4897,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         sdv_no_result(surface);
         sdv_prepare_exact(context, surface, &built.level, built.hole, &scratch);
     } else if (!context->result && !alone) {
-        sdv_surviving_sharpness(context, surface, &built.level);
+        if (work.crease_count || work.corner_count)
+            sdv_surviving_sharpness(context, surface, &built.level);
         sdv_prepare_levels(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
@@ -4685,8 +4916,8 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
         sdv_check_triangles(context, cage);
 }
 
-SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
-                                        int levels, const subdiv_options *opt)
+static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_mesh *cage,
+                                         int levels, int borrows, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_request(&context, surface, cage, levels, opt);
@@ -4698,13 +4929,20 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     if (cage->uv_count > 0 && !made->exact) made->uv = sdv_new_surface(&context, levels);
     made->rules.limit = opt && opt->limit && !made->exact;
+    made->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result && !made->exact) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
-        context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
+        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
+                                        int levels, const subdiv_options *opt)
+{
+    return sdv_prepare_surface(surface, cage, levels, 0, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
@@ -4738,6 +4976,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
+    sdv_arena_free(&surface->points);
     sdv_arena_free(&arena);
 }
 
@@ -4925,6 +5164,14 @@ typedef struct sdv_polynomial {
     int degree;
 } sdv_polynomial;
 
+// A patch, or the part of it between the lines that cut it into strips.
+typedef struct sdv_part {
+    sdv_patch      patch;               // its place on the grid, and what it writes
+    sdv_polynomial q;
+    int   columns, rows;                // segments
+    float x, y, dx, dy;                 // where in the polynomial it starts, and its segments
+} sdv_part;
+
 // A row of it, a polynomial in x alone.
 typedef struct sdv_curve {
     sdv_four a[5];
@@ -4978,37 +5225,42 @@ static inline void sdv_put_run(const sdv_window *out, int index, int count,
     sdv_store_some(p, sdv_curve_point(&c, t), lanes);
 }
 
-// The first or last row of a patch of n segments.
-static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                              const sdv_polynomial *q, int n, int top)
+// The first or last row of a patch.
+static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_part *part,
+                              int top)
 {
+    const sdv_patch *patch = &part->patch;
     int step = patch->step, owned = patch->owned, column = patch->column;
-    int row = patch->row + (top ? step * n : 0), count = top && grid->triangle ? 0 : n;
+    int row = patch->row + (top ? step * part->rows : 0);
+    int count = top && grid->triangle ? 0 : part->columns;
     int left = owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT);
     int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
     int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
     if (!(left | inside | right)) return;
     sdv_curve curve;
-    sdv_row_curve(q, top ? 1.0f : 0.0f, &curve);
-    if (left) sdv_put_point(out, sdv_grid_index(grid, row, column), curve.a[0]);
+    float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
+    sdv_row_curve(&part->q, y, &curve);
+    if (left)
+        sdv_put_point(out, sdv_grid_index(grid, row, column),
+                      sdv_curve_point(&curve, sdv_all(part->x)));
     if (right)
         sdv_put_point(out, sdv_grid_index(grid, row, column + step * count),
-                      sdv_curve_point(&curve, sdv_all(1)));
+                      sdv_curve_point(&curve, sdv_all(part->x + (float)part->columns * dx)));
     if (inside) {
         sdv_side line = sdv_grid_line(grid, row);
         int forward = line.step == step, i = forward ? 1 : count - 1;
-        float h = 1.0f / (float)n;
         sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
-                    (float)i * h, forward ? h : -h);
+                    part->x + (float)i * dx, forward ? dx : -dx);
     }
 }
 
 // The rows between: their inner points and, beside them, their ends, unless those stand on a side
 // of the grid. A turned triangle has none there.
-static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                               const sdv_polynomial *q, int n)
+static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_part *part)
 {
+    const sdv_patch *patch = &part->patch;
     int step = patch->step, triangle = grid->triangle, column = patch->column;
+    int n = part->columns, rows = part->rows;
     int reach = column + n + (triangle ? patch->row : 0);
     int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
     int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
@@ -5017,26 +5269,30 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     int at = sdv_inside_index(grid, patch->row + step, column + step * first);
     int next = sdv_inside_index(grid, patch->row + 2 * step, column + step * first);
     int across = next - at;
-    float h = 1.0f / (float)n, x = (float)first * h, y = h, dx = h, turn = 0;
+    float h = part->dx, dy = part->dy, dx = h, turn = 0;
+    float start = part->x, x = start + (float)first * h, end = start + (float)n * h;
+    float y = part->y + dy;
     if (step < 0) {                                     // from the other end
         at -= count - 1;
         across++;
         x += (float)(count - 1) * h;
         dx = turn = -h;
     }
-    for (int r = 1; r < n && (count > 0 || left_side || right_side); r++) {
+    for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
         sdv_curve curve;
-        sdv_row_curve(q, y, &curve);
+        sdv_row_curve(&part->q, y, &curve);
         sdv_put_run(out, at, count, &curve, x, dx);
-        if (left_side) sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r), curve.a[0]);
+        if (left_side)
+            sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r),
+                          sdv_curve_point(&curve, sdv_all(start)));
         if (right_side)
             sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
-                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : 1)));
+                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : end)));
         at += across;
         across -= triangle;
         count -= triangle;
         x += turn;
-        y += h;
+        y += dy;
     }
 }
 
@@ -5125,25 +5381,49 @@ static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_
     if (above) sdv_put_three(out, grid, patch, p + 4, bend, 1);
 }
 
-// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
-// along the rows.
-static void sdv_quad_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
-                                const float *work, sdv_polynomial *q)
+// The control points of a quad, relative to its vertex 0, which is their origin.
+static sdv_four sdv_load_quad(const sdv_patch *patch, const int *points, const float *work,
+                              sdv_four *p)
 {
-    sdv_four p[16], up[4][4], x[4];
-    q->degree = 3;
     sdv_load_points(points, 16, work, p);
-    q->origin = p[5];
-    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
+    sdv_four origin = p[5];
+    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], origin);
     if (patch->sharp) sdv_mirror_quad(patch, p);
+    return origin;
+}
+
+// The polynomial of a quad, hx^2 and hy^2 being those of the last level along and up: cubics up the
+// columns of control points, then, of their coefficients, along the rows.
+static void sdv_quad_polynomial(const sdv_four *p, float hx2, float hy2, int linear,
+                                sdv_polynomial *q)
+{
+    sdv_four up[4][4], x[4];
+    q->degree = 3;
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hh, up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hy2, up[i]);
     }
     for (int j = 0; j < 4; j++) {
         if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hh, x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hx2, x);
         for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
+    }
+}
+
+// The control points of a strip: across its crease, they are step apart, and lines of them next.
+static void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step, int next,
+                             sdv_four *p)
+{
+    for (int i = 0; i < 4; i++, p += next) {
+        sdv_four p0 = p[0], p1 = p[step], p2 = p[2 * step], p3 = p[3 * step];
+        if (!strip->smooth && strips->low > 0) p[0] = sdv_mirror(p1, p2);
+        if (!strip->smooth && strips->high > 0) p[3 * step] = sdv_mirror(p2, p1);
+        for (int j = 0; j < 4 && strip->smooth; j++) {
+            const float *w = strip->rows[j];
+            sdv_four outer = sdv_plus(sdv_times(sdv_all(w[0]), p0), sdv_times(sdv_all(w[3]), p3));
+            sdv_four inner = sdv_plus(sdv_times(sdv_all(w[1]), p1), sdv_times(sdv_all(w[2]), p2));
+            p[j * step] = sdv_plus(outer, inner);
+        }
     }
 }
 
@@ -5255,16 +5535,83 @@ static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, f
     else sdv_box_spline(p, hh, q);
 }
 
-// Patch i: on the last level or, with h = 0, in the limit.
-static void sdv_patch_polynomial(const subdiv_surface *surface, const sdv_patches *patches, int i,
-                                 const float *work, sdv_polynomial *q)
+// What a part writes of what its patch does: of its sides those that are the patch's, and the lines
+// to its right and above it.
+static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, int top)
 {
-    const sdv_patch *patch = &patches->items[i];
+    int left = first ? owned & SDV_LEFT : 0, right = last ? owned & SDV_RIGHT : SDV_RIGHT;
+    int below = bottom ? owned & SDV_BOTTOM : 0, above = top ? owned & SDV_TOP : SDV_TOP;
+    int made = left | right | below | above;
+    if (first && bottom) made |= owned & SDV_BOTTOM_LEFT;
+    if (bottom && (last ? owned & SDV_BOTTOM_RIGHT : below)) made |= SDV_BOTTOM_RIGHT;
+    if (first && (top ? owned & SDV_TOP_LEFT : left)) made |= SDV_TOP_LEFT;
+    if (last && top ? owned & SDV_TOP_RIGHT : last ? right : above) made |= SDV_TOP_RIGHT;
+    return (unsigned char)made;
+}
+
+// The parts of a patch, in the limit or, with h > 0, on the last level.
+typedef struct sdv_parts {
+    const subdiv_surface *surface;
+    const sdv_patch *patch;
+    const sdv_strips *along, *up;       // of a patch that is cut, or NULL
+    int      count, depth;
+    sdv_four points[16];                // of a quad
+} sdv_parts;
+
+static void sdv_begin_parts(const subdiv_surface *surface, const sdv_patches *patches, int i,
+                            const float *work, sdv_parts *parts, sdv_part *part)
+{
     const sdv_rules *rules = &surface->rules;
+    const sdv_patch *patch = &patches->items[i];
     const int *points = patches->points + (size_t)sdv_control_points(rules) * (size_t)i;
-    float h = rules->limit ? 0 : 1.0f / (float)(1 << patches->depth);
-    if (rules->loop) sdv_triangle_polynomial(patch, points, h * h, rules->linear, work, q);
-    else sdv_quad_polynomial(patch, points, h * h, rules->linear, work, q);
+    float h = 1.0f / (float)(1 << patches->depth), hh = rules->limit ? 0 : h * h;
+    parts->up = NULL;
+    parts->count = 1;
+    part->patch = *patch;
+    part->columns = part->rows = 1 << patches->depth;
+    part->x = part->y = 0;
+    part->dx = part->dy = h;
+    if (rules->loop) {
+        sdv_triangle_polynomial(patch, points, hh, rules->linear, work, &part->q);
+        return;
+    }
+    part->q.origin = sdv_load_quad(patch, points, work, parts->points);
+    if (!patch->up) {
+        sdv_quad_polynomial(parts->points, hh, hh, rules->linear, &part->q);
+        return;
+    }
+    parts->surface = surface;
+    parts->patch = patch;
+    parts->along = &surface->strips[patch->along - 1];
+    parts->up = &surface->strips[patch->up - 1];
+    parts->count = parts->along->count * parts->up->count;
+}
+
+// Part i. One that is not cut is there already.
+static void sdv_make_part(const sdv_parts *parts, int i, sdv_part *part)
+{
+    const sdv_patch *patch = parts->patch;
+    if (!parts->up) return;
+    int columns = parts->along->count, rows = parts->up->count, column = i % columns;
+    int row = i / columns;
+    const sdv_strip *along = &parts->along->items[column], *up = &parts->up->items[row];
+    sdv_four p[16];
+    part->patch.column = patch->column + along->from;
+    part->patch.row = patch->row + up->from;
+    part->patch.owned = sdv_part_owned(patch->owned, column == 0, column + 1 == columns, row == 0,
+                                       row + 1 == rows);
+    part->columns = along->to - along->from;
+    part->rows = up->to - up->from;
+    part->dx = 1.0f / (float)along->unit;
+    part->dy = 1.0f / (float)up->unit;
+    part->x = (float)(along->from - along->origin) * part->dx;
+    part->y = (float)(up->from - up->origin) * part->dy;
+    float hx = parts->surface->rules.limit ? 0 : part->dx;
+    float hy = parts->surface->rules.limit ? 0 : part->dy;
+    for (int k = 0; k < 16; k++) p[k] = parts->points[k];
+    sdv_strip_points(parts->along, along, 1, 4, p);
+    sdv_strip_points(parts->up, up, 4, 1, p);
+    sdv_quad_polynomial(p, hx * hx, hy * hy, 0, &part->q);
 }
 
 // The points that the patches of a level make for cage faces face to end - 1.
@@ -5273,22 +5620,25 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 {
     const sdv_order *order = &surface->order;
     int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
+    int nine = !order->loop && n == 2 && !surface->rules.limit;
     int last = sdv_first_patch(order, patches, end);
-    size_t width = (size_t)sdv_control_points(&surface->rules);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-    sdv_polynomial q;
+    sdv_parts parts;
+    sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        const int *points = patches->points + width * (size_t)i;
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-        if (!order->loop && n == 2 && !surface->rules.limit) {
-            sdv_put_nine(out, &grid, patch, points, linear, work);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
+        if (nine && !patch->up) {
+            sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
             continue;
         }
-        sdv_patch_polynomial(surface, patches, i, work, &q);
-        sdv_put_outer_row(out, &grid, patch, &q, n, 0);
-        sdv_put_inner_rows(out, &grid, patch, &q, n);
-        sdv_put_outer_row(out, &grid, patch, &q, n, 1);
+        sdv_begin_parts(surface, patches, i, work, &parts, &part);
+        for (int j = 0; j < parts.count; j++) {
+            sdv_make_part(&parts, j, &part);
+            sdv_put_outer_row(out, &grid, &part, 0);
+            sdv_put_inner_rows(out, &grid, &part);
+            sdv_put_outer_row(out, &grid, &part, 1);
+        }
     }
 }
 
@@ -5402,45 +5752,52 @@ static inline void sdv_put_curve_limit(const sdv_limit_window *out, int index,
                   sdv_horner3(across->a, at));
 }
 
-// Row r of a patch of n segments: what sdv_put_row writes, with tangents.
+// Row r of a patch: what the rows above write, with tangents.
 static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
-                              const sdv_patch *patch, const sdv_polynomial *q,
-                              const sdv_polynomial *rise, int n, int r)
+                              const sdv_part *part, const sdv_polynomial *rise, int r)
 {
-    int bottom = r == 0, top = r == n, step = patch->step, owned = patch->owned;
-    int row = patch->row + step * r, column = patch->column, last = grid->triangle ? n - r : n;
+    const sdv_patch *patch = &part->patch;
+    int bottom = r == 0, top = r == part->rows, step = patch->step, owned = patch->owned;
+    int row = patch->row + step * r, column = patch->column;
+    int last = grid->triangle ? part->rows - r : part->columns;
     int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
     int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
     int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
-    float h = 1.0f / (float)n;
+    float x = part->x, y = part->y + (float)r * part->dy;
     sdv_side line = sdv_grid_line(grid, row);
     sdv_curve curve, along, across;
-    sdv_row_curve(q, (float)r * h, &curve);
-    sdv_row_curve(rise, (float)r * h, &across);
+    sdv_row_curve(&part->q, y, &curve);
+    sdv_row_curve(rise, y, &across);
     sdv_along_row(&curve, &along);
     if (left)
-        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, 0);
+        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, x);
     for (int i = 1; i < last && inside; i++)
         sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
-                            &across, (float)i * h);
+                            &across, x + (float)i * part->dx);
     if (right)
         sdv_put_curve_limit(out, sdv_grid_index(grid, row, column + step * last), &curve, &along,
-                            &across, (float)last * h);
+                            &across, x + (float)last * part->dx);
 }
 
 static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
                               const float *work, int face, int end, const sdv_limit_window *out)
 {
     const sdv_order *order = &surface->order;
-    int n = 1 << patches->depth, h = -1, last = sdv_first_patch(order, patches, end);
+    int h = -1, last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-    sdv_polynomial q, rise;
+    sdv_parts parts;
+    sdv_part part;
+    sdv_polynomial rise;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
-        sdv_patch_polynomial(surface, patches, i, work, &q);
-        sdv_across_rows(&q, &rise);
-        for (int r = 0; r <= n; r++) sdv_put_limit_row(out, &grid, patch, &q, &rise, n, r);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
+        sdv_begin_parts(surface, patches, i, work, &parts, &part);
+        for (int j = 0; j < parts.count; j++) {
+            sdv_make_part(&parts, j, &part);
+            sdv_across_rows(&part.q, &rise);
+            for (int r = 0; r <= part.rows; r++)
+                sdv_put_limit_row(out, &grid, &part, &rise, r);
+        }
     }
 }
 
@@ -5491,12 +5848,13 @@ static void sdv_input_job(void *context, int job)
     const sdv_evaluation *e = (const sdv_evaluation *)context;
     int v = sdv_share(e->surface->cage_vertex_count, job, e->jobs);
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
-    for (; v < end; v++) {
-        int from = e->surface->source ? e->surface->source[v] : v;
-        const float *in = e->in + e->in_stride * (size_t)from;
-        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++) {
-            float *group = e->work + (size_t)(c / 4) * 4 * (size_t)e->surface->work_count;
-            group[4 * (size_t)v + (size_t)(c & 3)] = c < e->channels ? in[c] : 0;
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = e->channels - c;
+        float *out = e->work + (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
+        for (int i = v; i < end; i++, out += 4) {
+            int from = e->surface->source ? e->surface->source[i] : i;
+            const float *in = e->in + e->in_stride * (size_t)from + c;
+            for (int k = 0; k < 4; k++) out[k] = k < lanes ? in[k] : 0;
         }
     }
 }
@@ -5956,8 +6314,8 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     size_t count = 3 * (size_t)surface->cage_vertex_count;
     int huge = 0;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
-    for (size_t i = 0; i < count && !context->result && surface->levels > 0; i++)
-        huge |= fabs((double)(*positions)[i]) > FLT_MAX / 4096;
+    if (context->result || surface->levels == 0) return 1;
+    for (size_t i = 0; i < count; i++) huge |= fabsf((*positions)[i]) > FLT_MAX / 4096;
     if (!huge) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
@@ -5972,17 +6330,18 @@ static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surf
                                    const subdiv_options *opt)
 {
     subdiv_result result = SUBDIV_OK;
-    if (surface->uv) {
-        sdv_make_fine_faces(surface->uv, made->face_uvs, NULL, opt);
+    if (surface->uv)
         result = subdiv_evaluate(surface->uv, 2, surface->uvs, 2, made->uvs, 2, NULL, opt);
-    }
     if (surface->colors && !result)
         result = subdiv_evaluate(surface, 3, surface->colors, 3, made->colors, 3, NULL, opt);
     return result;
 }
 
-SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
-                                             const float *positions, const subdiv_options *opt)
+// once: the same surface if it makes nothing else, or NULL. What made its points is then freed
+// before the faces are written, so that both are never there together.
+static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                   subdiv_surface *once, const float *positions,
+                                   const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
@@ -6001,18 +6360,29 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
         sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
         subdiv_limit out = { made.positions, made.normals, NULL, 0 };
-        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
-        sdv_fill_holes(surface, made.holes);
         context.result = limit ?
             subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
             subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
-    if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
     sdv_arena_free(&arena);
+    if (once) sdv_arena_free(&once->points);
+    if (once && once->uv) sdv_arena_free(&once->uv->points);
+    if (!context.result) {
+        sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
+        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
+        if (surface->uv) sdv_make_fine_faces(surface->uv, made.face_uvs, NULL, opt);
+        sdv_fill_holes(surface, made.holes);
+    }
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                             const float *positions, const subdiv_options *opt)
+{
+    return sdv_make_mesh(fine, surface, NULL, positions, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
@@ -6030,8 +6400,8 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
         if (fine && fine != cage) *fine = out;
         return context.result;
     }
-    subdiv_result result = subdiv_prepare(&surface, cage, levels, opt);
-    if (!result) result = subdiv_surface_mesh(&out, surface, cage->positions, opt);
+    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, opt);
+    if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
     *fine = out;
     return result;
@@ -6148,8 +6518,16 @@ static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
                                  const float *points, sdv_polynomial *q)
 {
     static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    if (rules->loop) sdv_triangle_polynomial(patch, same, 0, rules->linear, points, q);
-    else sdv_quad_polynomial(patch, same, 0, rules->linear, points, q);
+    sdv_four p[16];
+    if (rules->loop) {
+        sdv_triangle_polynomial(patch, same, 0, rules->linear, points, q);
+        return;
+    }
+    sdv_load_points(same, 16, points, p);
+    q->origin = p[5];
+    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
+    sdv_quad_polynomial(p, 0, 0, rules->linear, q);
 }
 
 // What a patch makes of unit vectors, four at a time. All weights are multiples of 1/36, so that
@@ -6322,6 +6700,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     if (!context->result && loop && n == 2 && kind->ring)
         sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
     if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
+    if (!context->result) sdv_split_more(context, &scratch, &cage.level, &split);
     kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
     if (!context->result) {
         for (int f = 0; f < 4 * n; f++) cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
@@ -6329,15 +6708,16 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
         memset(cage.level.edge_done, 0, (size_t)cage.level.face_vertex_count);
         sdv_find_active(&cage.level, &split);
         sdv_number_faces(&cage.level, &split, loop);
-        sdv_number_points(&cage.level, &split);
-        sdv_step_faces(surface, &cage.level, &split, 0, maker->writer, &kind->step);
+        sdv_number_points(&cage.level, &split, loop);
+        if (!loop) sdv_step_faces(surface, &cage.level, &split, maker->writer, &kind->step);
         sdv_step_points(surface, &cage.level, &split, maker->writer, &kind->step);
     }
     if (!context->result)
         sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
     if (!context->result) {
         kind->work_count = next.first_point + next.vertex_count;
-        sdv_find_patches(context, &surface->arena, &next, rules, SDV_FOREVER, &kind->patches);
+        sdv_find_patches(maker->writer, &surface->arena, &next, rules, SDV_FOREVER,
+                         &kind->patches);
     }
     if (!context->result) {
         sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
@@ -6519,7 +6899,8 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_arena scratch = sdv_scratch();
     sdv_split split;
     int regular = level->face_size == (surface->rules.loop ? 3 : 4);
-    sdv_find_patches(context, &surface->arena, level, &surface->rules, SDV_FOREVER, patches);
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, SDV_FOREVER,
+                     patches);
     for (int f = 0; f < level->face_count && !context->result; f++)
         if (level->core[f] && !level->rough[f])
             ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
@@ -6531,11 +6912,13 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
     sdv_check_exact_size(context, surface, level);
     sdv_split_new(context, &scratch, level, &split);
+    sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
+        int loop = surface->rules.loop;
         sdv_find_active(level, &split);
-        sdv_number_faces(level, &split, surface->rules.loop);
-        sdv_number_points(level, &split);
-        sdv_step_faces(surface, level, &split, 0, maker->writer, &surface->steps[depth]);
+        sdv_number_faces(level, &split, loop);
+        sdv_number_points(level, &split, loop);
+        if (!loop) sdv_step_faces(surface, level, &split, maker->writer, &surface->steps[depth]);
         sdv_step_points(surface, level, &split, maker->writer, &surface->steps[depth]);
     }
     if (!context->result)
@@ -8240,13 +8623,13 @@ static uint32_t sdv_shortest(float number, int *ten)
         decimal.head += (uint64_t)twice_above;
         if (twice_above && sdv_nearest_float(&decimal) == number) break;
     }
-    for (; decimal.head % 10 == 0; decimal.head /= 10) ++*ten;
     return (uint32_t)decimal.head;
 }
 
 // digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
 static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
+    for (; digits && digits % 10 == 0; digits /= 10) ten++;
     char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
     int count = (int)(end - first), point = count + ten;    // digits before the point
     if (point > 9 || point < -4) {
@@ -8294,16 +8677,28 @@ static inline uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t num
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
-// How many of them are 0 before the first other; of 8 zeros 7.
-static inline int sdv_zeros_before(uint64_t text)
+// The first and the last of 8 digits that is not 0; one of them is.
+static inline int sdv_first_digit(uint64_t text)
 {
-    uint64_t others = ((text + 0x4f4f4f4f4f4f4f4fu) & 0x8080808080808080u) | (uint64_t)1 << 63;
+    uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
     return __builtin_ctzll(others) / 8;
 #else
-    int zeros = 0;
-    while (!(others >> 8 * zeros & 128)) zeros++;
-    return zeros;
+    int i = 0;
+    while (!(others >> 8 * i & 255)) i++;
+    return i;
+#endif
+}
+
+static inline int sdv_last_digit(uint64_t text)
+{
+    uint64_t others = text ^ 0x3030303030303030u;
+#if defined(__GNUC__)
+    return (63 - __builtin_clzll(others)) / 8;
+#else
+    int i = 7;
+    while (!(others >> 8 * i)) i--;
+    return i;
 #endif
 }
 
@@ -8331,40 +8726,40 @@ static char *sdv_write_exactly(char *p, float number)
 // A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
 // Returns where they end.
 //
-// All numbers between low and high read back as this float, and they are 1 to 10 units of 10^ten
-// apart. So at most one multiple of 10 lies between them. It has fewer digits than all others;
-// without it, the nearest multiple of 1 is the answer.
-static inline char *sdv_write_float(const sdv_figures *figures, char *p, float number)
+// All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
+// So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
+// nearest multiple of 1 is the answer. A power of 2 counts as the last number before it, plus one:
+// its gap is the one below. Above there is more room, which only matters if nothing is found.
+static inline char *sdv_write_float(const sdv_figures *figures, char *p, const float *number)
 {
     const uint64_t one = (uint64_t)1 << 36, doubt = one >> 11;
     uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    uint32_t exponent = bits >> 23 & 255, mantissa = bits & 0x7fffff;
-    uint64_t gap = figures->gaps[exponent], size = (mantissa | 0x800000) * gap;
-    uint64_t low = size - (mantissa ? gap / 2 : gap / 4), high = size + gap / 2;    // 2^n is nearer
-    uint32_t tens = (uint32_t)(low >> 36) / 10 + 1, ones = (uint32_t)((size + one / 2) >> 36);
-    uint64_t above_low = 10 * tens * one - low, below_high = high - 10 * tens * one;
-    uint32_t inside = (int64_t)below_high > 0;
+    memcpy(&bits, number, sizeof bits);
+    uint32_t exponent = (bits - 1) >> 23 & 255, mantissa = ((bits - 1) & 0x7fffff) + 0x800001;
+    uint64_t gap = figures->gaps[exponent], size = mantissa * gap, high = size + gap / 2;
+    uint32_t tens = (uint32_t)(high >> 36) / 10, ones = (uint32_t)((size + one / 2) >> 36);
+    uint64_t below_high = high - 10 * tens * one, outside = below_high - gap;
+    uint32_t inside = (uint32_t)(outside >> 63);
     *p++ = ' ';
-    if (above_low - doubt > 10 * one - 2 * doubt || below_high + doubt < 2 * doubt ||
-        inside < (mantissa == 0)) return sdv_write_exactly(p, number);      // also if gap is 0
+    if (below_high - doubt > 10 * one - 2 * doubt || outside + doubt < 2 * doubt ||
+        inside < mantissa >> 24) return sdv_write_exactly(p, *number);      // also if gap is 0
     uint32_t digits = ones ^ ((ones ^ tens) & (0 - inside));
     int ten = figures->tens[exponent] + (int)inside;
-    for (; digits % 10 == 0; digits /= 10) ten++;
 
     *p = '-';
     p += bits >> 31;
     if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
     uint64_t text = sdv_eight_digits(figures, digits);
-    int zeros = sdv_zeros_before(text), count = 8 - zeros, point = count + ten;
+    int zeros = sdv_first_digit(text), count = sdv_last_digit(text) + 1 - zeros;
+    int point = 8 - zeros + ten;
     text >>= 8 * zeros;
-    if (point >= 0 && point < count) {
+    if (point >= 0 && ten < 0) {
         *p = '0';
         sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
         p += point + (point == 0);
-        *p++ = '.';
-        sdv_store_eight(p, text >> 8 * point);
-        return p + count - point;
+        *p = '.';
+        sdv_store_eight(p + 1, text >> 8 * point);
+        return count > point ? p + 1 + count - point : p;       // 12
     }
     if (point < 0 && point >= -4) {
         memcpy(p, "0.0000", 6);
@@ -8384,10 +8779,7 @@ static inline char *sdv_write_index(const sdv_figures *figures, char *p, int num
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = 0;                          // by comparing, as neighbours have as many digits
-    if (number < 10000) zeros = sdv_zeros_before(text);
-    else if (number < 1000000) zeros = 2 + (number < 100000);
-    else if (number < 10000000) zeros = 1;
+    int zeros = number ? sdv_first_digit(text) : 7;
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
 }
@@ -8524,7 +8916,8 @@ typedef struct sdv_obj {
     sdv_array    ahead[2];              // of vertices, of uvs
     int          most_faces;            // with those that are skipped
     int          uv_faces;              // faces with UVs
-    int          bare_line, mixed_line; // of the first face without, and the first that has some
+    int          mixed_faces;           // with a vt at some of their vertices only
+    int          bare_line, mixed_line; // of the first face that has none, and of the first such
     int          skipped_counts[SDV_STATEMENT_KINDS], skipped_lines[SDV_STATEMENT_KINDS];
     sdv_array    tags, skipped;         // skipped: numbers of the file's faces not in the mesh
     sdv_array    ints, floats;          // of one tag
@@ -8806,8 +9199,9 @@ static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
         sdv_series_add(&obj->face_uvs, size);
         obj->uv_faces++;
     } else {
-        if (!obj->bare_line) obj->bare_line = obj->line;
-        if (uvs && !obj->mixed_line) obj->mixed_line = obj->line;
+        int *line = uvs ? &obj->mixed_line : &obj->bare_line;
+        if (*line == 0) *line = obj->line;
+        obj->mixed_faces += uvs > 0;
     }
     if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
     if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
@@ -8971,11 +9365,25 @@ static int sdv_read_tag(sdv_obj *obj, const char **at)
 
 // -------- statements
 
+// Where the comment behind a name begins: at a # between blanks, as some names are "Material #25".
+// Smoothing groups have no names, so there any # will do.
+static const char *sdv_find_comment(sdv_token keyword, const char *end)
+{
+    int any = *keyword.begin == 's';
+    for (const char *p = keyword.end; p < end; p++) {
+        if (*p != '#') continue;
+        int behind = any || p == keyword.end || sdv_is_blank(p[-1]) || sdv_is_newline(p[-1]);
+        if (behind && (any || p == keyword.end || sdv_ends_token(p + 1))) return p;
+    }
+    return end;
+}
+
 // Keeps "usemtl stone" as it stands in the file, names with blanks and all, joined where it goes on
 // in the next line. Returns what is behind.
 static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 {
-    const char *next = sdv_skip_statement(obj, keyword.end), *end = next, *p = keyword.end;
+    const char *next = sdv_skip_statement(obj, keyword.end), *p = keyword.end;
+    const char *end = obj->context->result ? p : sdv_find_comment(keyword, next);
     if (obj->context->result) return next;
     while (end > p && (sdv_is_blank(end[-1]) || sdv_is_newline(end[-1]) || sdv_continues(end - 1)))
         end--;
@@ -9252,18 +9660,19 @@ static void sdv_fill_tags(const sdv_obj *obj, subdiv_mesh *mesh)
 // A mesh has UVs if any of its faces has.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
-    int bare = obj->mesh.face_count - obj->uv_faces;
+    int bare = obj->mesh.face_count - obj->uv_faces - obj->mixed_faces;
+    if (obj->mixed_faces)
+        sdv_warn(obj->context, obj->mixed_line,
+                 "%d of %d faces have a vt at some of their vertices only: they get no UVs",
+                 obj->mixed_faces, obj->mesh.face_count);
     if (obj->uv_faces == 0) {
-        if (obj->mixed_line)
-            sdv_warn(obj->context, obj->mixed_line,
-                     "no face has a vt at each of its vertices: the UVs are skipped");
         obj->mesh.uv_count = 0;
         return;
     }
     sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
     if (bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs (a vt at each vertex)",
-                 bare, obj->mesh.face_count);
+        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare,
+                 obj->mesh.face_count);
 }
 
 static void sdv_finish_statements(sdv_obj *obj)
@@ -9374,7 +9783,7 @@ typedef struct sdv_output {
     size_t       used;
 } sdv_output;
 
-#define SDV_OUTPUT_SIZE 65536
+#define SDV_OUTPUT_SIZE 16384           // stays in the nearest cache
 #define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
 
 static void sdv_flush(sdv_output *out)
@@ -9463,7 +9872,7 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
 
 static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
 {
-    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, numbers[i]);
+    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, &numbers[i]);
     return p;
 }
 
@@ -9471,10 +9880,11 @@ static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
+    const size_t length = strlen(keyword);
     for (int i = 0; i < count && !out->context->result; i++, values += width) {
         char *p = sdv_room(out);
-        *p++ = keyword[0];
-        if (keyword[1]) *p++ = keyword[1];
+        memcpy(p, keyword, 2);
+        p += length;
         p = sdv_write_floats(out->figures, p, values, width);
         if (more) p = sdv_write_floats(out->figures, p, more + 3 * (size_t)i, 3);
         *p++ = '\n';
@@ -9655,9 +10065,10 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
         for (int g = 0; g < grids; g++) {
-            sdv_grid grid = sdv_grid_at(order, start + g), uv_grid = grid;
+            sdv_grid grid, uv_grid;
+            sdv_grid_at(order, start + g, &grid);
             if (own >= 0)
-                uv_grid = sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g);
+                sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
             for (int i = 0; i < grid.size && !out->context->result; i++) {
                 int count = (int)(sdv_grid_faces(&grid, i, row) - row) / size;
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, uvs);

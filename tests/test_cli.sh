@@ -464,7 +464,7 @@ same out one_and_one.obj
 subdiv -l2 box.obj box_itself.obj && cp box.obj itself.obj && subdiv -l2 itself.obj itself.obj
 same itself.obj two.obj
 ends 1 - < bad_vertex.obj
-says "line 2"
+says "-: line 2: "
 ends 1 - < /dev/null
 says "no vertices"
 ends 1 - <&-
@@ -636,6 +636,15 @@ fine "--info: counted from 0" grep -qx '  (faces, vertices and tags are counted 
 fine "--info: an edge" grep -qx '  edge 0-1 has 3 faces: 0, 2, 3' out
 fine "--info: a vertex" grep -qx '  no face has vertex 7' out
 fine "--info prints no mesh" sh -c '! grep -q "^[vf] " out'
+printf 'mtllib a\no b\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 1\ng a\nusemtl c\nf 1/1 2/2 3/1
+usemtl d\n' > named.obj
+ends 0 --info named.obj
+row UVs 2
+row 'vertices with colours' 3
+row statements 5
+row usemtl 2
+row mtllib 1
+fine "--info: no smoothing groups" sh -c '! grep -q "^  s " out'
 ends 0 --info box.obj info.obj
 same info.obj one.obj
 row vertices 8
@@ -684,6 +693,38 @@ fine "--time --stream: ns/vertex are ms by vertices" awk -v n="$n" "$per_vertex"
 ends 0 --time --info box.obj
 fine "--time --info: one line" test "$(wc -l < err)" -eq 1
 fine "--time --info: load" grep -q '^load ' err
+
+# The limit surface at samples: of a flat grid of nine quads, and of triangles around a point.
+{ for y in 0 1 2 3; do for x in 0 1 2 3; do echo "v $x $y 0"; done; done
+  for f in 1 2 3 5 6 7 9 10 11; do echo "f $f $((f + 1)) $((f + 5)) $((f + 4))"; done; } > flat.obj
+printf '4 0 0\n\n4 0.25 1\r\n 4\t1 .5\n' > samples.txt
+printf '1 1 0 1 0 0 0 1 0\n1.25 2 0 1 0 0 0 1 0\n2 1.5 0 1 0 0 0 1 0\n' > expected.txt
+ends 0 --eval samples.txt flat.obj
+same out expected.txt
+ends 0 --eval - flat.obj < samples.txt
+same out expected.txt
+ends 0 --eval=samples.txt -j 2 - < flat.obj
+same out expected.txt
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > corner.obj
+printf '0/1 0 0\n0/2 1 1\n' > samples.txt
+ends 0 -s bilinear --eval samples.txt corner.obj
+printf '1 0 0 -0.5 0.5 0 -0.5 0 0\n0.33333334 0.33333334 0 0.33333334 -0.16666667 0 0.33333334 -0.16666667 0\n' > expected.txt
+fine "--eval: the corner of a triangle" test "$(head -n 1 out)" = "$(head -n 1 expected.txt)"
+: > samples.txt
+ends 0 --eval samples.txt flat.obj
+fine "--eval: nothing for no samples" test ! -s out
+for line in '9 0 0' '4/1 0 0' '4 2 0' '4 0 -1' '4 nan 0' '4 0' '4 0 0 0' '-1 0 0' '4/ 0 0' 'x 0 0' '4 0 0x'
+do
+    printf '4 0 0\n%s\n4 1 1\n' "$line" > samples.txt
+    ends 1 --eval samples.txt flat.obj
+    says "samples.txt:2: "
+done
+ends 1 --eval no_such_file flat.obj
+says no_such_file
+ends 2 --eval samples.txt flat.obj out.obj
+ends 2 --eval samples.txt -l 2 flat.obj
+ends 2 --eval - -
+ends 2 --eval
 
 printf '%-24s %4d passed, %d failed\n' cli $passed $failed
 [ $failed = 0 ]

@@ -573,6 +573,96 @@ static void test_values(void)
     }
 }
 
+// ----------------------------------------------------------------------------------------- errors
+
+// One location that is refused, behind a good one: code, message, and nothing written.
+static void check_refused(const subdiv_mesh *cage, subdiv_location bad, subdiv_result code,
+                          const char *text)
+{
+    subdiv_surface *surface = NULL;
+    subdiv_error error;
+    subdiv_options opt;
+    float p[6] = { 5, 5, 5, 5, 5, 5 };
+    subdiv_location at[2] = { { 0, 0, 0, 0 }, { 0, 0, 0, 0 } };
+    subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+    memset(&opt, 0, sizeof opt);
+    memset(&error, 0, sizeof error);
+    opt.error = &error;
+    at[1] = bad;
+    CHECK_EQUAL(subdiv_prepare(&surface, cage, SUBDIV_EXACT, &opt), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(surface, 3));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, 3, cage->positions, 0, scratch, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, 2, at, &out, &opt), code);
+    CHECK_TEXT(error.message, text);
+    for (int i = 0; i < 6; i++) CHECK(p[i] == 5);
+    free(scratch);
+    subdiv_surface_free(surface);
+}
+
+static void test_locations(void)
+{
+    test_cage c;
+    const float nan = (float)(HUGE_VAL - HUGE_VAL);
+    const subdiv_location none = { 8, 0, 0, 0 }, below = { -1, 0, 0, 0 }, corner = { 2, 1, 0, 0 };
+    const subdiv_location sixth = { 0, 6, 0, 0 }, beside = { 2, 0, 0.5f, 1.001f };
+    const subdiv_location unknown = { 2, 0, nan, 0 }, outside = { 0, 0, 0.6f, 0.6f };
+    build_prism(&c, 6);
+    check_refused(&c.mesh, none, SUBDIV_ERROR_INDEX,
+                  "location 1: face 8 does not exist (of 8)");
+    check_refused(&c.mesh, below, SUBDIV_ERROR_INDEX,
+                  "location 1: face -1 does not exist (of 8)");
+    check_refused(&c.mesh, corner, SUBDIV_ERROR_INDEX, "location 1: face 2 has no corner 1");
+    check_refused(&c.mesh, sixth, SUBDIV_ERROR_INDEX, "location 1: face 0 has no corner 6");
+    check_refused(&c.mesh, beside, SUBDIV_ERROR_ARGUMENT, "location 1: u, v are not on the face");
+    check_refused(&c.mesh, unknown, SUBDIV_ERROR_ARGUMENT, "location 1: u, v are not on the face");
+    build_tetrahedron(&c, SUBDIV_LOOP);
+    check_refused(&c.mesh, outside, SUBDIV_ERROR_ARGUMENT, "location 1: u, v are not on the face");
+}
+
+// What belongs to other surfaces is refused, too; without a surface there are zeros.
+static void test_refused(void)
+{
+    test_cage c;
+    float p[300];
+    subdiv_surface *exact = NULL, *other = NULL;
+    subdiv_mesh fine;
+    subdiv_location at = { 0, 0, 0.5f, 0.5f };
+    subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 }, wrong = out;
+    subdiv_limit limit = { p, NULL, NULL, 0 };
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 3);
+    c.mesh.boundary = SUBDIV_BOUNDARY_NONE;
+    CHECK_EQUAL(subdiv_prepare(&exact, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_prepare(&other, &c.mesh, -2, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_prepare(&other, &c.mesh, 1, NULL), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(exact, 3));
+    subdiv_evaluate_begin(exact, 3, c.positions, 0, scratch, NULL);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, &out, NULL), SUBDIV_OK);
+    for (int k = 0; k < 3; k++) CHECK(p[k] == 0);
+    at.face = 4;
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, &out, NULL), SUBDIV_OK);
+    CHECK_NEAR(p[0], 1.5, 1e-6);
+    CHECK_EQUAL(subdiv_evaluate_at(other, 3, scratch, 1, &at, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, -1, &at, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, NULL, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, NULL, 1, &at, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    wrong.stride = 2;
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, &wrong, NULL), SUBDIV_ERROR_ARGUMENT);
+    wrong = out;
+    wrong.normals = p + 9;
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 2, scratch, 1, &at, &wrong, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate(exact, 3, c.positions, 0, p, 0, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_limit(exact, c.positions, 0, &limit, NULL, NULL),
+                SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_surface_mesh(&fine, exact, c.positions, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_surface_faces(exact, (int *)p, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_surface_vertex_count(exact), 0);
+    CHECK_EQUAL(subdiv_surface_cage_face_count(exact), 9);
+    free(scratch);
+    subdiv_surface_free(exact);
+    subdiv_surface_free(other);
+}
+
 int main(void)
 {
     RUN(test_bicubic);
@@ -583,5 +673,7 @@ int main(void)
     RUN(test_continuous);
     RUN(test_channels);
     RUN(test_values);
+    RUN(test_locations);
+    RUN(test_refused);
     return test_end("test_exact");
 }

@@ -277,6 +277,55 @@ static subdiv_result call_creases(const subdiv_mesh *cage, const subdiv_options 
     return result;
 }
 
+// Everywhere, also at a vertex of high valence, whose nest is too large for the stack.
+static subdiv_result call_exact(const subdiv_mesh *mesh, const subdiv_options *opt)
+{
+    static float positions[3 * 42], values[3 * 42];
+    static int faces[20 * 4], face_uvs[20 * 4];
+    float p[3], normal[3];
+    subdiv_mesh cage = *mesh;
+    subdiv_surface *surface = NULL;
+    subdiv_location at[2] = { { 0, 0, 0, 0 }, { 3, 0, 1e-5f, 1e-6f } };
+    subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, normal, 3 };
+    memset(&cage, 0, sizeof cage);
+    for (int i = 0; i < 40; i++) {
+        positions[3 * (i + 1)] = (float)cos(i * 0.1570796);
+        positions[3 * (i + 1) + 1] = (float)sin(i * 0.1570796);
+    }
+    for (int f = 0; f < 20; f++) {
+        int quad[4] = { 0, 1 + 2 * f, 2 + 2 * f, 1 + (2 * f + 2) % 40 };
+        memcpy(faces + 4 * f, quad, sizeof quad);
+        memcpy(face_uvs + 4 * f, quad, sizeof quad);
+    }
+    face_uvs[5] = 41;
+    cage.vertex_count = 41;
+    cage.positions = positions;
+    cage.face_count = 20;
+    cage.face_size = 4;
+    cage.face_vertices = faces;
+    subdiv_result result = subdiv_prepare(&surface, &cage, SUBDIV_EXACT, opt);
+    if (result) CHECK(surface == NULL);
+    if (!result) {
+        void *scratch = malloc(subdiv_scratch_size(surface, 3));
+        result = subdiv_evaluate_begin(surface, 3, positions, 0, scratch, opt);
+        if (!result) result = subdiv_evaluate_at(surface, 3, scratch, 1, at, &out, opt);
+        if (!result) result = subdiv_evaluate_at(surface, 3, scratch, 1, at + 1, &out, opt);
+        free(scratch);
+    }
+    subdiv_surface_free(surface);
+    surface = NULL;
+    if (!result)
+        result = subdiv_prepare_face_varying(&surface, &cage, 42, face_uvs, SUBDIV_UV_CORNERS_ONLY,
+                                             SUBDIV_EXACT, opt);
+    if (!result) {
+        void *scratch = malloc(subdiv_scratch_size(surface, 3));
+        result = subdiv_evaluate_begin(surface, 3, values, 0, scratch, opt);
+        free(scratch);
+    }
+    subdiv_surface_free(surface);
+    return result;
+}
+
 static subdiv_result call_check(const subdiv_mesh *cage, const subdiv_options *opt)
 {
     int counts[SUBDIV_ODDITY_COUNT];
@@ -375,6 +424,11 @@ static void test_prepare(void)
     CHECK(check_call(call_prepare) > 1);
 }
 
+static void test_exact(void)
+{
+    CHECK(check_call(call_exact) > 2);
+}
+
 static void test_inspect(void)
 {
     CHECK(check_call(call_inspect) > 0);
@@ -425,6 +479,7 @@ int main(void)
     RUN(test_refine);
     RUN(test_limit);
     RUN(test_prepare);
+    RUN(test_exact);
     RUN(test_inspect);
     RUN(test_creases);
     RUN(test_check);

@@ -1,6 +1,6 @@
-// The closed form against the masks: refining k levels at once is refining one level k times. At
-// depth 1 there are no patches, so one level is made by masks alone; where nothing is semi-sharp
-// the masks are also written here a second time, in doubles.
+// The closed form against the masks: refining k levels at once is refining one level k times, each
+// made by masks or by patches of one level alone. Where nothing is semi-sharp the masks are also
+// written here a second time, in doubles.
 //
 //     cc -I. tests/test_patches.c -o build/test_patches -lm && build/test_patches
 #define SUBDIV_IMPLEMENTATION
@@ -311,6 +311,41 @@ static void test_fading_lines(void)
     }
 }
 
+// Semi-sharp lines that go straight through, alone, on both sides of a face and crossing, on a torus
+// and to the boundary of a grid: patches cut into strips, without any row of masks unless lines that
+// cross end on the same level with a fraction.
+static void test_semi_sharp_lines(void)
+{
+    static test_cage c;
+    static char context[64];
+    const double some[] = { 0.3, 1, 1.5, 2, 2.75, 3, 3.2 };
+    test_context = context;
+    for (int i = 0; i < 2 * 7 * 8; i++) {
+        double s = some[i / 2 % 7], t = some[(i / 2 + i / 14) % 7];
+        int lines = 1 + i / 14 % 3, torus = i % 2, chaikin = i / 28 % 2, width = ACROSS;
+        sprintf(context, "lines %d of %g and %g%s", lines, s, t, chaikin ? ", Chaikin" : "");
+        if (torus) build_torus(&c, SUBDIV_CATMULL_CLARK, width, width);
+        else build_grid(&c, SUBDIV_CATMULL_CLARK, width, width);
+        width += !torus;
+        c.mesh.boundary = SUBDIV_BOUNDARY_EDGE_AND_CORNER;
+        shake(&c, (unsigned)i);
+        c.mesh.creasing = chaikin ? SUBDIV_CREASING_CHAIKIN : SUBDIV_CREASING_UNIFORM;
+        for (int k = 0; k < ACROSS; k++) {
+            int next = (k + 1) % width;
+            for (int line = 2; line <= 3 && lines & 1; line++)
+                cage_crease(&c, k + width * line, next + width * line, s);
+            if (lines & 2) cage_crease(&c, 4 + width * k, 4 + width * next, t);
+        }
+        int whole = s <= floor(s) && t <= floor(t), same = s <= t && s >= t;
+        int free = lines < 3 || (whole && same) || (!chaikin && (whole || ceil(s) != ceil(t)));
+        subdiv_surface *surface = NULL;
+        CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, 4, NULL), SUBDIV_OK);
+        CHECK(surface->last.count == 0 || !free);
+        subdiv_surface_free(surface);
+        check_steps(&c.mesh, 4, level_of_library);
+    }
+}
+
 // Two quads, or under Loop three triangles, that close around a vertex, and a fin on one of their
 // edges: as many faces as beside a crease, but the same edge on either side.
 static void test_fin_on_a_fan(void)
@@ -419,6 +454,7 @@ int main(void)
     RUN(test_boundaries);
     RUN(test_triangle_fans);
     RUN(test_fading_lines);
+    RUN(test_semi_sharp_lines);
     RUN(test_fin_on_a_fan);
     RUN(test_random_cages);
     RUN(test_forever_sharp);
