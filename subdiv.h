@@ -5411,13 +5411,14 @@ static void sdv_quad_polynomial(const sdv_four *p, float hx2, float hy2, int lin
 }
 
 // The control points of a strip: across its crease, they are step apart, and lines of them next.
-static void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step, int next,
-                             sdv_four *p)
+static inline void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step,
+                                    int next, sdv_four *p)
 {
-    for (int i = 0; i < 4; i++, p += next) {
+    int low = strips->low > 0, high = strips->high > 0;
+    for (int i = 0; i < 4 && (low || high); i++, p += next) {
         sdv_four p0 = p[0], p1 = p[step], p2 = p[2 * step], p3 = p[3 * step];
-        if (!strip->smooth && strips->low > 0) p[0] = sdv_mirror(p1, p2);
-        if (!strip->smooth && strips->high > 0) p[3 * step] = sdv_mirror(p2, p1);
+        if (!strip->smooth && low) p[0] = sdv_mirror(p1, p2);
+        if (!strip->smooth && high) p[3 * step] = sdv_mirror(p2, p1);
         for (int j = 0; j < 4 && strip->smooth; j++) {
             const float *w = strip->rows[j];
             sdv_four outer = sdv_plus(sdv_times(sdv_all(w[0]), p0), sdv_times(sdv_all(w[3]), p3));
