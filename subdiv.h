@@ -52,7 +52,8 @@
              >>limit     points and normals of the    >>creases    from angles, groups, seams
                          limit surface                >>inspect    what a cage is made of, what
              >>exact     the same at any (face, u, v)              is odd about it
-             >>obj       reading and writing OBJ
+             >>obj       reading and writing OBJ       >>stencils  points as weights of the cage's
+                                                                   vertices; points explained
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
@@ -67,8 +68,9 @@
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
              >>exact-surface  and anywhere between the points
+             >>stencils  all of them as weights
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
-             >>numbers  >>obj-read  >>obj-write  >>cleanup
+             >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
@@ -501,6 +503,50 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
                                             const subdiv_location *locations,
                                             const subdiv_derivatives *out,
                                             const subdiv_options *opt);
+
+// ------------------------------------------------------------------------------ >>stencils
+// The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
+//
+//     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
+//
+// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6. Weights that are
+// no more than rounding of the others are left out. Stencils of a surface of face-varying values
+// have numbers of values as indices.
+typedef struct subdiv_stencils {
+    int     count;
+    size_t *offsets;                  // [count + 1]
+    int    *indices;                  // [offsets[count]]  rising in each stencil
+    float  *weights;                  // [offsets[count]]  of the point,
+    float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
+    void   *memory;                   // the library's own, one block
+} subdiv_stencils;
+
+// Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
+// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. The work
+// is that of the points asked for and a look at the cage's faces; scratch memory of up to 250
+// bytes a point, so take large results in pieces. Errors: ARGUMENT, INDEX, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt);
+
+// Of so many locations on a surface prepared with SUBDIV_EXACT: those of subdiv_evaluate_at, with
+// du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt);
+
+// Frees what the library made and zeroes the struct.
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
+
+// Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
+// it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
+// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
+// bytes are enough but for large faces and valences. Errors, which leave text empty: as
+// subdiv_refine, INDEX if there is no such point, TOO_LARGE if the text does not fit.
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt);
 
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
@@ -1611,8 +1657,8 @@ static int sdv_joins(const sdv_level *level, int h, int a, int b)
     return (from == a && to == b) || (from == b && to == a);
 }
 
-// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of ends
-// with as many the first, so that it is the same one from both.
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of two
+// with as many faces the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
     int more = level->vertex_faces[a] - level->vertex_faces[b];
@@ -3961,8 +4007,8 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for it: fans
-// around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
+// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for
+// it: fans around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
@@ -6476,6 +6522,7 @@ typedef struct sdv_exact {
                                         // ~(2 patch) or ~(2 face of a nest + 1)
     unsigned char *absent;              // [face_count] without surface; NULL: none
     sdv_nest_kind *kinds;
+    int kind_count;
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
@@ -6958,6 +7005,7 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
     exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
                                                    sizeof(sdv_nest_kind));
+    exact->kind_count = (int)maker->kinds.count;
     exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
@@ -7536,23 +7584,31 @@ static inline double sdv_on_face(float u)
     return u < 0 ? 0 : u > 1 ? 1 : (double)u;
 }
 
+// The leaf of a location, where on it that is, and how much smaller than the face it is.
+static inline int sdv_find_leaf(const subdiv_surface *surface, const int *nodes, int loop,
+                                const subdiv_location *at, double *x, double *y, double *scale)
+{
+    int f = surface->own_face ? surface->own_face[at->face] : at->face;
+    int node = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
+    *x = sdv_on_face(at->u);
+    *y = sdv_on_face(at->v);
+    if (loop && *x + *y > 1) *y = 1 - *x;
+    for (*scale = 1; node >= 0; *scale *= 2)
+        node = nodes[node + (loop ? sdv_descend_triangle(x, y, scale) : sdv_descend_quad(x, y))];
+    return node;
+}
+
 static inline int sdv_put_location(const sdv_exact_evaluation *e, const int *nodes, int loop,
                                    size_t i)
 {
     const subdiv_surface *surface = e->surface;
     const subdiv_location *at = &e->locations[i];
-    double x = sdv_on_face(at->u), y = sdv_on_face(at->v), scale = 1;
-    int f = at->face;
-    if (surface->exact->absent && surface->exact->absent[f]) {
+    double x, y, scale;
+    if (surface->exact->absent && surface->exact->absent[at->face]) {
         sdv_put_zeros(e, i);
         return 1;
     }
-    if (surface->own_face) f = surface->own_face[f];
-    int node = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop && x + y > 1) y = 1 - x;
-    for (; node >= 0; scale *= 2)
-        node = nodes[node + (loop ? sdv_descend_triangle(&x, &y, &scale)
-                                  : sdv_descend_quad(&x, &y))];
+    int node = sdv_find_leaf(surface, nodes, loop, at, &x, &y, &scale);
     if (~node & 1) return sdv_put_nest(e, ~node >> 1, x, y, scale, i);
     sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * (size_t)(~node >> 1),
                   loop, (float)x, (float)y, (float)scale, i);
@@ -7665,6 +7721,610 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
+}
+
+// ------------------------------------------------------------------------------ >>stencils
+// No rule is here a second time: rows have weights, and what a patch does to its control points
+// shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
+// of work points, and each of these, through its row, a sum of others, down to the cage's.
+
+typedef struct sdv_entry {
+    double weight;
+    int    vertex;                      // of the cage, or a value's number
+} sdv_entry;
+
+typedef struct sdv_stencil_maker {
+    sdv_context *context;
+    const subdiv_surface *surface;
+    sdv_arena  arena;
+
+    sdv_array  known;                   // sdv_entry: of all work points that are known,
+    size_t    *starts;                  // [work_count] where each one's start, and
+    int       *sizes;                   // [work_count] how many there are; 0: not known yet
+
+    int        parts;                   // 3 with tangents, else 1
+    int        size;                    // the sum that is being made: so many
+    int       *vertices;                // [cage_vertex_count] vertices, with
+    double    *sums;                    // [cage_vertex_count * parts] weights, and where
+    int       *places;                  // [cage_vertex_count] each vertex stands, or -1
+
+    size_t    *offsets;                 // [points + 1] what is made
+    sdv_array  indices, weights;        // ints, floats [parts] each
+} sdv_stencil_maker;
+
+static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
+                                  const subdiv_surface *surface, int points, int parts)
+{
+    size_t vertices = (size_t)surface->cage_vertex_count, work = (size_t)surface->work_count;
+    memset(make, 0, sizeof *make);
+    make->context = context;
+    make->surface = surface;
+    make->parts = parts;
+    make->arena = sdv_scratch();
+    make->starts = SDV_NEW(context, &make->arena, size_t, work);
+    make->sizes = SDV_NEW(context, &make->arena, int, work);
+    make->vertices = SDV_NEW(context, &make->arena, int, vertices);
+    make->sums = SDV_NEW(context, &make->arena, double, vertices * (size_t)parts);
+    make->places = SDV_NEW(context, &make->arena, int, vertices);
+    make->offsets = SDV_NEW(context, &make->arena, size_t, (size_t)points + 1);
+    if (context->result) return;
+    memset(make->sizes, 0, work * sizeof(int));
+    for (size_t v = 0; v < vertices; v++) make->places[v] = -1;
+    make->offsets[0] = 0;
+}
+
+static void sdv_stencil_maker_free(sdv_stencil_maker *make)
+{
+    sdv_array_free(&make->known);
+    sdv_array_free(&make->indices);
+    sdv_array_free(&make->weights);
+    sdv_arena_free(&make->arena);
+}
+
+static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, const double *w)
+{
+    int *place = &make->places[vertex], parts = make->parts;
+    double *sum = make->sums + (size_t)parts * (size_t)(*place < 0 ? make->size : *place);
+    if (*place < 0) {
+        make->vertices[*place = make->size++] = vertex;
+        for (int i = 0; i < parts; i++) sum[i] = 0;
+    }
+    for (int i = 0; i < parts; i++) sum[i] += factor * w[i];
+}
+
+// Adds a work point that is known, w [parts] times.
+static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count) {
+        sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
+        return;
+    }
+    const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
+    for (int i = 0; i < make->sizes[point]; i++)
+        sdv_add_to_sum(make, entry[i].vertex, entry[i].weight, w);
+}
+
+static void sdv_end_sum(sdv_stencil_maker *make)
+{
+    for (int i = 0; i < make->size; i++) make->places[make->vertices[i]] = -1;
+    make->size = 0;
+}
+
+// The row that makes a work point.
+static const int *sdv_find_row(const subdiv_surface *surface, int point)
+{
+    const int *row = NULL;
+    for (int i = 0; i < surface->levels && !row; i++) {
+        const sdv_step *step = &surface->steps[i];
+        const sdv_rows *three[3] = { &step->faces, &step->vertices, &step->edges };
+        for (int k = 0; k < 3; k++) {
+            int at = point - three[k]->first;
+            if (at < 0 || at >= three[k]->count) continue;
+            row = three[k]->items + three[k]->starts[at / SDV_ROW_BLOCK];
+            for (at %= SDV_ROW_BLOCK; at > 0; at--) row += 1 + surface->masks.items[row[0]].count;
+        }
+    }
+    return row;
+}
+
+// Makes a work point known, after those that it is made from.
+static void sdv_compose(sdv_stencil_maker *make, int point);
+
+static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int count)
+{
+    for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
+}
+
+// The weight of point i of a row with this mask: what the others leave of 1 is the first one's.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i)
+{
+    double left = 1;
+    if (i > 0) return (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    for (int j = 1; j < mask->count; j++) left -= sdv_row_weight(weights, mask, j);
+    return left;
+}
+
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
+{
+    double w[3] = { 0, 0, 0 };
+    for (int i = 0; i < mask->count; i++) {
+        w[0] = sdv_row_weight(make->surface->masks.weights, mask, i);
+        sdv_add_work_point(make, points[i], w);
+    }
+}
+
+static void sdv_compose(sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
+    const int *row = sdv_find_row(surface, point);
+    const sdv_weights *mask = &surface->masks.items[row[0]];
+    sdv_compose_all(make, row + 1, mask->count);
+    if (make->context->result) return;
+    sdv_add_row(make, mask, row + 1);
+    sdv_entry *entry = (sdv_entry *)sdv_array_room(make->context, &make->known,
+                                                   (size_t)make->size, sizeof *entry);
+    for (int i = 0; i < make->size && entry; i++) {
+        entry[i].vertex = make->vertices[i];
+        entry[i].weight = make->sums[make->parts * i];
+    }
+    make->starts[point] = make->known.count;
+    make->sizes[point] = make->size;
+    if (entry) make->known.count += (size_t)make->size;
+    sdv_end_sum(make);
+}
+
+// Gives what is missing from the total to the largest of count weights.
+static void sdv_balance(double *weights, int count, int stride, double total)
+{
+    double *largest = weights;
+    for (int i = 0; i < count; i++, weights += stride) {
+        if (fabs(*weights) > fabs(*largest)) largest = weights;
+        total -= *weights;
+    }
+    *largest += total;
+}
+
+// What is no more than rounding of the largest weight becomes 0.
+static void sdv_clean_part(sdv_stencil_maker *make, int part)
+{
+    double *sums = make->sums + part, largest = 0;
+    int parts = make->parts;
+    if (make->size == 0) return;                    // a face without a surface
+    for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
+    for (int i = 0; i < make->size; i++) {
+        double *w = &sums[parts * i];
+        *w = fabs(*w) <= (double)FLT_EPSILON * largest ? 0 : (double)(float)*w;
+    }
+    sdv_balance(sums, make->size, parts, part == 0 ? 1 : 0);
+}
+
+static void sdv_sort(int *numbers, int count)
+{
+    int gap = 1;
+    while (gap < count / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) {
+        for (int i = gap; i < count; i++) {
+            int number = numbers[i], at = i;
+            for (; at >= gap && numbers[at - gap] > number; at -= gap)
+                numbers[at] = numbers[at - gap];
+            numbers[at] = number;
+        }
+    }
+}
+
+// Makes the sum stencil i.
+static void sdv_write_stencil(sdv_stencil_maker *make, int i)
+{
+    size_t parts = (size_t)make->parts, size = (size_t)make->size;
+    int *index = (int *)sdv_array_room(make->context, &make->indices, size, sizeof(int));
+    float *weight = (float *)sdv_array_room(make->context, &make->weights, parts * size,
+                                            sizeof(float));
+    if (!index || !weight) return;
+    for (int k = 0; k < make->parts; k++) sdv_clean_part(make, k);
+    sdv_sort(make->vertices, make->size);
+    for (int j = 0; j < make->size; j++) {
+        int vertex = make->vertices[j], any = 0;
+        const double *sum = make->sums + parts * (size_t)make->places[vertex];
+        for (size_t k = 0; k < parts; k++) any |= fabs(weight[k] = (float)sum[k]) > 0;
+        weight += any ? parts : 0;
+        if (any) *index++ = vertex;
+        make->indices.count += (size_t)any;
+    }
+    make->weights.count = parts * make->indices.count;
+    make->offsets[i + 1] = make->indices.count;
+    sdv_end_sum(make);
+}
+
+static size_t sdv_carve_stencils(subdiv_stencils *stencils, size_t entries, int parts, char *base)
+{
+    size_t size = 0, tangents = parts > 1 ? entries : 0;
+    stencils->offsets = (size_t *)sdv_carve(base, &size, (size_t)stencils->count + 1,
+                                            sizeof(size_t));
+    stencils->indices = (int *)sdv_carve(base, &size, entries, sizeof(int));
+    stencils->weights = (float *)sdv_carve(base, &size, entries, sizeof(float));
+    stencils->du = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    stencils->dv = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    return size;
+}
+
+// All that was made, in one block of its own.
+static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
+{
+    subdiv_stencils made;
+    size_t entries = make->indices.count, parts = (size_t)make->parts;
+    const float *weights = (const float *)sdv_items(&make->weights);
+    if (make->context->result) return;
+    memset(&made, 0, sizeof made);
+    made.count = count;
+    sdv_block *block = sdv_allocate(make->context,
+                                    sdv_carve_stencils(&made, entries, make->parts, NULL));
+    if (!block) return;
+    made.memory = block;
+    sdv_carve_stencils(&made, entries, make->parts, (char *)(block + 1));
+    sdv_copy(made.offsets, make->offsets, (size_t)count + 1, sizeof(size_t));
+    sdv_copy(made.indices, sdv_items(&make->indices), entries, sizeof(int));
+    for (size_t i = 0; i < entries; i++) {
+        made.weights[i] = weights[parts * i];
+        if (parts == 1) continue;
+        made.du[i] = weights[parts * i + 1];
+        made.dv[i] = weights[parts * i + 2];
+    }
+    *stencils = made;
+}
+
+// Who makes the points of a refined surface: a row, a patch, or else it is one of the cage's, where
+// it stays. A patch evaluates unit vectors for all its points at once, into the points' records:
+// which patch it is, then the weights of its control points, some lanes after the other.
+typedef struct sdv_makers {
+    const subdiv_surface *surface;
+    int    first, end;                  // points
+    int    width, lanes;                // control points of a patch, unit vectors at once
+    size_t record, group;               // floats of a record and of the lanes in it
+    float *records;                     // [record * points]
+    const int **rows;                   // [points] or NULL
+    int    points[16];                  // 0, 1, 2, ...
+    float  units[6 * 64];               // the unit vectors: 16 control points, 4 lanes a pass
+} sdv_makers;
+
+enum { SDV_RECORD_NAME = 4 };           // floats: a patch's level + 1, and number in two halves
+
+static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                           int first, int count, sdv_makers *makers)
+{
+    int limit = surface->rules.limit;
+    memset(makers, 0, sizeof *makers);
+    makers->surface = surface;
+    makers->first = first;
+    makers->end = first + count;
+    makers->width = sdv_control_points(&surface->rules);
+    makers->lanes = limit ? 3 : 4;
+    makers->group = limit ? 9 : 4;
+    int passes = (makers->width + makers->lanes - 1) / makers->lanes;
+    makers->record = SDV_RECORD_NAME + makers->group * (size_t)passes;
+    for (int i = 0; i < 16; i++) {
+        int pass = i / makers->lanes, lane = i % makers->lanes;
+        makers->points[i] = i;
+        makers->units[64 * pass + 4 * i + lane] = 1;
+    }
+    makers->records = SDV_NEW(context, arena, float, makers->record * (size_t)count);
+    makers->rows = SDV_NEW(context, arena, const int *, count);
+    for (int i = 0; i < count && !context->result; i++) {
+        makers->records[makers->record * (size_t)i] = 0;
+        makers->rows[i] = NULL;
+    }
+}
+
+// One patch, whose control points have these values, writes into its points' records at this place.
+static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
+                           const float *values, size_t at, int tangents)
+{
+    float *out = makers->records + at;
+    if (makers->surface->rules.limit) {
+        sdv_limit_window window = { out, NULL, tangents ? out + 3 : NULL, makers->record,
+                                    makers->record, makers->first, makers->end };
+        sdv_limit_patches(makers->surface, patch, values, face, face + 1, &window);
+    } else {
+        sdv_window window = { out, makers->record, makers->lanes, makers->first,
+                              makers->end - makers->first };
+        sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
+    }
+}
+
+// Each patch of a face: first its name, as a constant goes through unchanged.
+static void sdv_push_patches(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int level = 0; level < surface->levels; level++) {
+        const sdv_patches *patches = &surface->patches[level];
+        int last = sdv_first_patch(&surface->order, patches, face + 1);
+        for (int i = sdv_first_patch(&surface->order, patches, face); i < last; i++) {
+            float names[16 * 4];
+            sdv_patches one = *patches;
+            one.count = 1;
+            one.items += i;
+            one.points = makers->points;
+            for (int k = 0; k < 16; k++) {
+                names[4 * k] = (float)(level + 1);
+                names[4 * k + 1] = (float)(i >> 16);
+                names[4 * k + 2] = (float)(i & 65535);
+                names[4 * k + 3] = 0;
+            }
+            sdv_push_units(makers, &one, face, names, 0, 0);
+            for (int k = 0; k * makers->lanes < makers->width; k++)
+                sdv_push_units(makers, &one, face, makers->units + 64 * k,
+                               SDV_RECORD_NAME + makers->group * (size_t)k, 1);
+        }
+    }
+}
+
+static void sdv_note_rows(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    int limit = surface->rules.limit;
+    const sdv_rows *rows = limit ? &surface->limit.rows : &surface->last;
+    if (rows->count == 0) return;
+    const int *row = rows->items + rows->starts[face], *end = rows->items + rows->starts[face + 1];
+    while (row < end) {
+        if (row[1] >= makers->first && row[1] < makers->end)
+            makers->rows[row[1] - makers->first] = row;
+        row += 2 + (limit ? surface->limit.masks[row[0]].count
+                          : surface->masks.items[row[0]].count);
+    }
+}
+
+// Has a cage face points from first to end - 1, inside, on an edge or at a vertex?
+static int sdv_face_has(const sdv_order *order, int f, int first, int end)
+{
+    const sdv_level *cage = &order->cage;
+    int has = sdv_first_inside(order, f) < end && sdv_first_inside(order, f + 1) > first;
+    for (int h = sdv_face_start(cage, f); h < sdv_face_end(cage, f) && !has; h++) {
+        int v = cage->face_vertices[h], on = cage->face_edges[h] * (order->n - 1);
+        int edge = order->first_edge_point + on;
+        has = (v >= first && v < end) || (edge < end && edge + order->n - 1 > first);
+    }
+    return has;
+}
+
+static void sdv_find_makers(sdv_makers *makers)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int f = 0; f < surface->cage_face_count && surface->levels > 0; f++) {
+        if (!sdv_face_has(&surface->order, f, makers->first, makers->end)) continue;
+        sdv_push_patches(makers, f);
+        sdv_note_rows(makers, f);
+    }
+}
+
+// Adds the points of a limit row, as sdv_limit_sums does: the first one's weight is what is left.
+static void sdv_add_limit_row(sdv_stencil_maker *make, const int *row)
+{
+    const sdv_limit_rows *limit = &make->surface->limit;
+    const sdv_limit_weights *mask = &limit->masks[row[0]];
+    double left[3] = { 1, 0, 0 }, w[3];
+    sdv_compose_all(make, row + 2, mask->count);
+    for (int i = mask->count - 1; i >= 0 && !make->context->result; i--) {
+        for (int k = 0; k < 3; k++) {
+            w[k] = i ? (double)limit->weights[mask->first + (size_t)(k * mask->count + i)]
+                     : left[k];
+            left[k] -= w[k];
+        }
+        sdv_add_work_point(make, row[2 + i], w);
+    }
+}
+
+// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
+// they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
+{
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
+    sdv_compose_all(make, points, count);
+    for (int i = 0; i < count && !make->context->result; i++)
+        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
+}
+
+// Adds the control points of a patch.
+static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
+{
+    const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
+    size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
+    const int *points = patches->points + i * (size_t)makers->width;
+    double weights[3 * 16];
+    for (int j = 0; j < makers->width; j++) {
+        size_t group = makers->group * (size_t)(j / makers->lanes);
+        const float *w = record + SDV_RECORD_NAME + group + j % makers->lanes;
+        for (int k = 0; k < 3; k++)
+            weights[3 * j + k] = k < make->parts ? (double)w[makers->lanes * k] : 0;
+    }
+    sdv_add_rounded(make, points, makers->width, weights);
+}
+
+static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
+{
+    const subdiv_surface *surface = make->surface;
+    const int *row = makers->rows[i];
+    const float *record = makers->records + makers->record * (size_t)i;
+    const double one[3] = { 1, 0, 0 };
+    if (row && surface->rules.limit) {
+        sdv_add_limit_row(make, row);
+    } else if (row) {
+        const sdv_weights *mask = &surface->masks.items[row[0]];
+        sdv_compose_all(make, row + 2, mask->count);
+        if (!make->context->result) sdv_add_row(make, mask, row + 2);
+    } else if (record[0] > 0) {
+        sdv_add_patch(make, makers, record);
+    } else {
+        sdv_add_work_point(make, makers->first + i, one);
+    }
+    if (!make->context->result) sdv_write_stencil(make, i);
+}
+
+static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
+                                 const subdiv_surface *surface, int first, int count)
+{
+    sdv_stencil_maker make;
+    sdv_makers makers;
+    sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
+    sdv_makers_new(context, &make.arena, surface, first, count, &makers);
+    if (!context->result) sdv_find_makers(&makers);
+    for (int i = 0; i < count && !context->result; i++) sdv_make_refined_stencil(&make, &makers, i);
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    if (surface) sdv_check_result(&context, surface);
+    if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
+    if (!context.result)
+        sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    return context.result;
+}
+
+// Evaluates unit vectors at locations: those of the work points that a location's leaf looks at,
+// four at a time, in scratch memory that is 0 everywhere else.
+typedef struct sdv_probe {
+    const subdiv_surface *surface;
+    void            *scratch;
+    sdv_exact_memory memory;            // parts of it
+    subdiv_options   opt;
+    unsigned char   *seen;              // [work_count] work points
+    int             *points;            // [most points of a leaf] those of this one, each once
+    double          *weights;           // [3 * most]
+} sdv_probe;
+
+static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                          sdv_probe *probe)
+{
+    const sdv_exact *exact = surface->exact;
+    size_t size = subdiv_scratch_size(surface, 4), work = (size_t)surface->work_count, most = 16;
+    for (int i = 0; i < exact->kind_count; i++)
+        if ((size_t)exact->kinds[i].points > most) most = (size_t)exact->kinds[i].points;
+    memset(probe, 0, sizeof *probe);
+    probe->surface = surface;
+    probe->opt.user = context->user;
+    probe->scratch = sdv_new(context, arena, size, 1);
+    probe->seen = SDV_NEW(context, arena, unsigned char, work);
+    probe->points = SDV_NEW(context, arena, int, most);
+    probe->weights = SDV_NEW(context, arena, double, 3 * most);
+    if (context->result) return;
+    probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
+    memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
+    memset(probe->seen, 0, work);
+}
+
+// The work points that a leaf looks at. Of a patch also its level and its number there.
+static int sdv_probe_points(sdv_probe *probe, int slot, int *level, int *patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    const sdv_exact *exact = surface->exact;
+    int leaf = ~slot >> 1, count, distinct = 0;
+    const int *points;
+    *level = -1;
+    if (~slot & 1) {
+        const sdv_nest *nest = &exact->nests[exact->nest_faces[leaf].nest];
+        points = exact->nest_points + nest->first;
+        count = exact->kinds[nest->kind].points;
+    } else {
+        for (*level = 0; leaf >= surface->patches[*level].count; (*level)++)
+            leaf -= surface->patches[*level].count;
+        *patch = leaf;
+        count = sdv_control_points(&surface->rules);
+        points = surface->patches[*level].points + (size_t)count * (size_t)leaf;
+    }
+    for (int i = 0; i < count; i++) {
+        if (probe->seen[points[i]]) continue;
+        probe->seen[points[i]] = 1;
+        probe->points[distinct++] = points[i];
+    }
+    for (int i = 0; i < distinct; i++) probe->seen[probe->points[i]] = 0;
+    return distinct;
+}
+
+// Their weights: of the point, du and dv.
+static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const subdiv_location *at,
+                               int slot, int count, int level, int patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    float lanes[3][4];
+    subdiv_derivatives out = { lanes[0], lanes[1], lanes[2], NULL, NULL, NULL, NULL, 0 };
+    for (int first = 0; first < count; first += 4) {
+        int some = count - first < 4 ? count - first : 4;
+        const int *points = probe->points + first;
+        for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
+        if (level >= 0) {
+            const sdv_patches *patches = &surface->patches[level];
+            size_t width = (size_t)sdv_control_points(&surface->rules);
+            sdv_exact_patch(&surface->rules, &patches->items[patch],
+                            patches->points + width * (size_t)patch, probe->memory.work, 4,
+                            probe->memory.patches + 4 * SDV_SLOTS * (size_t)(~slot >> 1));
+        }
+        subdiv_result result = subdiv_evaluate_at(surface, 4, probe->scratch, 1, at, &out,
+                                                  &probe->opt);
+        if (result) sdv_fail(context, result, "out of memory");
+        for (int i = 0; i < some; i++) {
+            probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
+            for (int k = 0; k < 3 && !context->result; k++)
+                probe->weights[3 * (size_t)(first + i) + (size_t)k] = (double)lanes[k][i];
+        }
+    }
+}
+
+static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
+                            const subdiv_surface *surface, int count,
+                            const subdiv_location *locations)
+{
+    sdv_stencil_maker make;
+    sdv_probe probe;
+    const unsigned char *absent = surface->exact->absent;
+    sdv_stencil_maker_new(context, &make, surface, count, 3);
+    sdv_probe_new(context, &make.arena, surface, &probe);
+    for (int i = 0; i < count && !context->result; i++) {
+        const subdiv_location *at = &locations[i];
+        if (!absent || !absent[at->face]) {
+            double x, y, scale;
+            int level, patch = 0;
+            int slot = sdv_find_leaf(surface, surface->exact->nodes, surface->rules.loop, at, &x,
+                                     &y, &scale);
+            int points = sdv_probe_points(&probe, slot, &level, &patch);
+            sdv_probe_location(context, &probe, at, slot, points, level, patch);
+            if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
+        }
+        if (!context->result) sdv_write_stencil(&make, i);
+    }
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_derivatives none;
+    memset(&none, 0, sizeof none);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_exact(&context, surface, 4, count, locations, &none);
+    if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
+    return context.result;
+}
+
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!stencils) return;
+    owned.blocks = (sdv_block *)stencils->memory;
+    sdv_arena_free(&owned);
+    memset(stencils, 0, sizeof *stencils);
 }
 
 // ---------------------------------------------------------------------------- >>generators
@@ -10266,6 +10926,570 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 }
 
 #endif // SUBDIV_NO_STDIO
+
+// -------------------------------------------------------------------------------- >>explain
+// The words for what >>sharpness and >>masks decide, and the row that they write for a point.
+
+enum { SDV_GROUPS = 4 };
+
+typedef struct sdv_explainer {
+    sdv_context *context;
+    sdv_arena    arena;
+    sdv_text     out;
+    sdv_cage     cage;
+    sdv_rules    rules;
+    unsigned     papers;                // a bit for each that was named
+    double      *weights;               // [vertices, faces] the mask
+    int         *order;                 // [vertices] those that have a weight, heavy ones first
+    int          count;
+    int          group_sizes[SDV_GROUPS];   // how many of them weigh the same; 0: no more
+} sdv_explainer;
+
+static const struct { const char *tag, *title; } sdv_papers[] = {
+    { "[CC78]", "Catmull, Clark: Recursively generated B-spline surfaces on arbitrary\n"
+                "       topological meshes, 1978" },
+    { "[Loop87]", "Loop: Smooth subdivision surfaces based on triangles, 1987" },
+    { "[HDD94]", "Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction, 1994" },
+    { "[DKT98]", "DeRose, Kass, Truong: Subdivision surfaces in character animation, 1998" },
+    { "[OSD]", "OpenSubdiv 3.5: the rules where the papers are silent" }
+};
+
+enum { SDV_CC78, SDV_LOOP87, SDV_HDD94, SDV_DKT98, SDV_OSD, SDV_PAPERS };
+
+static void sdv_say(sdv_explainer *x, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    sdv_format(&x->out, format, args);
+    va_end(args);
+}
+
+static void sdv_cite(sdv_explainer *x, int paper)
+{
+    x->papers |= 1u << paper;
+    sdv_say(x, "  %s\n", sdv_papers[paper].tag);
+}
+
+// A number as a fraction, if it is a simple one as far as floats can tell; else as a float.
+static const char *sdv_number_text(double number, char *text)
+{
+    sdv_text out = { text, 0, 32 };
+    for (int q = 1; q <= 400; q++) {
+        int p = (int)(number * q + 0.5);
+        if (p == 0 || fabs(number * q - p) > (double)FLT_EPSILON * p) continue;
+        sdv_put_int(&out, p);
+        if (q > 1) sdv_put(&out, "/", 1);
+        if (q > 1) sdv_put_int(&out, q);
+        return text;
+    }
+    *sdv_write_exactly(text, (float)number) = 0;
+    return text;
+}
+
+static const char *sdv_float_text(float number, char *text)
+{
+    *sdv_write_exactly(text, number) = 0;
+    return text;
+}
+
+// ---- the mask
+
+// The row of a point goes to the weights of vertices and face points, factor times.
+static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int *row,
+                           double factor)
+{
+    const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
+    const float *weights = (const float *)sdv_items(&writer->weights);
+    for (int i = 0; i < mask->count; i++)
+        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i);
+}
+
+// How many vertices from place i of the order on weigh the same.
+static int sdv_group_size(const sdv_explainer *x, int i)
+{
+    double weight = x->weights[x->order[i]];
+    int size = 1;
+    while (i + size < x->count &&
+           x->weights[x->order[i + size]] > weight - 1e-6 * fabs(weight)) size++;
+    return size;
+}
+
+// Puts the vertices with a weight in order.
+static void sdv_find_order(sdv_explainer *x)
+{
+    const double *w = x->weights;
+    int groups = 0;
+    for (int v = 0; v < x->cage.level.vertex_count; v++) {
+        int at = x->count;
+        if (!(fabs(w[v]) > 0)) continue;
+        for (; at > 0 && w[x->order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
+            x->order[at] = x->order[at - 1];
+        x->order[at] = v;
+        x->count++;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size = sdv_group_size(x, i);
+        if (groups < SDV_GROUPS) x->group_sizes[groups++] = size;
+    }
+}
+
+// The mask of vertex v, of the edge that leads on from h, or of face f, whichever is not -1, on the
+// vertices of the cage: its row, then those of the face points in it.
+static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
+{
+    sdv_level *level = &x->cage.level;
+    size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
+    size_t size = (size_t)level->face_vertex_count + 1;         // of any face's row
+    sdv_writer writer;
+    sdv_rows rows;
+    if (v >= 0) size += sdv_vertex_row_size(level, v, x->rules.loop);
+    if (h >= 0) size += sdv_edge_row_size(level, h);
+    sdv_writer_new(x->context, &writer);
+    x->weights = SDV_NEW(x->context, &x->arena, double, points);
+    x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
+    sdv_begin_rows(&writer, &x->arena, &rows, size, 1, 0);
+    for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
+    for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
+    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
+    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
+    if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
+    if (!x->context->result) sdv_spread_row(x, &writer, rows.items, 1);
+    for (int i = 0; i < level->face_count && !x->context->result; i++) {
+        double weight = x->weights[level->vertex_count + i];
+        if (!(fabs(weight) > 0)) continue;
+        writer.row = rows.items;
+        rows.count = 0;
+        sdv_face_row(level, i, &writer);
+        if (!x->context->result) sdv_spread_row(x, &writer, rows.items, weight);
+    }
+    if (!x->context->result) sdv_find_order(x);
+    sdv_writer_free(&writer);
+}
+
+static void sdv_say_blanks(sdv_explainer *x, size_t count)
+{
+    while (count--) sdv_put(&x->out, " ", 1);
+}
+
+// One line a weight, with all the vertices that have it.
+static void sdv_say_table(sdv_explainer *x)
+{
+    char text[32];
+    size_t width = 6;                               // of the weights
+    for (int i = 0; i < x->count; i += sdv_group_size(x, i)) {
+        size_t size = strlen(sdv_number_text(x->weights[x->order[i]], text));
+        if (size > width) width = size;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size_t start = x->out.size;
+        size = sdv_group_size(x, i);
+        sdv_number_text(x->weights[x->order[i]], text);
+        sdv_say(x, "    %s", text);
+        sdv_say_blanks(x, width + 2 - strlen(text));
+        sdv_say(x, size == 1 ? "vertex" : "vertices");
+        for (int j = i; j < i + size; j++) {
+            if (x->out.size > start + 68) {
+                sdv_say(x, "\n");
+                start = x->out.size;
+                sdv_say_blanks(x, width + 14);
+            }
+            sdv_say(x, " %d", x->order[j]);
+        }
+        sdv_say(x, "\n");
+    }
+}
+
+// Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
+// weights, heavy ones first, in six places each.
+typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+
+static const struct { sdv_point_kind kind; int sizes[SDV_GROUPS]; const char *text; }
+sdv_pictures[] = {
+    { SDV_FACE_POINT, { 4, 0, 0, 0 },
+      "  aaaaaa --- aaaaaa\n"
+      "     |          |\n"
+      "     |    F     |\n"
+      "     |          |\n"
+      "  aaaaaa --- aaaaaa\n" },
+    { SDV_FACE_POINT, { 3, 0, 0, 0 },
+      "       aaaaaa\n"
+      "         / \\\n"
+      "        / F \\\n"
+      "       /     \\\n"
+      "  aaaaaa -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 0, 0, 0 },
+      "  aaaaaa -- E -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 4, 0, 0 },
+      "  bbbbbb ------- bbbbbb\n"
+      "     |              |\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "     |              |\n"
+      "  bbbbbb ------- bbbbbb\n" },
+    { SDV_EDGE_POINT, { 2, 2, 0, 0 },
+      "         bbbbbb\n"
+      "        /      \\\n"
+      "       /        \\\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "       \\        /\n"
+      "        \\      /\n"
+      "         bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
+      "  bbbbbb --- aaaaaa --- bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
+      "  cccccc --- bbbbbb --- cccccc\n"
+      "     |          |          |\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     |          |          |\n"
+      "  cccccc --- bbbbbb --- cccccc\n" },
+    { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
+      "       bbbbbb --- bbbbbb\n"
+      "        /    \\     /    \\\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "        \\    /     \\    /\n"
+      "       bbbbbb --- bbbbbb\n" }
+};
+
+// The picture with its weights, if they fit.
+static void sdv_draw(sdv_explainer *x, const char *picture)
+{
+    char texts[SDV_GROUPS][32];
+    for (int i = 0, g = 0; i < x->count; i += x->group_sizes[g++]) {
+        sdv_number_text(x->weights[x->order[i]], texts[g]);
+        if (strlen(texts[g]) > 6) return;
+    }
+    size_t start = x->out.size;
+    for (const char *p = picture; *p; p++) {
+        if (*p < 'a' || *p > 'c') {
+            while (*p == '\n' && x->out.text[x->out.size - 1] == ' ') x->out.size--;
+            sdv_put(&x->out, p, 1);
+            continue;
+        }
+        const char *text = texts[*p - 'a'];
+        size_t size = strlen(text), left = (7 - size) / 2;
+        sdv_put(&x->out, "   ", left);
+        sdv_put(&x->out, text, size);
+        sdv_put(&x->out, "   ", 6 - left - size);
+        p += 5;
+    }
+    char *line = x->out.text + start;               // lines reach all weights but for a blank
+    size_t end = x->out.size - start;
+    for (size_t i = 0; i + 2 < end; i++)
+        if (line[i] == '-' && line[i + 1] == ' ' && line[i + 2] == ' ') line[i + 1] = '-';
+    for (size_t i = end; i > 2; i--)
+        if (line[i - 1] == '-' && line[i - 2] == ' ' && line[i - 3] == ' ') line[i - 2] = '-';
+    sdv_say(x, "\n");
+}
+
+static void sdv_say_mask(sdv_explainer *x, sdv_point_kind kind)
+{
+    sdv_say(x, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
+    for (size_t i = 0; i < sizeof sdv_pictures / sizeof *sdv_pictures; i++)
+        if (sdv_pictures[i].kind == kind &&
+            memcmp(sdv_pictures[i].sizes, x->group_sizes, sizeof x->group_sizes) == 0)
+            sdv_draw(x, sdv_pictures[i].text);
+    sdv_say_table(x);
+    if (x->papers) sdv_say(x, "\n");
+    for (int i = 0; i < SDV_PAPERS; i++)
+        if (x->papers >> i & 1)
+            sdv_say(x, "%s %s\n", sdv_papers[i].tag, sdv_papers[i].title);
+}
+
+// ---- vertices
+
+// What a rule makes of a vertex, behind "V = ".
+static void sdv_say_rule(sdv_explainer *x, sdv_rule rule, int n)
+{
+    char text[32];
+    if (rule == SDV_CORNER || x->rules.linear) {
+        sdv_say(x, "v\n");
+    } else if (rule == SDV_CREASE) {
+        sdv_say(x, "(a + 6 v + b) / 8");
+        sdv_cite(x, SDV_HDD94);
+    } else if (x->rules.loop) {
+        sdv_say(x, "(1 - n b) v + b (e1 + ... + en)");
+        sdv_cite(x, SDV_LOOP87);
+        sdv_say(x, "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
+                sdv_number_text(sdv_loop_vertex(n).edge, text), n);
+    } else {
+        sdv_say(x, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d", n);
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
+{
+    int crease = rule == SDV_CREASE || next == SDV_CREASE;
+    int smooth = rule < SDV_CREASE || next < SDV_CREASE;
+    sdv_say(x, "\nHere v is the vertex");
+    if (crease) sdv_say(x, " and a, b are its neighbours along the crease");
+    if (smooth && crease) sdv_say(x, ";\nthe e are all its neighbours");
+    else if (smooth) sdv_say(x, ", the e are its neighbours");
+    if (smooth && !x->rules.loop) sdv_say(x, ", the f the face points there");
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
+{
+    char text[32];
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, ", sharp forever");
+    else sdv_say(x, ", of sharpness %s", sdv_float_text(sharpness, text));
+}
+
+// The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
+static void sdv_say_edge(sdv_explainer *x, int h, int v)
+{
+    const sdv_level *level = &x->cage.level;
+    int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+    int from = a == v || b == v ? v : a < b ? a : b;
+    sdv_say(x, "%d-%d", from, a + b - from);
+}
+
+// Lists the sharp edges at a vertex, if they are few; how many they are, and how many boundaries.
+static sdv_edges_at sdv_say_sharp_edges(sdv_explainer *x, int v, int say)
+{
+    const sdv_level *level = &x->cage.level;
+    sdv_edges_at sharp = { 0, 0, 0 };
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            if (say && sharp.count) sdv_say(x, " and ");
+            if (say) sdv_say_edge(x, two[i], v);
+            sharp.boundary += sdv_is_boundary(level, two[i]);
+            sharp.count++;
+        }
+    }
+    return sharp;
+}
+
+static void sdv_say_corner(sdv_explainer *x, int v)
+{
+    float sharpness = x->cage.level.vertex_sharpness[v];
+    if (x->cage.level.vertex_faces[v] == 0) {
+        sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
+        return;
+    }
+    sdv_say(x, "Vertex %d is a corner", v);
+    if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
+        sdv_say(x, ": the surface is non-manifold there");
+    else if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x, ": it has one face, and the rule is \"edge and corner\"");
+    else if (sharpness > 0)
+        sdv_say_sharpness(x, sharpness);
+    else
+        sdv_say(x, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
+{
+    int boundary = sdv_say_sharp_edges(x, v, 0).boundary == 2;
+    if (x->rules.linear) {
+        sdv_say(x, "Refinement is linear: vertex %d stays where it is.\n", v);
+    } else if (rule == SDV_CORNER) {
+        sdv_say_corner(x, v);
+    } else if (rule == SDV_SMOOTH) {
+        sdv_say(x, "Vertex %d is interior, of valence %d, and smooth.\n", v,
+                x->cage.level.vertex_faces[v]);
+    } else {
+        sdv_say(x, rule == SDV_DART ? "Vertex %d is a dart: the crease " :
+                boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
+                "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
+        sdv_say_sharp_edges(x, v, 1);
+        sdv_say(x, rule == SDV_DART ? " ends there.\nIt moves as if it were smooth.\n" :
+                ", a cubic B-spline.\n");
+    }
+}
+
+static void sdv_explain_vertex(sdv_explainer *x, int v)
+{
+    static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
+    static const char letters[] = "SSCK";
+    sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
+    sdv_rule rule = fading.rule, next = fading.next;
+    int n = x->cage.level.vertex_faces[v];
+    char more[32], less[32];
+    int blend = rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear;
+    sdv_say_vertex_rule(x, v, rule);
+    if (!blend) {
+        sdv_say(x, "\n    V = ");
+        sdv_say_rule(x, rule, n);
+    } else {
+        sdv_say(x, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
+                "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
+                sdv_number_text(fading.weight, more), more, letters + rule, 1,
+                sdv_number_text(1 - fading.weight, less), letters + next, 1);
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    %t = ", letters + rule, 1);
+        sdv_say_rule(x, rule, n);
+        sdv_say(x, "    %t = ", letters + next, 1);
+        sdv_say_rule(x, next, n);
+    }
+    if (!blend) next = rule;
+    if (!x->rules.linear && (rule != SDV_CORNER || blend)) sdv_say_letters(x, rule, next);
+}
+
+// ---- edges and faces
+
+// The smooth point of an edge, behind "E = ".
+static void sdv_say_smooth_edge(sdv_explainer *x, int h)
+{
+    const sdv_level *level = &x->cage.level;
+    int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
+    char ends[32], faces[32];
+    if (x->rules.loop) {
+        sdv_say(x, "(3 a + 3 b + c + d) / 8");
+        sdv_cite(x, SDV_LOOP87);
+    } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
+        sdv_mask mask = sdv_smooth_triangle_edge(triangles);
+        sdv_say(x, "%s (a + b) + %s (f + g)", sdv_number_text(mask.self, ends),
+                sdv_number_text(mask.face, faces));
+        sdv_cite(x, SDV_OSD);
+    } else {
+        sdv_say(x, "(a + b + f + g) / 4");
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    sdv_say(x, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge " :
+            "Edge ");
+    sdv_say_edge(x, h, -1);
+    if (x->rules.linear) {
+        sdv_say(x, ".\n");
+    } else if (x->cage.edge_nonmanifold[e]) {
+        sdv_say(x, " is non-manifold, and so a crease.\n");
+    } else if (sdv_is_boundary(level, h)) {
+        sdv_say(x, " is on the boundary, which is a crease.\n");
+    } else if (sharpness <= 0) {
+        sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
+                sdv_face_of(level, level->across[h]));
+    } else {
+        sdv_say(x, " is a crease");
+        sdv_say_sharpness(x, sharpness);
+        sdv_say(x, stays_sharp ? ".\n" : ".\nIt ends before the next level");
+        if (!stays_sharp) sdv_say(x, sharpness < 1 ? ", and so much of the point is still sharp:\n"
+                                                   : ".\n");
+    }
+}
+
+static void sdv_explain_edge(sdv_explainer *x, int e)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
+    int smooth = !crease && sharpness <= 0;
+    char more[32], less[32];
+    sdv_say_edge_rule(x, e, stays_sharp);
+    if (!crease && !smooth) {
+        sdv_say(x, "\n    E = %s C + %s S",
+                sdv_number_text((double)sharpness, more),
+                sdv_number_text(1 - (double)sharpness, less));
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    C = (a + b) / 2\n    S = ");
+    } else {
+        sdv_say(x, "\n    E = %s", crease ? "(a + b) / 2\n" : "");
+    }
+    if (!crease) sdv_say_smooth_edge(x, h);
+    sdv_say(x, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
+            x->rules.loop ? ", and c and d the vertices opposite" :
+            ", and f and g the face points beside it");
+}
+
+static void sdv_explain_face(sdv_explainer *x, int f)
+{
+    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
+    sdv_say(x, "Face %d has %d vertices; its face point is their mean.\n\n"
+            "    F = (v1 + ... + vn) / n, n = %d", f, n, n);
+    sdv_cite(x, SDV_CC78);
+}
+
+// The first line, the words, the mask.
+static void sdv_explain_point(sdv_explainer *x, int point)
+{
+    const sdv_level *level = &x->cage.level;
+    int e = point - level->vertex_count, f = e - level->edge_count;
+    int h = e >= 0 && f < 0 ? level->edge_first[e] : -1;
+    sdv_find_mask(x, e < 0 ? point : -1, h, f >= 0 ? f : -1);
+    if (x->context->result) return;
+    sdv_say(x, "Point %d of the mesh refined once is the ", point);
+    if (e < 0) {
+        sdv_say(x, "vertex point of vertex %d.\n", point);
+        sdv_explain_vertex(x, point);
+    } else if (f < 0) {
+        sdv_say(x, "edge point of edge ");
+        sdv_say_edge(x, h, -1);
+        sdv_say(x, ".\n");
+        sdv_explain_edge(x, e);
+    } else {
+        sdv_say(x, "face point of face %d.\n", f);
+        sdv_explain_face(x, f);
+    }
+    sdv_say_mask(x, e < 0 ? SDV_VERTEX_POINT : f < 0 ? SDV_EDGE_POINT : SDV_FACE_POINT);
+}
+
+static void sdv_check_point(sdv_context *context, const sdv_level *level, int loop, int point)
+{
+    char message[256];
+    sdv_text out = { message, 0, sizeof message };
+    const char *const names[3] = { "vertices", "edges", "faces" };
+    int counts[3] = { level->vertex_count, level->edge_count, loop ? 0 : level->face_count };
+    int first = 0;
+    message[0] = 0;
+    for (int i = 0; i < 3; first += counts[i++]) {
+        if (!counts[i]) continue;
+        sdv_put(&out, i ? ", " : "", i ? 2 : 0);
+        sdv_put_int(&out, first);
+        sdv_put(&out, " to ", 4);
+        sdv_put_int(&out, first + counts[i] - 1);
+        sdv_put(&out, " of ", 4);
+        sdv_put(&out, names[i], strlen(names[i]));
+    }
+    if (point < 0 || point >= first)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+                 point, message);
+}
+
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_surface *cut = NULL;
+    sdv_explainer x;
+    memset(&x, 0, sizeof x);
+    if (text && capacity) text[0] = 0;
+    else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
+    if (!context.result) sdv_check_request(&context, &cut, cage, 1, opt);
+    if (context.result) return context.result;
+
+    subdiv_mesh work = *cage;
+    cut = sdv_new_surface(&context, 1);
+    x.context = &context;
+    x.arena = sdv_scratch();
+    x.out.text = text;
+    x.out.capacity = capacity;
+    x.rules.loop = cage->scheme == SUBDIV_LOOP;
+    x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
+    x.rules.triangles = cage->triangles;
+    if (cut) sdv_copy_faces(&context, cut, &work, cage);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
+    if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
+    if (!context.result) sdv_level_fade(&x.cage.level);
+    if (!context.result) sdv_explain_point(&x, point);
+    if (!context.result && x.out.size + 1 == capacity)
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    if (context.result) text[0] = 0;
+    sdv_arena_free(&x.arena);
+    subdiv_surface_free(cut);
+    return context.result;
+}
 
 // ------------------------------------------------------------------------------- >>cleanup
 #undef SDV_NEW

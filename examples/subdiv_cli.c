@@ -35,7 +35,7 @@ enum { MAX_THREADS = 256 };
 enum {
     SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
-    EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, TIME, HELP, VERSION, OPTION_COUNT
+    EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
 
 // A list of names stands in the order of the library's enum, so that the place of a name in the
@@ -69,6 +69,7 @@ static const option options[OPTION_COUNT] = {
     {0, "triangulate", NULL, "Loop: cut larger faces into triangles first"},
     {0, "keep-holes", NULL, "keep the faces of holes, tagged as holes"},
     {0, "info", NULL, "print what the cage is made of, and what is odd about it"},
+    {0, "explain", "N", "print the rule and the mask of point N of the cage refined once"},
     {0, "time", NULL, "print how long each step takes"},
     {'h', "help", NULL, "print this"},
     {0, "version", NULL, "print the version"},
@@ -208,6 +209,8 @@ static int read_command(command *cmd, int argc, char **argv)
         return misused("--eval - and INPUT - would share standard input");
     if (cmd->given[INFO] == 1 && cmd->output && strcmp(cmd->output, "-") == 0)
         return misused("--info and OUTPUT - would share standard output");
+    if (cmd->given[EXPLAIN] >= 0 && cmd->output)
+        return misused("--explain writes to standard output alone");
     return DONE;
 }
 
@@ -540,6 +543,23 @@ static int inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
     return print_info(cage, &info, &odd);
 }
 
+// Prints the explanation of a point, however long it is.
+static int explain(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt)
+{
+    subdiv_result result = SUBDIV_ERROR_TOO_LARGE;
+    for (size_t size = 4096; result == SUBDIV_ERROR_TOO_LARGE && size < LARGE; size *= 2) {
+        char *text = (char *)malloc(size);
+        if (text == NULL) {
+            fputs("subdiv: out of memory\n", stderr);
+            return FAILED;
+        }
+        result = subdiv_explain(text, size, cage, cmd->given[EXPLAIN], opt);
+        fputs(text, stdout);
+        free(text);
+    }
+    return result ? report(cmd->input, opt) : flush_output();
+}
+
 static int writes_stdout(const command *cmd)
 {
     return cmd->output == NULL || strcmp(cmd->output, "-") == 0;
@@ -763,6 +783,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     if (load(&w->cage, cmd, opt)) return report(cmd->input, opt);
     if (add_creases(&w->cage, cmd, opt)) return FAILED;
     end_step(w, "load");
+    if (cmd->given[EXPLAIN] >= 0) return explain(&w->cage, cmd, opt);
     if (info && inspect(&w->cage, cmd, opt)) return FAILED;
     if (info && cmd->output == NULL) {
         if (timed) print_times(w, w->cage.vertex_count);

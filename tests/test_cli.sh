@@ -131,7 +131,7 @@ printf '# nothing\n' > empty.obj
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
-              --stream --triangulate --info --time --help --version; do
+              --stream --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
 fine "--help is not an error" test ! -s err
@@ -366,6 +366,23 @@ for level in 0 1 2; do
 done
 ends 2 --limit --stream limit.obj form.obj
 says "so not with --limit"
+
+# --------------------------------------------------------------------------------------- explain
+
+ends 0 --explain 0 limit.obj
+fine "--explain names the rule" grep -q '^Vertex 0 is interior, of valence 3, and smooth\.$' out
+fine "--explain has fractions" grep -q '^    5/12    vertex 0$' out
+ends 0 --crease-angle 30 --explain 8 limit.obj
+fine "--explain sees creases" grep -q 'is a crease, sharp forever\.$' out
+ends 0 -s loop --triangulate --explain 25 limit.obj
+ends 1 --explain 26 limit.obj
+says "8 to 19 of edges, 20 to 25 of faces"
+ends 2 --explain 0 limit.obj form.obj
+says "standard output alone"
+awk 'BEGIN { n = 3000; for (i = 0; i < n; i++) print "v", i, i % 7, 0; printf "f"
+             for (i = 1; i <= n; i++) printf " %d", i; print "" }' > huge.obj
+ends 0 --explain 6000 huge.obj
+fine "--explain of a large face is whole" grep -q '^\[CC78\]' out
 
 # --------------------------------------------------------------------------------------- threads
 

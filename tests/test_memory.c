@@ -225,6 +225,63 @@ static subdiv_result call_limit_zero(const subdiv_mesh *cage, const subdiv_optio
     return limit_as(cage, SUBDIV_CATMULL_CLARK, 0, opt);
 }
 
+static subdiv_result stencils_as(const subdiv_mesh *cage, int limit, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_options with = *opt;
+    subdiv_stencils stencils, zero;
+    with.limit = limit;
+    subdiv_result result = subdiv_prepare(&surface, cage, 2, &with);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_refined_stencils(&stencils, surface, 0, 3000, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_stencils(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return stencils_as(cage, 0, opt);
+}
+
+static subdiv_result call_limit_stencils(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return stencils_as(cage, 1, opt);
+}
+
+// On a face of the strip and, in a nest, at its pentagon.
+static subdiv_result call_stencils_at(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_stencils stencils, zero;
+    subdiv_location at[2] = { { 40, 0, 0.25f, 0.5f }, { cage->face_count - 2, 3, 0.9999f, 1 } };
+    subdiv_result result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_stencils_at(&stencils, surface, 2, at, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_explain(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    char text[4096] = "";
+    subdiv_mesh other = *cage;
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    other.scheme = SUBDIV_LOOP;
+    other.creasing = SUBDIV_CREASING_CHAIKIN;
+    subdiv_result result = subdiv_explain(text, sizeof text, &other, 12, &triangulate);
+    CHECK((text[0] != 0) == (result == SUBDIV_OK));
+    return result;
+}
+
 // For a copy of the cage; a failure has to leave it as it was.
 static subdiv_result call_normals(const subdiv_mesh *cage, const subdiv_options *opt)
 {
@@ -429,6 +486,14 @@ static void test_exact(void)
     CHECK(check_call(call_exact) > 2);
 }
 
+static void test_stencils(void)
+{
+    CHECK(check_call(call_stencils) > 1);
+    CHECK(check_call(call_limit_stencils) > 1);
+    CHECK(check_call(call_stencils_at) > 1);
+    CHECK(check_call(call_explain) > 1);
+}
+
 static void test_inspect(void)
 {
     CHECK(check_call(call_inspect) > 0);
@@ -480,6 +545,7 @@ int main(void)
     RUN(test_limit);
     RUN(test_prepare);
     RUN(test_exact);
+    RUN(test_stencils);
     RUN(test_inspect);
     RUN(test_creases);
     RUN(test_check);
