@@ -6920,9 +6920,11 @@ static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, in
 }
 
 // The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
-// number, or -2, at all its faces, and face_at where they stand in it.
-static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h, int *at,
-                          int *face_at)
+// number, or -2, at all its faces, and face_at where they stand in it. At a vertex that is not
+// manifold a crease may run apart from these faces: then they have none before the last level,
+// where the vertex has all but arrived.
+static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int depth, int h,
+                          int *at, int *face_at)
 {
     const sdv_rules *rules = &maker->surface->rules;
     sdv_context *context = maker->writer->context;
@@ -6933,10 +6935,11 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h,
     int last = first;
     for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
     sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
-    int dart = rule == SDV_DART && !ring &&
-               sdv_same_edge(level, first, sdv_previous(level, last));
-    if (sdv_is_nest(level, rules, first, faces, ring)) {
-        if (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE)) rule = SDV_CORNER;
+    int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
+    int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
+    if ((!apart || depth + 1 == SDV_EXACT_LEVELS) &&
+        sdv_is_nest(level, rules, first, faces, ring)) {
+        if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
         number = (int)maker->nests.count;
         int kind = sdv_find_nest_kind(maker, faces, ring || dart, rule);
         sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
@@ -6955,7 +6958,7 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h,
 }
 
 // Turns the rough faces of nests into leaves.
-static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level)
+static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
 {
     sdv_context *context = maker->writer->context;
     sdv_arena scratch = sdv_scratch();
@@ -6966,7 +6969,7 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level)
         int start = sdv_face_start(level, f), end = sdv_face_end(level, f), found = -1;
         for (int h = start; h < end && level->rough[f] && !context->result; h++) {
             if (sdv_fan_at(level, &maker->surface->rules, h) != SDV_FAN_ROUGH) continue;
-            if (at[h] == -1) sdv_find_nest(maker, level, h, at, face_at);
+            if (at[h] == -1) sdv_find_nest(maker, level, depth, h, at, face_at);
             found = h;
         }
         if (found < 0 || context->result || at[found] < 0) continue;
@@ -7033,7 +7036,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
         if (level->core[f] && !level->rough[f])
             ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
                 ~(2 * surface->exact->patch_count++);
-    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level);
+    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level, depth);
     surface->work_count = level->first_point + level->vertex_count;
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
