@@ -153,7 +153,8 @@
 
    VERSION LOG
    -----------
-   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, OBJ. */
+   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, exact
+        evaluation, tessellation, stencils, OBJ. */
 
 #ifndef SUBDIV_H
 #define SUBDIV_H
