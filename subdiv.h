@@ -3782,9 +3782,86 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 //     d---s---3----2-s
 //                              Loop: the last s at a vertex is the first at the next one
 
+// The points that a net makes on the last level stand in blocks of four, the last ones of a part
+// filled up with copies: the vertices; each side; what is within, row by row. All in the order of
+// the kind, whose vertex 0 is another one of the face.
+typedef struct sdv_spot {
+    short row, column;                  // from the face's vertex 0
+    short owner;                        // its bit of sdv_patch's owned; 0: within, at index
+    short first;                        // first + row * sdv_row_length behind that of vertex 0
+} sdv_spot;
+
+typedef struct sdv_spots {
+    int size, n, turn, step;            // step: that of sdv_patch
+    sdv_spot *next;
+} sdv_spots;
+
+static int sdv_net_blocks(int size, int n)
+{
+    int points = size == 4 ? (n + 1) * (n + 1) : (n + 1) * (n + 2) / 2;
+    return (points + 3) / 4;
+}
+
+// x runs from vertex 0 of the kind to the next one, y to the last one.
+static void sdv_add_spot(sdv_spots *spots, int x, int y, int owner)
+{
+    const int (*at)[2] = spots->size == 3 ? sdv_corner_triangle : sdv_corner_quad;
+    int n = spots->n, last = (spots->turn + spots->size - 1) % spots->size;
+    const int *a = at[spots->turn], *b = at[spots->turn + 1], *c = at[last];
+    sdv_spot *spot = spots->next++;
+    int row = (a[0] * n + (b[0] - a[0]) * x + (c[0] - a[0]) * y) / 2 * spots->step;
+    int column = (a[1] * n + (b[1] - a[1]) * x + (c[1] - a[1]) * y) / 2 * spots->step;
+    spot->row = (short)row;
+    spot->column = (short)column;
+    spot->owner = (short)owner;
+    spot->first = (short)(column - (spots->size == 3 ? row * (row - 1) / 2 : 0));
+}
+
+static void sdv_make_spots(int size, int n, int turn, int step, sdv_spot *first)
+{
+    const int (*at)[2] = size == 3 ? sdv_corner_triangle : sdv_corner_quad;
+    sdv_spots spots = { size, n, turn, step, first };
+    for (int bit = 4; bit >= 0; bit -= 4) {                     // vertices, then sides
+        for (int i = 0; i < size; i++) {
+            int own = (i + turn) % size, owner = 1 << (bit + (size == 3 && own == 2 ? 3 : own));
+            for (int t = bit ? 0 : 1; t < (bit ? 1 : n); t++)
+                sdv_add_spot(&spots, (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2,
+                             (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2, owner);
+        }
+    }
+    for (int y = 1; y < n; y++)
+        for (int x = 1; x < (size == 3 ? n - y : n); x++) sdv_add_spot(&spots, x, y, 0);
+    for (; (spots.next - first) % 4; spots.next++) spots.next[0] = spots.next[-1];
+}
+
+// What is added from a row within a grid to the next, seen from this one.
+static int sdv_row_length(const sdv_grid *grid, int row)
+{
+    return grid->size - 1 - (grid->triangle ? row : 0);
+}
+
+// The indices of a block of spots, -1 where the net does not write. Are there any?
+static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
+                                   int length, const sdv_spot *spot, int *index)
+{
+    int any = -1;
+    for (int i = 0; i < 4; i++, spot++) {
+        index[i] = first + spot->first + length * spot->row;
+        if (!spot->owner) {
+            any = 0;
+            continue;
+        }
+        index[i] = -1;
+        if (spot->owner & patch->owned)
+            index[i] = sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
+        any &= index[i];
+    }
+    return any >= 0;
+}
+
 typedef struct sdv_matrix {             // of a kind
     int    points;                      // of the net
-    float *weights;                     // of them, for the points of sdv_walk_net
+    float *weights;                     // [blocks][points / 2 * 2][4] but of the first; 0
 } sdv_matrix;
 
 typedef struct sdv_net {
@@ -3799,14 +3876,23 @@ typedef struct sdv_nets {               // of one level
     sdv_net    *items;                  // [count] in the order of cage faces
     int        *points;                 // work points
     sdv_matrix *matrices;
+    int         blocks;
+    sdv_spot   *spots;                  // [step < 0][turn][4 * blocks]
 } sdv_nets;
 
 // A kind pays for so many faces at least, with so many levels to go at most.
 #ifndef SDV_NET_FACES
 #define SDV_NET_FACES 32
 #endif
+#ifndef SDV_QUAD_NET_DEPTH
 #define SDV_QUAD_NET_DEPTH 3
+#endif
+#ifndef SDV_LOOP_NET_DEPTH
 #define SDV_LOOP_NET_DEPTH 3
+#endif
+#ifndef SDV_NET_LEAST
+#define SDV_NET_LEAST 1
+#endif
 
 #define SDV_NET_VALENCE 20
 #define SDV_NET_POINTS 48               // at most
@@ -4010,115 +4096,17 @@ static const int *sdv_net_sharpness(int size, const int *valence, const int *sta
     return words + 1 + valence[i];
 }
 
-// The points that a net makes on the last level, in the order of its matrix: the vertices, side by
-// side those inside it, row by row those within. x runs from vertex 0 of the kind to the next one, y
-// to the last; row and column on the grid follow.
-typedef struct sdv_walk {
-    const sdv_grid *grid;
-    int size, n, turn, owned;
-    int row, column;                    // of vertex 0
-    int along[2], up[2];                // how they grow with x and y
-    int part;                           // 0: vertices; i: side i - 1; size + 1: within
-    int x, y;                           // next; of a side x alone
-} sdv_walk;
-
-static sdv_walk sdv_begin_walk(const sdv_grid *grid, const sdv_patch *patch, int turn, int n)
-{
-    sdv_walk walk;
-    int size = grid->triangle ? 3 : 4, step = patch->step;
-    const int (*at)[2] = size == 3 ? sdv_corner_triangle : sdv_corner_quad;
-    const int *a = at[turn], *b = at[turn + 1], *c = at[(turn + size - 1) % size];
-    walk.grid = grid;
-    walk.size = size;
-    walk.n = n;
-    walk.turn = turn;
-    walk.owned = patch->owned;
-    walk.row = patch->row + step * n * (a[0] / 2);
-    walk.column = patch->column + step * n * (a[1] / 2);
-    for (int i = 0; i < 2; i++) {
-        walk.along[i] = step * (b[i] - a[i]) / 2;
-        walk.up[i] = step * (c[i] - a[i]) / 2;
-    }
-    walk.part = 0;
-    walk.x = walk.y = 1;
-    return walk;
-}
-
-static int sdv_walk_row(const sdv_walk *walk, int x, int y)
-{
-    return walk->row + walk->along[0] * x + walk->up[0] * y;
-}
-
-static int sdv_walk_column(const sdv_walk *walk, int x, int y)
-{
-    return walk->column + walk->along[1] * x + walk->up[1] * y;
-}
-
-// Point t of side i.
-static int sdv_walk_side(const sdv_walk *walk, int i, int t)
-{
-    const int (*at)[2] = walk->size == 3 ? sdv_corner_triangle : sdv_corner_quad;
-    int n = walk->n, x = (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2;
-    int y = (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2;
-    return sdv_grid_index(walk->grid, sdv_walk_row(walk, x, y), sdv_walk_column(walk, x, y));
-}
-
-// Is side i, or vertex i (as bit 4), written by the net?
-static int sdv_walk_owns(const sdv_walk *walk, int i, int bit)
-{
-    int own = (i + walk->turn) % walk->size;
-    return walk->owned >> (bit + (walk->size == 3 && own == 2 ? 3 : own)) & 1;
-}
-
-// The indices of the next points, at most four, -1 for those that others write. 0: no more.
-static int sdv_next_points(sdv_walk *walk, int *index)
-{
-    int count = 0, n = walk->n, size = walk->size, side = walk->part - 1;
-    if (walk->part == 0) {
-        for (; count < size; count++)
-            index[count] = sdv_walk_owns(walk, count, 4) ? sdv_walk_side(walk, count, 0) : -1;
-        walk->part++;
-        return count;
-    }
-    if (walk->part <= size) {
-        int owned = sdv_walk_owns(walk, side, 0);
-        for (; walk->x < n && count < 4; count++, walk->x++)
-            index[count] = owned ? sdv_walk_side(walk, side, walk->x) : -1;
-        if (walk->x < n) return count;
-        walk->part++;
-        walk->x = 1;
-        return count;
-    }
-    while (walk->y < n && count < 4) {
-        if (walk->x < (size == 3 ? n - walk->y : n)) {
-            index[count++] = sdv_inside_index(walk->grid, sdv_walk_row(walk, walk->x, walk->y),
-                                              sdv_walk_column(walk, walk->x, walk->y));
-            walk->x++;
-        } else {
-            walk->x = 1;
-            walk->y++;
-        }
-    }
-    return count;
-}
-
-static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, int levels,
-                           sdv_matrix *matrix);
-
-// Blocks of four points: vertices; each side; what is inside, row by row.
-static int sdv_net_blocks(int size, int n)
-{
-    int inside = size == 4 ? (n - 1) * (n - 1) : (n - 1) * (n - 2) / 2;
-    return 1 + size * ((n + 2) / 4) + (inside + 3) / 4;
-}
+static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const sdv_nets *nets,
+                           float *weights);
 
 // Makes the matrix of a kind from its net.
 static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_kind *kind,
-                            sdv_matrix *matrix)
+                            sdv_nets *nets)
 {
     int faces[4 * SDV_NET_POINTS], creases[2 * SDV_NET_POINTS], corners[4];
     float crease_sharpness[SDV_NET_POINTS], corner_sharpness[4];
-    int size = kinds->rules->loop ? 3 : 4, n = 1 << kinds->levels, valence[4], starts[5];
+    int size = kinds->rules->loop ? 3 : 4, valence[4], starts[5];
+    sdv_matrix *matrix = &nets->matrices[kind->matrix];
     const int *first = (const int *)sdv_items(&kinds->words) + kind->first, *words = first;
     subdiv_mesh net;
     memset(&net, 0, sizeof net);
@@ -4140,9 +4128,9 @@ static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_
     for (int i = 0; i < size; i++)
         words = sdv_net_sharpness(size, valence, starts, i, words, &net);
     matrix->points = kind->points;
-    size_t blocks = (size_t)sdv_net_blocks(size, n);
-    matrix->weights = SDV_NEW(kinds->context, arena, float, 4 * blocks * (size_t)kind->points);
-    if (!kinds->context->result) sdv_refine_net(kinds->context, &net, kinds->levels, matrix);
+    matrix->weights = SDV_NEW(kinds->context, arena, float,
+                              4 * (size_t)nets->blocks * (size_t)(kind->points / 2 * 2));
+    if (!kinds->context->result) sdv_refine_net(kinds->context, &net, nets, matrix->weights);
 }
 
 // The points of a face's net, of which h is vertex 0.
@@ -4194,7 +4182,7 @@ static void sdv_choose_kinds(sdv_kinds *kinds, sdv_arena *arena, sdv_nets *nets)
 {
     sdv_known_kind *items = (sdv_known_kind *)sdv_items(&kinds->items);
     size_t count = 0, points = 0;
-    int chosen = 0;
+    int size = kinds->rules->loop ? 3 : 4, n = 1 << nets->depth, chosen = 0;
     for (size_t i = 0; i < kinds->items.count; i++) {
         if (items[i].faces < SDV_NET_FACES) continue;
         items[i].matrix = chosen++;
@@ -4204,9 +4192,13 @@ static void sdv_choose_kinds(sdv_kinds *kinds, sdv_arena *arena, sdv_nets *nets)
     nets->items = SDV_NEW(kinds->context, arena, sdv_net, count);
     nets->points = SDV_NEW(kinds->context, arena, int, points);
     nets->matrices = SDV_NEW(kinds->context, arena, sdv_matrix, chosen);
+    nets->blocks = sdv_net_blocks(size, n);
+    nets->spots = SDV_NEW(kinds->context, arena, sdv_spot, 2 * size * 4 * nets->blocks);
+    for (int i = 0; i < 2 * size && !kinds->context->result; i++)
+        sdv_make_spots(size, n, i % size, i < size ? 1 : -1, nets->spots + 4 * i * nets->blocks);
     for (size_t i = 0; i < kinds->items.count && !kinds->context->result; i++)
         if (items[i].matrix >= 0)
-            sdv_make_matrix(kinds, arena, &items[i], &nets->matrices[items[i].matrix]);
+            sdv_make_matrix(kinds, arena, &items[i], nets);
 }
 
 static void sdv_make_nets(const sdv_kinds *kinds, sdv_level *level, int size,
@@ -4236,7 +4228,7 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
                           const sdv_rules *rules, int levels, sdv_nets *nets)
 {
     int size = rules->loop ? 3 : 4, rough = 0;
-    if (rules->linear || rules->limit || rules->plain) return;
+    if (rules->linear || rules->limit || rules->plain || levels < SDV_NET_LEAST) return;
     if (levels > (rules->loop ? SDV_LOOP_NET_DEPTH : SDV_QUAD_NET_DEPTH)) return;
     for (int f = 0; f < level->face_count; f++) rough += level->rough[f];
     if (rough < SDV_NET_FACES) return;
@@ -5291,38 +5283,35 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     return context.result;
 }
 
-// The weights of the points around face 0 of a net in its points on the last level: their values
-// if each has a channel of its own in which it is 1 and all others are 0.
-static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, int levels,
-                           sdv_matrix *matrix)
+// The weights of a net's points in those that its face 0 makes on the last level: their values if
+// each has a channel of its own in which it is 1 and all others are 0.
+static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const sdv_nets *nets,
+                           float *weights)
 {
     sdv_arena scratch = sdv_scratch();
-    subdiv_surface *surface = sdv_new_surface(context, levels);
+    subdiv_surface *surface = sdv_new_surface(context, nets->depth);
     subdiv_options opt;
     sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
     sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
     size_t points = (size_t)net->vertex_count;
-    int index[4], count;
     memset(&opt, 0, sizeof opt);
     opt.user = context->user;
     opt.error = context->error;
     if (surface) surface->rules.plain = 1;
     if (surface) sdv_prepare(context, surface, net, NULL, none, 0, NULL);
+    size_t made = context->result ? 0 : (size_t)surface->fine.vertex_count;
     float *in = SDV_NEW(context, &scratch, float, points * points);
+    float *out = SDV_NEW(context, &scratch, float, points * made);
     for (size_t i = 0; i < points * points && !context->result; i++) in[i] = i % (points + 1) == 0;
-    float *out = context->result ? NULL : SDV_NEW(context, &scratch, float, points *
-                                                  (size_t)surface->fine.vertex_count);
-    if (out)
+    if (!context->result)
         context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
-    if (out && !context->result) {
+    for (int i = 0; i < nets->blocks && !context->result; i++) {
         sdv_grid grid = sdv_grid_at(&surface->order, 0);
-        sdv_walk walk = sdv_begin_walk(&grid, &all, 0, grid.size);
-        float *weights = matrix->weights;
-        for (; (count = sdv_next_points(&walk, index)) > 0; weights += 4 * points)
-            for (size_t i = 0; i < points; i++)
-                for (int j = 0; j < 4; j++)
-                    weights[4 * i + (size_t)j] =
-                        j < count ? out[(size_t)index[j] * points + i] : 0;
+        int first = sdv_inside_index(&grid, 0, 0), index[4];
+        sdv_spot_indices(&grid, &all, first, sdv_row_length(&grid, 0), nets->spots + 4 * i, index);
+        for (size_t j = 1; j <= points / 2 * 2; j++)
+            for (int k = 0; k < 4; k++)
+                *weights++ = j < points ? out[points * (size_t)index[k] + j] : 0;
     }
     subdiv_surface_free(surface);
     sdv_arena_free(&scratch);
@@ -6003,7 +5992,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 // A net's points, relative to the first one: each channel of each in all four places.
 typedef struct sdv_net_values {
     sdv_four first[4], d[SDV_NET_POINTS][4];
-    int count;
+    int count;                          // even: of so many, without the first
 } sdv_net_values;
 
 static void sdv_spread(sdv_four a, sdv_four *channels)
@@ -6018,39 +6007,50 @@ static void sdv_load_net(const int *points, int count, const float *work, sdv_ne
     sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
     sdv_spread(p0, net->first);
     for (int i = 1; i < count; i++)
-        sdv_spread(sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0), net->d[i]);
-    net->count = count;
+        sdv_spread(sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0), net->d[i - 1]);
+    if (count % 2 == 0) sdv_spread(sdv_all(0), net->d[count - 1]);
+    net->count = count / 2 * 2;
 }
 
-// Four points of the result, channel by channel.
+// Four points of the result, channel by channel: x[k][i] is channel k of point i.
 static inline void sdv_net_sums(const sdv_net_values *net, const float *weights, int lanes,
                                 float (*x)[4])
 {
-    sdv_four sum[4];
-    for (int k = 0; k < lanes; k++) sum[k] = sdv_all(0);
-    for (int i = 1; i < net->count; i++) {
-        sdv_four w = sdv_load(weights + 4 * (size_t)i);
-        for (int k = 0; k < lanes; k++) sum[k] = sdv_plus(sum[k], sdv_times(w, net->d[i][k]));
+    sdv_four x0 = sdv_all(0), x1 = x0, x2 = x0, x3 = x0;
+    const sdv_four (*d)[4] = net->d, (*end)[4] = net->d + net->count;
+    for (; d < end; d += 2, weights += 8) {
+        sdv_four w = sdv_load(weights), w1 = sdv_load(weights + 4);
+        x0 = sdv_plus(sdv_plus(x0, sdv_times(w, d[0][0])), sdv_times(w1, d[1][0]));
+        x1 = sdv_plus(sdv_plus(x1, sdv_times(w, d[0][1])), sdv_times(w1, d[1][1]));
+        x2 = sdv_plus(sdv_plus(x2, sdv_times(w, d[0][2])), sdv_times(w1, d[1][2]));
+        if (lanes == 4)
+            x3 = sdv_plus(sdv_plus(x3, sdv_times(w, d[0][3])), sdv_times(w1, d[1][3]));
     }
-    for (int k = 0; k < lanes; k++) sdv_store(x[k], sdv_plus(net->first[k], sum[k]));
+    sdv_store(x[0], sdv_plus(net->first[0], x0));
+    sdv_store(x[1], sdv_plus(net->first[1], x1));
+    sdv_store(x[2], sdv_plus(net->first[2], x2));
+    if (lanes == 4) sdv_store(x[3], sdv_plus(net->first[3], x3));
 }
 
 // Writes those of them that have an index in the window.
-static void sdv_put_four(const sdv_window *out, const sdv_net_values *net, const float *weights,
-                         const int *index, int count)
+static inline void sdv_put_four(const sdv_window *out, const sdv_net_values *net,
+                                const float *weights, const int *index)
 {
     float x[4][4];
-    int lanes = out->lanes, seen = 0;
-    for (int i = 0; i < count; i++)
-        seen |= index[i] >= out->first && index[i] - out->first < out->count;
-    if (!seen) return;
-    if (lanes == 3) sdv_net_sums(net, weights, 3, x);
+    int lanes = out->lanes;
+    if (lanes < 4) sdv_net_sums(net, weights, 3, x);
     else sdv_net_sums(net, weights, 4, x);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < 4; i++) {
         int at = index[i] - out->first;
         if (index[i] < 0 || at < 0 || at >= out->count) continue;
         float *p = out->values + out->stride * (size_t)at;
-        for (int k = 0; k < lanes; k++) p[k] = x[k][i];
+        p[0] = x[0][i];
+        if (lanes == 3) {
+            p[1] = x[1][i];
+            p[2] = x[2][i];
+            continue;
+        }
+        for (int k = 1; k < lanes; k++) p[k] = x[k][i];
     }
 }
 
@@ -6066,22 +6066,32 @@ static int sdv_first_net(const sdv_order *order, const sdv_nets *nets, int face)
     return low;
 }
 
+static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_nets *nets,
+                        const sdv_net *net, const sdv_net_values *values)
+{
+    const sdv_patch *patch = &net->patch;
+    int turn = net->turn + (patch->step < 0 ? 3 : 0), index[4];
+    int first = sdv_inside_index(grid, patch->row, patch->column);
+    int length = sdv_row_length(grid, patch->row);
+    const sdv_spot *spot = nets->spots + 4 * turn * nets->blocks;
+    const float *weights = nets->matrices[net->kind].weights;
+    for (int i = 0; i < nets->blocks; i++, weights += 4 * values->count, spot += 4)
+        if (sdv_spot_indices(grid, patch, first, length, spot, index))
+            sdv_put_four(out, values, weights, index);
+}
+
 // The points that the nets of a level make for cage faces face to end - 1.
 static void sdv_put_nets(const sdv_order *order, const sdv_nets *nets, const float *work, int face,
                          int end, const sdv_window *out)
 {
-    int h = -1, last = sdv_first_net(order, nets, end), index[4], count;
+    int h = -1, last = sdv_first_net(order, nets, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
     sdv_net_values values;
     for (int i = sdv_first_net(order, nets, face); i < last; i++) {
         const sdv_net *net = &nets->items[i];
-        const sdv_matrix *matrix = &nets->matrices[net->kind];
-        const float *weights = matrix->weights;
         if (net->patch.h != h) grid = sdv_grid_at(order, h = net->patch.h);
-        sdv_walk walk = sdv_begin_walk(&grid, &net->patch, net->turn, 1 << nets->depth);
-        sdv_load_net(nets->points + net->first, matrix->points, work, &values);
-        for (; (count = sdv_next_points(&walk, index)) > 0; weights += 4 * matrix->points)
-            sdv_put_four(out, &values, weights, index, count);
+        sdv_load_net(nets->points + net->first, nets->matrices[net->kind].points, work, &values);
+        sdv_put_net(out, &grid, nets, net, &values);
     }
 }
 
