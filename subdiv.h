@@ -1323,7 +1323,7 @@ typedef struct sdv_rules {
     int linear;                         // nothing is smoothed
     int straight;                       // boundaries stay straight
     int limit;                          // the result is on the limit surface
-    int plain;                          // no nets (see >>kinds)
+    int net;                            // a net, of which only face 0 counts (see >>kinds)
     subdiv_creasing creasing;
     subdiv_triangles triangles;
 } sdv_rules;
@@ -3880,19 +3880,12 @@ typedef struct sdv_nets {               // of one level
     sdv_spot   *spots;                  // [step < 0][turn][4 * blocks]
 } sdv_nets;
 
-// A kind pays for so many faces at least, with so many levels to go at most.
+// A kind pays for so many faces at least, with so many levels to go.
 #ifndef SDV_NET_FACES
-#define SDV_NET_FACES 32
+#define SDV_NET_FACES 8
 #endif
-#ifndef SDV_QUAD_NET_DEPTH
-#define SDV_QUAD_NET_DEPTH 3
-#endif
-#ifndef SDV_LOOP_NET_DEPTH
-#define SDV_LOOP_NET_DEPTH 3
-#endif
-#ifndef SDV_NET_LEAST
-#define SDV_NET_LEAST 1
-#endif
+#define SDV_LEAST_NET_DEPTH 2
+#define SDV_MOST_NET_DEPTH 3
 
 #define SDV_NET_VALENCE 20
 #define SDV_NET_POINTS 48               // at most
@@ -4228,8 +4221,8 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
                           const sdv_rules *rules, int levels, sdv_nets *nets)
 {
     int size = rules->loop ? 3 : 4, rough = 0;
-    if (rules->linear || rules->limit || rules->plain || levels < SDV_NET_LEAST) return;
-    if (levels > (rules->loop ? SDV_LOOP_NET_DEPTH : SDV_QUAD_NET_DEPTH)) return;
+    if (rules->linear || rules->limit || rules->net) return;
+    if (levels < SDV_LEAST_NET_DEPTH || levels > SDV_MOST_NET_DEPTH) return;
     for (int f = 0; f < level->face_count; f++) rough += level->rough[f];
     if (rough < SDV_NET_FACES) return;
     sdv_arena scratch = sdv_scratch();
@@ -4946,7 +4939,8 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     sdv_writer writer;
     sdv_writer_new(context, &writer);
     if (!context->result) {
-        memset(level.core, 1, (size_t)level.face_count);
+        memset(level.core, !surface->rules.net, (size_t)level.face_count);
+        if (level.face_count) level.core[0] = 1;
         memset(level.edge_done, 0, (size_t)level.face_vertex_count);
         sdv_level_fade(&level);
         sdv_find_copies(surface, &level, &writer);
@@ -5297,7 +5291,7 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
     memset(&opt, 0, sizeof opt);
     opt.user = context->user;
     opt.error = context->error;
-    if (surface) surface->rules.plain = 1;
+    if (surface) surface->rules.net = 1;
     if (surface) sdv_prepare(context, surface, net, NULL, none, 0, NULL);
     size_t made = context->result ? 0 : (size_t)surface->fine.vertex_count;
     float *in = SDV_NEW(context, &scratch, float, points * points);
