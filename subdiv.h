@@ -3770,25 +3770,28 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 }
 
 // --------------------------------------------------------------------------------- >>kinds
-// A rough face has a closed form, too, if not a short one: on the last level its points are sums of
-// the points around it, its net, and their weights are the same for all nets of one kind: with so
-// many faces at each vertex, and the same sharpness. So each kind that is there often enough gets a
-// matrix of weights, a row for each point, made by refining the net itself. Nets are those of faces
-// whose vertices are inside: the vertices of the face first, then vertex by vertex what stands
-// around it, counter-clockwise, s ends of edges and d, of quads alone, between them:
+// A rough face has a closed form, too, if not a short one: its points on the last level are sums of
+// the points around it, its net, and the weights are the same for all nets of one kind, with as
+// many faces at each vertex and the same sharpness. So each kind that occurs often enough gets a
+// matrix, which is made by refining the net itself. A net is that of a face whose vertices are all
+// inside: first the vertices, then what is around each, counter-clockwise, ends of edges s and,
+// of quads, vertices across faces d: at a vertex of valence n, n - 2 and n - 3.
 //
-//     s0--d---s1--d---s2       Catmull-Clark: vertex 0 has s0 d s1 d s2, all others s d s;
-//     |   |   |    \  /        the quads across the edges close up what is open between them
-//     d---s---3----2-s
-//                              Loop: the last s at a vertex is the first at the next one
+//     d---s---s---d         Loop: the last s at a vertex is the first at the next one,
+//     |   |   |   |         and so it is left out.
+//     s---3---2---s
+//     |   |   |   |
+//     s---0---1---s
+//     |   |   |   |
+//     d---s---s---d
 
-// The points that a net makes on the last level stand in blocks of four, the last ones of a part
-// filled up with copies: the vertices; each side; what is within, row by row. All in the order of
-// the kind, whose vertex 0 is another one of the face.
+// The points that a net makes stand in blocks of four, the last one of them repeated: the vertices,
+// side by side what is inside it, then what is within, row by row. All this is in the order of the
+// kind: the face may be turned against it.
 typedef struct sdv_spot {
     short row, column;                  // from the face's vertex 0
-    short owner;                        // its bit of sdv_patch's owned; 0: within, at index
-    short first;                        // first + row * sdv_row_length behind that of vertex 0
+    short owner;                        // its bit of sdv_patch's owned, or 0: within, where the
+    short first;                        // index is first + row * sdv_row_length behind vertex 0's
 } sdv_spot;
 
 typedef struct sdv_spots {
@@ -3834,7 +3837,7 @@ static void sdv_make_spots(int size, int n, int turn, int step, sdv_spot *first)
     for (; (spots.next - first) % 4; spots.next++) spots.next[0] = spots.next[-1];
 }
 
-// What is added from a row within a grid to the next, seen from this one.
+// How far the index of a point is behind the one below, but for what first says of triangles.
 static int sdv_row_length(const sdv_grid *grid, int row)
 {
     return grid->size - 1 - (grid->triangle ? row : 0);
@@ -3861,8 +3864,8 @@ static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch,
 
 typedef struct sdv_matrix {             // of a kind
     int    points;                      // of the net
-    float *weights;                     // [blocks][points / 2 * 2][4] but of the first; 0
-} sdv_matrix;
+    float *weights;                     // [blocks][points / 2 * 2][4] all but the first point's,
+} sdv_matrix;                           //                             and to make it even, 0
 
 typedef struct sdv_net {
     sdv_patch patch;                    // its place and what it writes
@@ -3877,7 +3880,7 @@ typedef struct sdv_nets {               // of one level
     int        *points;                 // work points
     sdv_matrix *matrices;
     int         blocks;
-    sdv_spot   *spots;                  // [step < 0][turn][4 * blocks]
+    sdv_spot   *spots;                  // [turn, those of step -1 behind][4 * blocks]
 } sdv_nets;
 
 // A kind pays for so many faces at least, with so many levels to go.
@@ -3887,14 +3890,14 @@ typedef struct sdv_nets {               // of one level
 #define SDV_LEAST_NET_DEPTH 2
 #define SDV_MOST_NET_DEPTH 3
 
-#define SDV_NET_VALENCE 20
-#define SDV_NET_POINTS 48               // at most
-#define SDV_KIND_WORDS 128
+#define SDV_NET_VALENCE 20              // at most
+#define SDV_NET_POINTS 48               // at most; so a kind has 57 words at most
+#define SDV_KIND_WORDS (2 * 57)
 
 // What a kind is: for each vertex its valence alone if all is smooth there, or with a sign; then
 // the bits of its sharpness, of the edge's that leads on from it, and of the other edges'.
 typedef struct sdv_kind_key {
-    int words[SDV_KIND_WORDS];          // twice, so that turning the face is starting elsewhere
+    int words[SDV_KIND_WORDS];          // twice: to turn the face is to start elsewhere
     int starts[9];                      // of each vertex
     int points;
 } sdv_kind_key;
@@ -3906,8 +3909,6 @@ typedef struct sdv_known_kind {
     int matrix;                         // or -1
 } sdv_known_kind;
 
-#define SDV_KIND_HASHES 1024
-
 // The kinds of a level.
 typedef struct sdv_kinds {
     sdv_context *context;
@@ -3915,7 +3916,7 @@ typedef struct sdv_kinds {
     const sdv_rules *rules;
     int levels;                         // to go
     unsigned char *valence;             // [vertex_count]  0: not known, 1: no net
-    int heads[SDV_KIND_HASHES];
+    int *heads, hashes;                 // [hashes] the first kind with a hash, or -1
     sdv_array items, words;             // sdv_known_kinds, their keys
 } sdv_kinds;
 
@@ -4007,7 +4008,7 @@ static int sdv_kind_number(sdv_kinds *kinds, const int *words, int count, int po
     uint32_t hash = 0;
     for (int i = 0; i < count; i++) hash = (hash ^ (uint32_t)words[i]) * 2654435761u;
     hash ^= hash >> 15;
-    int *head = &kinds->heads[hash % SDV_KIND_HASHES];
+    int *head = &kinds->heads[hash % (uint32_t)kinds->hashes];
     sdv_known_kind *items = (sdv_known_kind *)sdv_items(&kinds->items);
     int *all = (int *)sdv_items(&kinds->words);
     for (int i = *head; i >= 0; i = items[i].next)
@@ -4096,8 +4097,8 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
 static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_kind *kind,
                             sdv_nets *nets)
 {
-    int faces[4 * SDV_NET_POINTS], creases[2 * SDV_NET_POINTS], corners[4];
-    float crease_sharpness[SDV_NET_POINTS], corner_sharpness[4];
+    int faces[4 * SDV_NET_POINTS], creases[4 * SDV_NET_POINTS], corners[4];
+    float crease_sharpness[2 * SDV_NET_POINTS], corner_sharpness[4];
     int size = kinds->rules->loop ? 3 : 4, valence[4], starts[5];
     sdv_matrix *matrix = &nets->matrices[kind->matrix];
     const int *first = (const int *)sdv_items(&kinds->words) + kind->first, *words = first;
@@ -4153,7 +4154,7 @@ static void sdv_count_kinds(sdv_kinds *kinds, int size, sdv_kind_of *of)
 {
     const sdv_level *level = kinds->level;
     sdv_kind_key key;
-    for (int i = 0; i < SDV_KIND_HASHES; i++) kinds->heads[i] = -1;
+    for (int i = 0; i < kinds->hashes; i++) kinds->heads[i] = -1;
     memset(kinds->valence, 0, (size_t)level->vertex_count);
     for (int f = 0; f < level->face_count && !kinds->context->result; f++) {
         int h = sdv_face_start(level, f), regular = sdv_face_end(level, f) - h == size;
@@ -4226,22 +4227,21 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
     for (int f = 0; f < level->face_count; f++) rough += level->rough[f];
     if (rough < SDV_NET_FACES) return;
     sdv_arena scratch = sdv_scratch();
-    sdv_kinds *kinds = SDV_NEW(context, &scratch, sdv_kinds, 1);
-    unsigned char *valence = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
+    sdv_kinds kinds;
+    memset(&kinds, 0, sizeof kinds);
+    kinds.context = context;
+    kinds.level = level;
+    kinds.rules = rules;
+    kinds.levels = nets->depth = levels;
+    kinds.hashes = rough;
+    kinds.heads = SDV_NEW(context, &scratch, int, rough);
+    kinds.valence = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
     sdv_kind_of *of = SDV_NEW(context, &scratch, sdv_kind_of, rough);
-    if (!context->result) {
-        memset(kinds, 0, sizeof *kinds);
-        kinds->context = context;
-        kinds->level = level;
-        kinds->rules = rules;
-        kinds->levels = nets->depth = levels;
-        kinds->valence = valence;
-        sdv_count_kinds(kinds, size, of);
-        sdv_choose_kinds(kinds, arena, nets);
-        if (!context->result) sdv_make_nets(kinds, level, size, of, nets);
-        sdv_array_free(&kinds->items);
-        sdv_array_free(&kinds->words);
-    }
+    if (!context->result) sdv_count_kinds(&kinds, size, of);
+    if (!context->result) sdv_choose_kinds(&kinds, arena, nets);
+    if (!context->result) sdv_make_nets(&kinds, level, size, of, nets);
+    sdv_array_free(&kinds.items);
+    sdv_array_free(&kinds.words);
     sdv_arena_free(&scratch);
 }
 
@@ -5986,7 +5986,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 // A net's points, relative to the first one: each channel of each in all four places.
 typedef struct sdv_net_values {
     sdv_four first[4], d[SDV_NET_POINTS][4];
-    int count;                          // even: of so many, without the first
+    int count;                          // of d, even: the last may be 0
 } sdv_net_values;
 
 static void sdv_spread(sdv_four a, sdv_four *channels)
