@@ -51,7 +51,10 @@
              >>refine    the one call, in two steps   >>animation  new values, same topology
              >>limit     points and normals of the    >>creases    from angles, groups, seams
                          limit surface                >>inspect    what a cage is made of, what
-             >>obj       reading and writing OBJ                   is odd about it
+             >>exact     the same at any (face, u, v)              is odd about it
+             >>tessellation  meshes of it, in any     >>stencils  points as weights of the
+                         pieces                       cage's vertices; points explained
+             >>obj       reading and writing OBJ
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
              >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
@@ -66,8 +69,11 @@
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
+             >>exact-surface  and anywhere between the points
+             >>tiles     grids and strips of triangles, see >>tessellation
+             >>stencils  all of them as weights
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
-             >>numbers  >>obj-read  >>obj-write  >>cleanup
+             >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
@@ -112,7 +118,7 @@
 
    WHAT IT DOES NOT DO (yet)
    -------------------------
-   Evaluation at (u, v). Never: GPU code, hierarchical edits, threads of its own, global state,
+   Never: GPU code, hierarchical edits, threads of its own, global state,
    printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
@@ -341,7 +347,11 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 // Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
 // it for positions every frame, and for whatever else the cage's vertices carry. A surface that
 // was prepared with opt->linear has the same order of points but interpolates straight, as for data
-// that must not overshoot.
+// that must not overshoot. For instance 5 weights a vertex, and a material a face:
+//
+//     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
+//     for (int f = 0; f < fine.face_count; f++)
+//         fine_material[f] = material[fine.cage_faces[f]];
 
 // What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
@@ -353,13 +363,14 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// Face-varying values: as with UVs, each vertex of each face has one of value_count values, indices
-// [sum of face sizes] (-1 in faces that have none), of any width and in any number of sets. They
-// are a surface of their own: evaluate takes [value_count] and makes [vertex_count] values, faces
-// gives the indices of the fine faces (-1 where there are none). Value i stays value i at the
-// first vertex that has it; vertices of the cage that share it have values of their own from
-// level 1 on, behind all others. Faces whose vertices do not all have values are none of its cage
-// faces. rule says what happens at seams, see subdiv_uv_rule. Errors as subdiv_prepare.
+// Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
+// more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
+// and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
+// [vertex_count] values, faces gives the indices of the fine faces (-1 where there are none). Value
+// i stays value i at the first vertex that has it; vertices of the cage that share it have values
+// of their own from level 1 on, behind all others. Faces whose vertices do not all have values are
+// none of its cage faces. rule says what happens at seams, see subdiv_uv_rule. Errors as
+// subdiv_prepare.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -446,6 +457,177 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // with a new array, which subdiv_mesh_free frees, also from a mesh whose other arrays are yours.
 // Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
+
+// --------------------------------------------------------------------------------- >>exact
+// The surface itself, at any point of any face: values, derivatives and normals, exactly, also at
+// and arbitrarily near to extraordinary vertices, creases and boundaries.
+//
+//     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
+//     void *scratch = malloc(subdiv_scratch_size(surface, 3));
+//     subdiv_evaluate_begin(surface, 3, cage.positions, 0, scratch, &opt);
+//     subdiv_evaluate_at(surface, 3, scratch, count, locations, &out, &opt);
+//
+// Faces of 3 and 4 vertices are those of the schemes below; vertex 0 is at u = v = 0:
+//
+//     3-----2       2             any other polygon under Catmull-Clark and bilinear: a quad for
+//     |     |       | \           each of its vertices, at the vertex, the middle of the edge that
+//   v |     |     v |   \         leads on from there, the centre, and the middle of the edge
+//     0-----1       0-----1       before, counter-clockwise
+//        u             u
+#define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
+
+typedef struct subdiv_location {
+    int   face, corner;               // from 0; corner: the vertex of an n-gon whose quad it is on,
+    float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
+} subdiv_location;
+
+// Where to put them: each an array of so many channels a location, or NULL.
+typedef struct subdiv_derivatives {
+    float *points, *du, *dv, *duu, *duv, *dvv;
+    float *normals;                   // [3] of length 1, or 0: of the first three channels
+    int    stride;                    // floats from location to location in all; 0: they are dense
+} subdiv_derivatives;
+
+// After subdiv_prepare with SUBDIV_EXACT and subdiv_evaluate_begin, as often as you like and on any
+// threads: scratch is only read. Derivatives are with respect to u and v. Where the first ones are
+// 0 or infinite, at an extraordinary vertex, they are their limits along the edges of the face in
+// units that shrink with the surface, as if the vertex were regular; at an infinitely sharp
+// corner or dart their lengths mean nothing. The second ones are 0 there. On a crease all belong
+// to the face. The dart of an infinite crease is where the surface around it ends up, which is not
+// where >>limit, as OpenSubdiv, puts it.
+//
+// Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
+// face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
+// give zeros. Errors, before anything is written: INDEX, ARGUMENT (u, v outside the face by more
+// than rounding, normals of fewer than 3 channels, a surface not prepared so); and MEMORY: samples
+// close to a vertex of high valence take some.
+SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
+                                            const void *scratch, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_derivatives *out,
+                                            const subdiv_options *opt);
+
+// ------------------------------------------------------------------------------ >>stencils
+// The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
+//
+//     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
+//
+// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6. Weights that are
+// no more than rounding of the others are left out. Stencils of a surface of face-varying values
+// have numbers of values as indices.
+typedef struct subdiv_stencils {
+    int     count;
+    size_t *offsets;                  // [count + 1]
+    int    *indices;                  // [offsets[count]]  rising in each stencil
+    float  *weights;                  // [offsets[count]]  of the point,
+    float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
+    void   *memory;                   // the library's own, one block
+} subdiv_stencils;
+
+// Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
+// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. The work
+// is that of the points asked for and a look at the cage's faces; scratch memory of up to 250
+// bytes a point, so take large results in pieces. Errors: ARGUMENT, INDEX, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt);
+
+// Of so many locations on a surface prepared with SUBDIV_EXACT: those of subdiv_evaluate_at, with
+// du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt);
+
+// Frees what the library made and zeroes the struct.
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
+
+// Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
+// it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
+// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
+// bytes are enough but for large faces and valences. Errors, which leave text empty: as
+// subdiv_refine, INDEX if there is no such point, TOO_LARGE if the text does not fit.
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt);
+
+// --------------------------------------------------------------------------- >>tessellation
+// A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
+// cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
+// the rates.
+//
+//     subdiv_tessellation how = {0};
+//     how.rate = 5;
+//     subdiv_tessellate(&fine, &cage, &how, &opt);
+
+// The rate of an edge, or 0: as if not asked. a, middle, b: points [3] of the edge on the limit, a
+// that of its lower-numbered vertex. Called once for each edge that has a surface, in order, by the
+// caller's thread.
+typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
+                                const float *b);
+
+// Zero it, fill what you want. What is 0 or NULL says nothing, and the next below decides:
+//     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
+//     a face     face_rates, the rates of its edges
+typedef struct subdiv_tessellation {
+    int  rate;                        // of everything
+    const int *edge_rates;            // [edge count] edges are numbered as in THE ORDER OF THE
+                                      // RESULT: subdiv_surface_edges lists them
+    const int *face_rates;            // [face_count of the cage]
+    subdiv_edge_rate edge_rate;
+    void *user;                       // handed to edge_rate
+    int   triangles;                  // cut quads, from their first vertex to their third
+} subdiv_tessellation;
+
+// fine: a mesh with limit positions, normals, cage_faces, UVs (seams respected) and colours, both
+// on their limit, and the statements; holes are left out, or with opt->keep_holes listed. It has
+// no creases and corners: it is no cage for more of the same.
+//
+// Its points are in THE ORDER OF THE RESULT, each edge with rate - 1 points inside. The inside of a
+// face is a grid: of a quad c x r pieces, c the larger rate of edges 0-1 and 2-3, r that of the
+// two others; of a triangle under Loop r pieces a side, r the largest rate of its edges; of any
+// other polygon half of that, rounded up, a side of each of its quads. Or face_rates says r, and c.
+// The grid's points are those that are not on the edges, row by row as there.
+//
+// If the edges are all cut as the grid is, the faces are those of the grid, as there: so one rate
+// 2^k gives the points and faces of subdiv_refine by k levels with opt->limit. (A polygon that is
+// no quad needs even rates for that; at rate 1 it becomes a fan around its centre.) Otherwise the
+// grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones; behind what is
+// left stand, side by side from edge 0-1 on, triangles, and quads where two pieces are opposite:
+//
+//     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
+//     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
+//     o---+---+---+---o       triangle
+//     |   |   |   |   |
+//     o---+---+---+---o
+//     |   |   |   |   |
+//     o---+---+---+---o
+//     | / \ /   \ / \ |
+//     o----o-----o----o
+//
+// Points of vertices and edges are computed once, on the first face that has them and is no hole:
+// a normal on a crease is that of the surface on that side. Where there is no surface, by boundary
+// "none", there are neither points nor faces, but for the vertices.
+//
+// fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
+// Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
+// faces.
+SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
+                                           const subdiv_tessellation *how,
+                                           const subdiv_options *opt);
+
+// The same from a surface prepared for SUBDIV_EXACT levels, as often as you like, for positions
+// [3 * cage vertex_count]. Error ARGUMENT: it was prepared for something else.
+SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
+                                                   const subdiv_surface *surface,
+                                                   const float *positions,
+                                                   const subdiv_tessellation *how,
+                                                   const subdiv_options *opt);
+
+// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
+// a surface of 0 levels. Under opt->triangulate, of the triangles.)
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
@@ -545,7 +727,9 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
 //     f v/vt/vn ...                        in all forms, with negative indices, before or behind
 //                                          what it names; any number of vertices
-//     g o s usemtl mtllib                  kept as they stand, with the face that follows
+//     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
+//                                          a comment if blanks are around it: "Material #25" is a
+//                                          name
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
@@ -554,7 +738,8 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
 // The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
-// all of theirs, with one warning for all such faces. Normals are passed over, their indices too.
+// all of theirs, with one warning for those that name some vt and one for those that name none.
+// Normals are passed over, their indices too.
 // Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
 // are skipped, and how many points and lines, free-form and unknown statements were. What would
 // change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
@@ -643,6 +828,7 @@ typedef __m128 sdv_four;
 static sdv_four sdv_load(const float *p)               { return _mm_loadu_ps(p); }
 static void     sdv_store(float *p, sdv_four a)        { _mm_storeu_ps(p, a); }
 static sdv_four sdv_all(float x)                       { return _mm_set1_ps(x); }
+static sdv_four sdv_of(float a, float b, float c, float d) { return _mm_setr_ps(a, b, c, d); }
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
@@ -651,6 +837,14 @@ static void     sdv_store_three(float *p, sdv_four a)
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
+    __m128 low = _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab));
+    ab = _mm_unpackhi_ps(a, b);
+    cd = _mm_unpackhi_ps(c, d);
+    return _mm_add_ps(low, _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab)));
+}
 #elif defined(__ARM_NEON) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
@@ -658,6 +852,11 @@ typedef float32x4_t sdv_four;
 static sdv_four sdv_load(const float *p)               { return vld1q_f32(p); }
 static void     sdv_store(float *p, sdv_four a)        { vst1q_f32(p, a); }
 static sdv_four sdv_all(float x)                       { return vdupq_n_f32(x); }
+static sdv_four sdv_of(float a, float b, float c, float d)
+{
+    float x[4] = { a, b, c, d };
+    return vld1q_f32(x);
+}
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
@@ -666,6 +865,15 @@ static void     sdv_store_three(float *p, sdv_four a)
     vst1_f32(p, vget_low_f32(a));
     vst1q_lane_f32(p + 2, a, 2);
 }
+static float32x2_t sdv_pairs(float32x4_t a)
+{
+    return vpadd_f32(vget_low_f32(a), vget_high_f32(a));
+}
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    return vcombine_f32(vpadd_f32(sdv_pairs(a), sdv_pairs(b)),
+                        vpadd_f32(sdv_pairs(c), sdv_pairs(d)));
+}
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #define SDV_SIMD
@@ -673,6 +881,7 @@ typedef v128_t sdv_four;
 static sdv_four sdv_load(const float *p)               { return wasm_v128_load(p); }
 static void     sdv_store(float *p, sdv_four a)        { wasm_v128_store(p, a); }
 static sdv_four sdv_all(float x)                       { return wasm_f32x4_splat(x); }
+static sdv_four sdv_of(float a, float b, float c, float d) { return wasm_f32x4_make(a, b, c, d); }
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
@@ -680,6 +889,15 @@ static void     sdv_store_three(float *p, sdv_four a)
 {
     wasm_v128_store64_lane(p, a, 0);
     wasm_v128_store32_lane(p + 2, a, 2);
+}
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    v128_t even = wasm_f32x4_add(wasm_i32x4_shuffle(a, b, 0, 2, 4, 6),
+                                 wasm_i32x4_shuffle(a, b, 1, 3, 5, 7));
+    v128_t odd = wasm_f32x4_add(wasm_i32x4_shuffle(c, d, 0, 2, 4, 6),
+                                wasm_i32x4_shuffle(c, d, 1, 3, 5, 7));
+    return wasm_f32x4_add(wasm_i32x4_shuffle(even, odd, 0, 2, 4, 6),
+                          wasm_i32x4_shuffle(even, odd, 1, 3, 5, 7));
 }
 #endif
 
@@ -708,6 +926,12 @@ static sdv_four sdv_all(float x)
     return a;
 }
 
+static sdv_four sdv_of(float a, float b, float c, float d)
+{
+    sdv_four four = { { a, b, c, d } };
+    return four;
+}
+
 static sdv_four sdv_plus(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] += b.x[i];
@@ -723,6 +947,15 @@ static sdv_four sdv_minus(sdv_four a, sdv_four b)
 static sdv_four sdv_times(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] *= b.x[i];
+    return a;
+}
+
+// Lane i: the sum of all lanes of vector number i, (0 + 1) + (2 + 3).
+static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    sdv_four four[4] = { a, b, c, d };
+    for (int i = 0; i < 4; i++)
+        a.x[i] = (four[i].x[0] + four[i].x[1]) + (four[i].x[2] + four[i].x[3]);
     return a;
 }
 #endif
@@ -1155,7 +1388,7 @@ static size_t sdv_find_endless(const float *numbers, size_t count)
 
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
 {
-    for (int f = 0; f < mesh->face_count; f++) {
+    for (int f = 0; f < (mesh->face_size > 2 ? 0 : mesh->face_count); f++) {
         int size = sdv_face_size(mesh, f);
         if (size < 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_FACE, f, -1, "face %d has %d vertices", f, size);
@@ -1475,11 +1708,12 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
 // Lists the face-vertices at each vertex, in rising order.
 static void sdv_level_lists(sdv_level *level)
 {
-    for (int v = 0; v < level->vertex_count; v++) level->vertex_first[v] = -1;
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next;
+    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
     for (int h = level->face_vertex_count - 1; h >= 0; h--) {
-        int *first = &level->vertex_first[level->face_vertices[h]];
-        level->vertex_next[h] = *first;
-        *first = h;
+        next[h] = first[vertices[h]];
+        first[vertices[h]] = h;
     }
 }
 
@@ -1505,58 +1739,75 @@ static int sdv_joins(const sdv_level *level, int h, int a, int b)
     return (from == a && to == b) || (from == b && to == a);
 }
 
-// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence.
+// The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of two
+// with as many faces the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
 {
-    return level->vertex_faces[a] <= level->vertex_faces[b] ? a : b;
+    int more = level->vertex_faces[a] - level->vertex_faces[b];
+    return more < 0 || (more == 0 && a < b) ? a : b;
 }
 
-// Takes h as one more of the ring of edge e, which starts at first and ends at last, and returns
-// the new last. A face has an edge once: its later ones are left for edges of their own, -2.
-static int sdv_join_edge(sdv_cage *cage, int e, int first, int last, int h)
+typedef struct sdv_listed_edge {        // at its smaller end
+    int other;                          // the other end
+    int next;                           // the next edge there, or -1
+    int last;                           // the last face-vertex of its ring so far
+} sdv_listed_edge;
+
+// An edge begins with face-vertex h.
+static int sdv_new_edge(sdv_level *level, int h)
 {
-    sdv_level *level = &cage->level;
-    if (h <= first || level->face_edges[h] != -1) return last;
-    if (sdv_face_of(level, h) == sdv_face_of(level, last)) {
-        int before = first, later = h > last ? h : last;
-        cage->edge_nonmanifold[e] = 1;
-        level->face_edges[later] = -2;
-        if (later == h) return last;
-        while (level->across[before] != last) before = level->across[before];
-        last = before;
-    }
-    if (last != first || level->face_vertices[h] == level->face_vertices[first])
-        cage->edge_nonmanifold[e] = 1;
+    int e = level->edge_count++;
     level->face_edges[h] = e;
+    level->edge_first[e] = h;
+    level->across[h] = h;
+    return e;
+}
+
+// Takes h as one more of the ring of edge e, behind the last one.
+static void sdv_join_edge(sdv_level *level, int e, int last, int h)
+{
+    level->face_edges[h] = e;
+    level->across[h] = level->across[last];
     level->across[last] = h;
-    level->across[h] = first;
-    return h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
-// ends are the same vertex, or when one face has it twice: then each time is an edge of its own.
-static void sdv_cage_edges(sdv_cage *cage)
+// ends are the same vertex, or when one face has it twice: then each later time is an edge of its
+// own.
+static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
-    for (int h = 0; h < level->face_vertex_count; h++) level->face_edges[h] = -1;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (level->face_edges[h] >= 0) continue;
-        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
-        int e = level->edge_count++, last = h, alone = a == b || level->face_edges[h] == -2;
-        level->face_edges[h] = e;
-        level->edge_first[e] = h;
-        level->across[h] = h;
-        cage->edge_nonmanifold[e] = (unsigned char)alone;
-        if (alone) continue;
-        int v = sdv_smaller_end(level, a, b), other = a + b - v;
-        for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
-            int p = sdv_previous(level, k);
-            if (level->face_vertices[p] == other) last = sdv_join_edge(cage, e, h, last, p);
-            if (level->face_vertices[sdv_next(level, k)] == other)
-                last = sdv_join_edge(cage, e, h, last, k);
+    const int *vertices = level->face_vertices;
+    sdv_arena scratch = sdv_scratch();
+    int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
+    sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        for (int h = start; h < end; h++) {
+            int a = vertices[h], b = vertices[h + 1 < end ? h + 1 : start];
+            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
+            while (e >= 0 && edges[e].other != other) e = edges[e].next;
+            if (a == b) {
+                cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else if (e < 0) {
+                e = sdv_new_edge(level, h);
+                edges[e].other = other;
+                edges[e].next = listed[v];
+                edges[e].last = h;
+                listed[v] = e;
+            } else if (edges[e].last >= start) {
+                cage->edge_nonmanifold[e] = cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else {
+                int first = level->edge_first[e], last = edges[e].last;
+                if (last != first || vertices[first] == a) cage->edge_nonmanifold[e] = 1;
+                sdv_join_edge(level, e, last, h);
+                edges[e].last = h;
+            }
         }
     }
+    sdv_arena_free(&scratch);
 }
 
 // The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
@@ -1631,21 +1882,6 @@ static int sdv_is_fan(const sdv_level *level, int v)
     return met == level->vertex_faces[v];
 }
 
-static void sdv_find_nonmanifold_vertices(sdv_cage *cage)
-{
-    const sdv_level *level = &cage->level;
-    unsigned char *nonmanifold = cage->vertex_nonmanifold;
-    memset(nonmanifold, 0, (size_t)level->vertex_count);
-    for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (!cage->edge_nonmanifold[e]) continue;
-        nonmanifold[level->face_vertices[h]] = 1;
-        nonmanifold[level->face_vertices[sdv_next(level, h)]] = 1;
-    }
-    for (int v = 0; v < level->vertex_count; v++)
-        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
-}
-
 static void sdv_sharpen_edge(sdv_level *level, int e, float sharpness)
 {
     int first = level->edge_first[e], h = first;
@@ -1684,7 +1920,10 @@ static int sdv_is_boundary(const sdv_level *level, int h)
     return level->across[h] == h;
 }
 
-// Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole.
+// Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole, and is
+// no part of the surface either.
+#define SDV_DROPPED 2
+
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
@@ -1693,7 +1932,7 @@ static void sdv_open_boundary(sdv_cage *cage)
         int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
         for (int i = 0; i < 2; i++)
             for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
-                cage->hole[sdv_face_of(level, k)] = 1;
+                cage->hole[sdv_face_of(level, k)] = SDV_DROPPED;
     }
 }
 
@@ -1730,23 +1969,25 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
+    unsigned char *nonmanifold = cage->vertex_nonmanifold;
+    memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e];
-        if (level->sharpness[h] < SUBDIV_INFINITE &&
-            (cage->edge_nonmanifold[e] || sdv_is_boundary(level, h)))
+        int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
+        if (level->sharpness[h] <= 0 && !odd && !sdv_is_boundary(level, h)) continue;
+        int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+        if (odd) nonmanifold[a] = nonmanifold[b] = 1;
+        if (level->sharpness[h] < SUBDIV_INFINITE && (odd || sdv_is_boundary(level, h)))
             sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
+        if (!nonmanifold[v] && !sdv_is_fan(level, v)) nonmanifold[v] = 1;
         if (level->vertex_sharpness[v] >= SUBDIV_INFINITE) continue;
         int single = boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER && level->vertex_faces[v] == 1 &&
                      sdv_count_edges_at(cage, v).count == 2;
-        if (single || (cage->vertex_nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
+        if (single || (nonmanifold[v] && !sdv_is_nonmanifold_crease(cage, v)))
             level->vertex_sharpness[v] = SDV_IMPLIED;
     }
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (level->sharpness[h] > 0)
-            level->creased[level->face_vertices[h]] =
-                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // Faces, as face-vertices; starts and faces of face-vertices where sizes are not all 3 or all 4.
@@ -1793,12 +2034,13 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
+    memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
     memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
     for (int h = 0; h < level->face_vertex_count; h++)
         level->vertex_faces[level->face_vertices[h]]++;
     sdv_level_lists(level);
-    sdv_cage_edges(cage);
-    sdv_find_nonmanifold_vertices(cage);
+    sdv_cage_edges(context, cage);
+    if (context->result) return;
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
     sdv_user_sharpness(context, scratch, cage, mesh);
@@ -2242,50 +2484,47 @@ static int sdv_is_ngon(const sdv_order *order, int f)
 
 // The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
 // vertex and, of a quad, the one before are seen from their other ends.
-static sdv_grid sdv_face_grid(const sdv_order *order, int h)
+static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
-    sdv_grid grid;
-    grid.size = order->n;
-    grid.triangle = order->loop;
-    grid.inside = sdv_first_inside(order, sdv_face_of(&order->cage, h));
-    for (int i = 0; i <= last; i++) grid.corner[i] = v[i];
-    grid.side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
-    grid.side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
-    grid.side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
-    grid.side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
-    return grid;
+    grid->size = order->n;
+    grid->triangle = order->loop;
+    grid->inside = sdv_first_inside(order, f);
+    for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
+    grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
+    grid->side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
+    grid->side[2] = sdv_seen_edge(order, e[2], v[2] <= v[last]);
+    grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
 // The quad at face-vertex h of an n-gon: vertex, middle of the edge, centre, middle of the edge
 // before. The second half of that edge is seen backwards.
-static sdv_grid sdv_ngon_grid(const sdv_order *order, int h)
+static void sdv_ngon_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
-    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), m = order->m;
+    int start = sdv_face_start(cage, f), m = order->m;
     int size = sdv_face_end(cage, f) - start, before = sdv_previous(cage, h);
     int centre = sdv_first_inside(order, f), spokes = centre + m;   // backwards from its edge
-    sdv_grid grid;
-    grid.size = m;
-    grid.triangle = 0;
-    grid.inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
-    grid.side[0] = sdv_edge_side(order, h, 0);
-    grid.side[3] = sdv_edge_side(order, before, 1);
-    grid.side[1].first = spokes + (h - start) * (m - 1);
-    grid.side[2].first = spokes + (before - start) * (m - 1);
-    grid.side[1].step = grid.side[2].step = -1;
-    grid.corner[0] = cage->face_vertices[h];
-    grid.corner[1] = grid.side[0].first + grid.side[0].step * m;
-    grid.corner[2] = centre;
-    grid.corner[3] = grid.side[3].first + grid.side[3].step * m;
-    return grid;
+    grid->size = m;
+    grid->triangle = 0;
+    grid->inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
+    grid->side[0] = sdv_edge_side(order, h, 0);
+    grid->side[3] = sdv_edge_side(order, before, 1);
+    grid->side[1].first = spokes + (h - start) * (m - 1);
+    grid->side[2].first = spokes + (before - start) * (m - 1);
+    grid->side[1].step = grid->side[2].step = -1;
+    grid->corner[0] = cage->face_vertices[h];
+    grid->corner[1] = grid->side[0].first + grid->side[0].step * m;
+    grid->corner[2] = centre;
+    grid->corner[3] = grid->side[3].first + grid->side[3].step * m;
 }
 
-static sdv_grid sdv_grid_at(const sdv_order *order, int h)
+static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
-    return sdv_is_ngon(order, sdv_face_of(&order->cage, h)) ? sdv_ngon_grid(order, h)
-                                                            : sdv_face_grid(order, h);
+    int f = sdv_face_of(&order->cage, h);
+    if (sdv_is_ngon(order, f)) sdv_ngon_grid(order, f, h, grid);
+    else sdv_face_grid(order, f, h, grid);
 }
 
 static int sdv_side_index(const sdv_grid *grid, int side, int t)
@@ -2346,16 +2585,14 @@ typedef struct sdv_row {
     int size, left, right;              // columns 0 to size
 } sdv_row;
 
-static sdv_row sdv_grid_points(const sdv_grid *grid, int row)
+static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
 {
     const int *corner = grid->corner;
     int n = grid->size, first = row == 0, last = row == n, top = grid->triangle ? 2 : 3;
-    sdv_row points;
-    points.size = grid->triangle ? n - row : n;
-    points.line = sdv_grid_line(grid, row);
-    points.left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
-    points.right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
-    return points;
+    points->size = grid->triangle ? n - row : n;
+    points->line = sdv_grid_line(grid, row);
+    points->left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
+    points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
 }
 
 // The fine faces between two rows of points, low and high: quads a b c d.
@@ -2410,7 +2647,9 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
 static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
 {
-    sdv_row low = sdv_grid_points(grid, row), high = sdv_grid_points(grid, row + 1);
+    sdv_row low, high;
+    sdv_grid_points(grid, row, &low);
+    sdv_grid_points(grid, row + 1, &high);
     return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
@@ -2420,7 +2659,8 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
     for (int h = start; h < start + grids; h++) {
-        sdv_grid grid = sdv_grid_at(order, h);
+        sdv_grid grid;
+        sdv_grid_at(order, h, &grid);
         for (int row = 0; row < grid.size; row++) out = sdv_grid_faces(&grid, row, out);
     }
     return out;
@@ -2690,18 +2930,23 @@ typedef struct sdv_split {
     int vertex_points, face_points, edge_points, faces;
 } sdv_split;
 
+// What face points need, and what the next level needs besides.
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
-    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     memset(split, 0, sizeof *split);
-    sdv_reserve(context, arena, 8 * ((size_t)level->face_vertex_count + vertices + faces) + 1024);
     split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
-    split->vertex = SDV_NEW(context, arena, int, level->vertex_count);
     split->face = SDV_NEW(context, arena, int, level->face_count);
+}
+
+static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                           sdv_split *split)
+{
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
+    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
+    split->vertex = SDV_NEW(context, arena, int, vertices);
     split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
-    split->child = SDV_NEW(context, arena, int,
-                           (size_t)level->face_vertex_count + (size_t)level->face_count);
+    split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
 }
 
 static void sdv_find_active(const sdv_level *level, sdv_split *split)
@@ -2714,13 +2959,26 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
     }
 }
 
+// Numbers the face points, of the faces that have an active vertex, from first on.
+static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
+{
+    int next = first;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - first;
+}
+
 // Numbers the children: each face-vertex has one where its vertex is active, and knows the
 // face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
 // that all descendants have their parent's orientation, and so with triangles; of any other polygon
 // it becomes vertex 0. The middle child of a triangle is there for two active vertices.
 static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
 {
-    int face = 0, point = 0, size = loop ? 3 : 4;
+    int face = 0, size = loop ? 3 : 4;
     for (int f = 0; f < level->face_count; f++) {
         int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
         int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
@@ -2731,20 +2989,17 @@ static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
             active++;
         }
         if (loop) child[3] = active >= 2 ? size * face++ : -1;
-        split->face[f] = active && !loop ? point++ : -1;
     }
     split->faces = face;
-    split->face_points = point;
 }
 
-// Numbers what the next level will have: vertex points, face points, edge points.
-static void sdv_number_points(const sdv_level *level, sdv_split *split)
+// Numbers what the next level will have: vertex points, face points (none under Loop), edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
 {
     int next = 0;
     for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
     split->vertex_points = next;
-    for (int f = 0; f < level->face_count; f++)
-        if (split->face[f] >= 0) split->face[f] += next;
+    if (!loop) sdv_number_face_points(level, split, next);
     next += split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++) {
         if (!sdv_is_edge(level, h)) continue;
@@ -2768,7 +3023,7 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         next->vertex_done[point] = level->vertex_done[v];
         next->vertex_faces[point] = level->vertex_faces[v];
     }
-    for (int f = 0; f < level->face_count; f++) {
+    for (int f = 0; f < level->face_count && !rules->loop; f++) {
         int point = split->face[f];
         if (point < 0) continue;
         next->vertex_sharpness[point] = 0;
@@ -2984,6 +3239,9 @@ static int sdv_control_points(const sdv_rules *rules)
 {
     return rules->loop ? 12 : 16;
 }
+
+// So many levels never end: then a patch's place is that of its face.
+#define SDV_FOREVER 1000
 
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
@@ -3202,7 +3460,7 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
-    if (stay < sharp && !dependent) {
+    if (stay < sharp && !dependent && levels != SDV_FOREVER) {
         int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
         if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
     }
@@ -3409,42 +3667,49 @@ static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_
     if (rules->linear) sdv_gather_linear(level, h, size, points);
     else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
     else sdv_gather_quad(level, h, patch, fan, points);
-    sdv_set_place(level, f, levels, patch);
+    sdv_set_place(level, f, levels == SDV_FOREVER ? 0 : levels, patch);
     return 1;
 }
 
 static void sdv_mark_edge(sdv_level *level, int h)
 {
+    unsigned char *done = level->edge_done;
+    const int *across = level->across;
     int k = h;
-    do level->edge_done[k] = 1;
-    while ((k = level->across[k]) != h);
+    do done[k] = 1;
+    while ((k = across[k]) != h);
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
 // has an edge or vertex writes its points, unless a level before did.
 static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h;
+    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h, owned = 0;
+    const int *vertices = level->face_vertices + h;
+    unsigned char *edges = level->edge_done + h, *done = level->vertex_done;
     for (int i = 0; i < size; i++) {
-        unsigned char *vertex = &level->vertex_done[level->face_vertices[h + i]];
-        int bit = size == 3 && i == 2 ? 3 : i, k = h + i;
-        patch->owned |= (unsigned char)(!level->edge_done[k] << bit | !*vertex << (4 + bit));
-        *vertex = 1;
-        sdv_mark_edge(level, k);
+        int bit = size == 3 && i == 2 ? 3 : i, v = vertices[i];
+        owned |= !done[v] << (4 + bit);
+        done[v] = 1;
+        if (edges[i]) continue;
+        owned |= 1 << bit;
+        sdv_mark_edge(level, h + i);
     }
+    patch->owned = (unsigned char)owned;
 }
 
 // The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
 static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
 {
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), free = 1;
-    if (end - start != size) return SDV_ROUGH;
-    for (int h = start; h < end; h++) {
-        unsigned char kind = kinds[level->face_vertices[h]];
-        if (kind == SDV_ROUGH) return SDV_ROUGH;
+    int start = sdv_face_start(level, f), rough = 0, free = 1;
+    const int *vertices = level->face_vertices + start;
+    if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
+    for (int i = 0; i < size; i++) {
+        unsigned char kind = kinds[vertices[i]];
+        rough |= kind == SDV_ROUGH;
         free &= kind == SDV_FREE;
     }
-    return free ? SDV_FREE : SDV_EDGED;
+    return rough ? SDV_ROUGH : free ? SDV_FREE : SDV_EDGED;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
@@ -3862,10 +4127,10 @@ static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch,
     return any >= 0;
 }
 
-typedef struct sdv_matrix {             // of a kind
+typedef struct sdv_net_matrix {             // of a kind
     int    points;                      // of the net
     float *weights;                     // [blocks][points / 2 * 2][4] all but the first point's,
-} sdv_matrix;                           //                             and to make it even, 0
+} sdv_net_matrix;                           //                             and to make it even, 0
 
 typedef struct sdv_net {
     sdv_patch patch;                    // its place and what it writes
@@ -3878,10 +4143,16 @@ typedef struct sdv_nets {               // of one level
     int         count, depth;           // depth: levels to go
     sdv_net    *items;                  // [count] in the order of cage faces
     int        *points;                 // work points
-    sdv_matrix *matrices;
+    sdv_net_matrix *matrices;
     int         blocks;
     sdv_spot   *spots;                  // [turn, those of step -1 behind][4 * blocks]
 } sdv_nets;
+
+static const sdv_spot *sdv_net_spots(const sdv_nets *nets, const sdv_net *net)
+{
+    int turn = net->turn + (net->patch.step < 0 ? 3 : 0);
+    return nets->spots + 4 * turn * nets->blocks;
+}
 
 // A kind pays for so many faces at least, with so many levels to go.
 #ifndef SDV_NET_FACES
@@ -4100,7 +4371,7 @@ static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_
     int faces[4 * SDV_NET_POINTS], creases[4 * SDV_NET_POINTS], corners[4];
     float crease_sharpness[2 * SDV_NET_POINTS], corner_sharpness[4];
     int size = kinds->rules->loop ? 3 : 4, valence[4], starts[5];
-    sdv_matrix *matrix = &nets->matrices[kind->matrix];
+    sdv_net_matrix *matrix = &nets->matrices[kind->matrix];
     const int *first = (const int *)sdv_items(&kinds->words) + kind->first, *words = first;
     subdiv_mesh net;
     memset(&net, 0, sizeof net);
@@ -4185,7 +4456,7 @@ static void sdv_choose_kinds(sdv_kinds *kinds, sdv_arena *arena, sdv_nets *nets)
     }
     nets->items = SDV_NEW(kinds->context, arena, sdv_net, count);
     nets->points = SDV_NEW(kinds->context, arena, int, points);
-    nets->matrices = SDV_NEW(kinds->context, arena, sdv_matrix, chosen);
+    nets->matrices = SDV_NEW(kinds->context, arena, sdv_net_matrix, chosen);
     nets->blocks = sdv_net_blocks(size, n);
     nets->spots = SDV_NEW(kinds->context, arena, sdv_spot, 2 * size * 4 * nets->blocks);
     for (int i = 0; i < 2 * size && !kinds->context->result; i++)
@@ -4266,6 +4537,8 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
+    sdv_arena points;                   // of what makes points alone: rows and patches
+    int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
@@ -4277,6 +4550,7 @@ struct subdiv_surface {
     sdv_masks masks;                    // of all rows
     sdv_limit_rows limit;               // of a limit, instead of last
     subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
+    struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     int       work_count;               // work points
     sdv_order order;
     int       face_count;               // all faces, also those without values
@@ -4307,22 +4581,24 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied; under Loop cut into triangles when the options ask for it: fans
-// around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
+// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for
+// it: fans around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
     size_t count = sdv_face_vertex_count(cage), triangles = count - 2 * (size_t)cage->face_count;
     int loop = cage->scheme == SUBDIV_LOOP, cut = 0;
-    for (int f = 0; loop && f < cage->face_count; f++) cut |= sdv_face_size(cage, f) != 3;
+    for (int f = 0; loop && cage->face_size != 3 && f < cage->face_count; f++)
+        cut |= sdv_face_size(cage, f) != 3;
     if (cut && triangles > INT_MAX) {
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the faces make too many triangles");
         return;
     }
     if (cut) count = 3 * triangles;
-    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
-    work->face_sizes = NULL;
     if (loop) work->face_size = 3;
+    if (work->face_size) work->face_sizes = NULL;
+    if (surface->borrows && !cut) return;
+    work->face_vertices = SDV_NEW(context, &surface->arena, int, count);
     if (!work->face_size)
         work->face_sizes = SDV_NEW(context, &surface->arena, int, cage->face_count);
     if (cut) surface->cage_face = SDV_NEW(context, &surface->arena, int, triangles);
@@ -4358,7 +4634,7 @@ static void sdv_cut_holes(sdv_context *context, subdiv_surface *surface, subdiv_
 
 static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
 {
-    for (int f = 0; f < cage->face_count; f++)
+    for (int f = 0; f < cage->face_count && cage->face_size != 3; f++)
         if (sdv_face_size(cage, f) != 3) {
             sdv_fail_mesh(context, SUBDIV_ERROR_NOT_TRIANGLE, f, -1,
                           "face %d has %d vertices, and Loop needs triangles",
@@ -4529,6 +4805,7 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
 {
     if (cage->vertex_faces[v] == 0) return 1;
     if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
+    if (!cage->creased[v] && cage->vertex_sharpness[v] <= 0) return 0;
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
@@ -4548,7 +4825,7 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
         count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
     if (count == 0) return;
     int faces = surface->cage_face_count ? surface->cage_face_count : 1;
-    sdv_begin_result(writer, &surface->arena, &surface->copies, 3 * (size_t)count, faces);
+    sdv_begin_result(writer, &surface->points, &surface->copies, 3 * (size_t)count, faces);
     if (writer->context->result) return;
     sdv_go_to_face(writer, 0);
     for (int v = 0; v < cage->vertex_count; v++)
@@ -4570,14 +4847,14 @@ static size_t sdv_row_blocks(int rows)
 // Face points become work points: behind the vertex points of the next level, or alone if the
 // next level is the last.
 static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_split *split,
-                           int last, sdv_writer *writer, sdv_step *step)
+                           sdv_writer *writer, sdv_step *step)
 {
-    int next = level->first_point + level->vertex_count - (last ? split->vertex_points : 0);
+    int next = level->first_point + level->vertex_count;
     size_t size = 0;
     for (int f = 0; f < level->face_count; f++)
         if (split->face[f] >= 0)
             size += 1 + (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
-    sdv_begin_rows(writer, &surface->arena, &step->faces, size,
+    sdv_begin_rows(writer, &surface->points, &step->faces, size,
                    sdv_row_blocks(split->face_points), next + split->vertex_points);
     for (int f = 0; f < level->face_count && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
@@ -4594,7 +4871,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     size_t size = 0;
     for (int v = 0; v < level->vertex_count; v++)
         if (split->active[v]) size += sdv_vertex_row_size(level, v, rules->loop);
-    sdv_begin_rows(writer, &surface->arena, &step->vertices, size,
+    sdv_begin_rows(writer, &surface->points, &step->vertices, size,
                    sdv_row_blocks(split->vertex_points), next);
     for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
         if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
@@ -4603,7 +4880,7 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
     next += split->vertex_points + split->face_points;
     for (int h = 0; h < level->face_vertex_count; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
-    sdv_begin_rows(writer, &surface->arena, &step->edges, size,
+    sdv_begin_rows(writer, &surface->points, &step->edges, size,
                    sdv_row_blocks(split->edge_points), next);
     for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
@@ -4624,7 +4901,7 @@ static void sdv_aim(sdv_targets *targets, int f)
     if (!level->places) return;
     targets->place = level->places[f];
     if (targets->place.h != targets->h)
-        targets->grid = sdv_grid_at(targets->order, targets->h = targets->place.h);
+        sdv_grid_at(targets->order, targets->h = targets->place.h, &targets->grid);
 }
 
 // So far from vertex 0, in segments of the last level.
@@ -4701,7 +4978,7 @@ static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer 
     for (int h = 0; h < level->face_vertex_count; h++)
         if (!level->edge_done[h] && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
     for (int f = 0; f < level->face_count && !order->loop; f++) size += 3 * (size_t)level->rough[f];
-    sdv_begin_result(writer, &surface->arena, &surface->last, size, surface->cage_face_count);
+    sdv_begin_result(writer, &surface->points, &surface->last, size, surface->cage_face_count);
     for (int f = 0; f < level->face_count && !writer->context->result; f++)
         if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
     if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
@@ -4847,7 +5124,7 @@ static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
     for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
         sdv_place place = level->places[f];
         if (!level->core[f]) continue;
-        if (place.h != h_grid) grid = sdv_grid_at(&surface->order, h_grid = place.h);
+        if (place.h != h_grid) sdv_grid_at(&surface->order, h_grid = place.h, &grid);
         sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
         for (int i = 0; i < size; i++) {
             int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
@@ -4879,11 +5156,11 @@ static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const
     limit.known = SDV_NEW(context, &scratch, int, known);
     limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
     for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
-    sdv_begin_result(writer, &surface->arena, &surface->limit.rows, size,
+    sdv_begin_result(writer, &surface->points, &surface->limit.rows, size,
                      surface->cage_face_count);
     sdv_write_limit(&limit, surface);
-    surface->limit.masks = SDV_NEW(context, &surface->arena, sdv_limit_weights, limit.masks.count);
-    surface->limit.weights = SDV_NEW(context, &surface->arena, float, limit.weights.count);
+    surface->limit.masks = SDV_NEW(context, &surface->points, sdv_limit_weights, limit.masks.count);
+    surface->limit.weights = SDV_NEW(context, &surface->points, float, limit.weights.count);
     if (!context->result) {
         sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
                  sizeof(sdv_limit_weights));
@@ -4906,20 +5183,22 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(writer, &surface->arena, level, rules, surface->levels - depth,
+    sdv_find_patches(writer, &surface->points, level, rules, surface->levels - depth,
                      &surface->patches[depth]);
     if (!context->result)
-        sdv_find_nets(context, &surface->arena, level, rules, surface->levels - depth,
+        sdv_find_nets(context, &surface->points, level, rules, surface->levels - depth,
                       &surface->nets[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     sdv_split_new(context, &scratch, level, &split);
+    if (!last) sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
         sdv_find_active(level, &split);
-        sdv_number_faces(level, &split, rules->loop);
-        sdv_number_points(level, &split);
-        sdv_step_faces(surface, level, &split, last, writer, step);
+        if (!last) sdv_number_faces(level, &split, rules->loop);
+        if (!last) sdv_number_points(level, &split, rules->loop);
+        else if (!rules->loop) sdv_number_face_points(level, &split, 0);
+        if (!rules->loop) sdv_step_faces(surface, level, &split, writer, step);
         surface->work_count += split.face_points;
         if (last) sdv_last_rows(surface, level, writer);
         else sdv_step_points(surface, level, &split, writer, step);
@@ -4929,6 +5208,22 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     if (!last && !context->result) surface->work_count = next->first_point + next->vertex_count;
     sdv_arena_free(&scratch);
 }
+
+// The masks that were written.
+static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
+{
+    size_t masks = writer->masks.count, weights = writer->weights.count;
+    surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, masks);
+    surface->masks.weights = SDV_NEW(context, &surface->points, float, weights);
+    if (context->result) return;
+    sdv_copy(surface->masks.items, sdv_items(&writer->masks), masks, sizeof(sdv_weights));
+    sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
+}
+
+// See >>exact-surface.
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
+static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                              const unsigned char *hole, sdv_arena *arena);
 
 // Level by level from the cage, whose arena it frees.
 static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -4955,17 +5250,11 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     if (surface->rules.limit && level.face_count && !context->result)
         sdv_prepare_limit(&writer, surface, &level);
-    surface->masks.items = SDV_NEW(context, &surface->arena, sdv_weights, writer.masks.count);
-    surface->masks.weights = SDV_NEW(context, &surface->arena, float, writer.weights.count);
-    surface->strips = SDV_NEW(context, &surface->arena, sdv_strips, writer.strips.count);
-    if (!context->result) {
+    surface->strips = SDV_NEW(context, &surface->points, sdv_strips, writer.strips.count);
+    if (!context->result)
         sdv_copy(surface->strips, sdv_items(&writer.strips), writer.strips.count,
                  sizeof(sdv_strips));
-        sdv_copy(surface->masks.items, sdv_items(&writer.masks), writer.masks.count,
-                 sizeof(sdv_weights));
-        sdv_copy(surface->masks.weights, sdv_items(&writer.weights), writer.weights.count,
-                 sizeof(float));
-    }
+    sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -4974,7 +5263,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
 static void sdv_set_order(subdiv_surface *surface)
 {
     sdv_order *order = &surface->order;
-    int n = 1 << surface->levels, vertices = surface->cage_vertex_count;
+    int n = surface->exact ? 1 : 1 << surface->levels, vertices = surface->cage_vertex_count;
     order->loop = surface->rules.loop;
     order->n = n;
     order->m = n / 2;
@@ -4998,6 +5287,13 @@ static void sdv_count_fine_faces(subdiv_surface *surface, int keep_holes)
         if (surface->hole[f] && keep_holes) fine->hole_count += parts;
     }
     surface->first_face[surface->face_count] = fine->face_count;
+}
+
+// SUBDIV_EXACT has no result: no points, no faces.
+static void sdv_no_result(subdiv_surface *surface)
+{
+    surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
+    surface->first_face = NULL;
 }
 
 // Level 0: everything as it is.
@@ -5037,6 +5333,7 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
     memset(surface, 0, sizeof *surface);
     surface->arena = arena;
     surface->levels = levels;
+    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface);
     return surface;
 }
 
@@ -5085,7 +5382,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     if (!context->result)
         sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
-    sdv_check_size(context, &shape, made->levels, seams.level.edge_count);
+    sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
         sdv_arena_free(&scratch);
         return;
@@ -5095,9 +5392,15 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->cage_face_count = seams.level.face_count;
     made->order.cage = seams.level;
     made->rules.linear |= values->rule == SUBDIV_UV_ALL;
-    made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES;
+    // In the limit the points inside straight edges need no care: they are on a straight crease.
+    made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES && !made->exact;
     made->rules.limit = 0;
     sdv_set_order(made);
+    if (made->exact) {
+        sdv_no_result(made);
+        sdv_prepare_exact(context, made, &seams.level, cage->hole, &scratch);
+        return;
+    }
     sdv_prepare_levels(context, made, &seams.level, &scratch);
 }
 
@@ -5191,7 +5494,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     sdv_copy_faces(context, surface, &work, cage);
     if (context->result) return;
     sdv_cut_holes(context, surface, &work, cage);
-    sdv_check_size(context, &work, surface->levels, -1);
+    sdv_check_size(context, &work, surface->exact ? 0 : surface->levels, -1);
     surface->cage_face_count = surface->face_count = work.face_count;
     if (made && surface->cage_face) {
         int *indices = SDV_NEW(context, &surface->arena, int, sdv_face_vertex_count(&work));
@@ -5206,15 +5509,20 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     }
 
     sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
-    sdv_check_size(context, &work, surface->levels, built.level.edge_count);
+    if (!surface->exact)
+        sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     sdv_new_levels(context, surface);
     surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
     if (!context->result) {
         sdv_set_rules(surface, cage, &built, opt);
         if (made) sdv_prepare_values(context, made, surface, &work, &built, &values);
     }
-    if (!context->result && !alone) {
-        sdv_surviving_sharpness(context, surface, &built.level);
+    if (!context->result && !alone && surface->exact) {
+        sdv_no_result(surface);
+        sdv_prepare_exact(context, surface, &built.level, built.hole, &scratch);
+    } else if (!context->result && !alone) {
+        if (work.crease_count || work.corner_count)
+            sdv_surviving_sharpness(context, surface, &built.level);
         sdv_prepare_levels(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
@@ -5225,14 +5533,15 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
 {
     if (surface) *surface = NULL;
     else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
+    if (levels < 0 && levels != SUBDIV_EXACT)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
     if (!context->result) sdv_check_mesh(context, cage);
     if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
         sdv_check_triangles(context, cage);
 }
 
-SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
-                                        int levels, const subdiv_options *opt)
+static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_mesh *cage,
+                                         int levels, int borrows, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_request(&context, surface, cage, levels, opt);
@@ -5243,14 +5552,21 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
-    made->rules.limit = opt && opt->limit;
+    made->rules.limit = opt && opt->limit && !made->exact;
+    made->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
-        context.result = subdiv_prepare(&made->at_level_1, cage, 1, opt);
+        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
+                                        int levels, const subdiv_options *opt)
+{
+    return sdv_prepare_surface(surface, cage, levels, 0, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
@@ -5300,7 +5616,8 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
     if (!context->result)
         context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
     for (int i = 0; i < nets->blocks && !context->result; i++) {
-        sdv_grid grid = sdv_grid_at(&surface->order, 0);
+        sdv_grid grid;
+        sdv_grid_at(&surface->order, 0, &grid);
         int first = sdv_inside_index(&grid, 0, 0), index[4];
         sdv_spot_indices(&grid, &all, first, sdv_row_length(&grid, 0), nets->spots + 4 * i, index);
         for (size_t j = 1; j <= points / 2 * 2; j++)
@@ -5318,6 +5635,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
+    sdv_arena_free(&surface->points);
     sdv_arena_free(&arena);
 }
 
@@ -5752,13 +6070,14 @@ static void sdv_quad_polynomial(const sdv_four *p, float hx2, float hy2, int lin
 }
 
 // The control points of a strip: across its crease, they are step apart, and lines of them next.
-static void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step, int next,
-                             sdv_four *p)
+static inline void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step,
+                                    int next, sdv_four *p)
 {
-    for (int i = 0; i < 4; i++, p += next) {
+    int low = strips->low > 0, high = strips->high > 0;
+    for (int i = 0; i < 4 && (low || high); i++, p += next) {
         sdv_four p0 = p[0], p1 = p[step], p2 = p[2 * step], p3 = p[3 * step];
-        if (!strip->smooth && strips->low > 0) p[0] = sdv_mirror(p1, p2);
-        if (!strip->smooth && strips->high > 0) p[3 * step] = sdv_mirror(p2, p1);
+        if (!strip->smooth && low) p[0] = sdv_mirror(p1, p2);
+        if (!strip->smooth && high) p[3 * step] = sdv_mirror(p2, p1);
         for (int j = 0; j < 4 && strip->smooth; j++) {
             const float *w = strip->rows[j];
             sdv_four outer = sdv_plus(sdv_times(sdv_all(w[0]), p0), sdv_times(sdv_all(w[3]), p3));
@@ -5968,7 +6287,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         if (nine && !patch->up) {
             sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
             continue;
@@ -6064,10 +6383,10 @@ static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_n
                         const sdv_net *net, const sdv_net_values *values)
 {
     const sdv_patch *patch = &net->patch;
-    int turn = net->turn + (patch->step < 0 ? 3 : 0), index[4];
+    int index[4];
     int first = sdv_inside_index(grid, patch->row, patch->column);
     int length = sdv_row_length(grid, patch->row);
-    const sdv_spot *spot = nets->spots + 4 * turn * nets->blocks;
+    const sdv_spot *spot = sdv_net_spots(nets, net);
     const float *weights = nets->matrices[net->kind].weights;
     for (int i = 0; i < nets->blocks; i++, weights += 4 * values->count, spot += 4)
         if (sdv_spot_indices(grid, patch, first, length, spot, index))
@@ -6083,7 +6402,7 @@ static void sdv_put_nets(const sdv_order *order, const sdv_nets *nets, const flo
     sdv_net_values values;
     for (int i = sdv_first_net(order, nets, face); i < last; i++) {
         const sdv_net *net = &nets->items[i];
-        if (net->patch.h != h) grid = sdv_grid_at(order, h = net->patch.h);
+        if (net->patch.h != h) sdv_grid_at(order, h = net->patch.h, &grid);
         sdv_load_net(nets->points + net->first, nets->matrices[net->kind].points, work, &values);
         sdv_put_net(out, &grid, nets, net, &values);
     }
@@ -6239,7 +6558,7 @@ static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *
     sdv_polynomial rise;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) grid = sdv_grid_at(order, h = patch->h);
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
         for (int j = 0; j < parts.count; j++) {
             sdv_make_part(&parts, j, &part);
@@ -6286,10 +6605,12 @@ static int sdv_share(int count, int i, int jobs)
     return (int)((int64_t)count * i / jobs);
 }
 
+#define SDV_MOST_JOBS 256
+
 static int sdv_jobs(int64_t work, int64_t least)
 {
     int64_t jobs = work / least;
-    return jobs > 256 ? 256 : jobs < 1 ? 1 : (int)jobs;
+    return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
 static void sdv_input_job(void *context, int job)
@@ -6297,12 +6618,13 @@ static void sdv_input_job(void *context, int job)
     const sdv_evaluation *e = (const sdv_evaluation *)context;
     int v = sdv_share(e->surface->cage_vertex_count, job, e->jobs);
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
-    for (; v < end; v++) {
-        int from = e->surface->source ? e->surface->source[v] : v;
-        const float *in = e->in + e->in_stride * (size_t)from;
-        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++) {
-            float *group = e->work + (size_t)(c / 4) * 4 * (size_t)e->surface->work_count;
-            group[4 * (size_t)v + (size_t)(c & 3)] = c < e->channels ? in[c] : 0;
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = e->channels - c;
+        float *out = e->work + (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
+        for (int i = v; i < end; i++, out += 4) {
+            int from = e->surface->source ? e->surface->source[i] : i;
+            const float *in = e->in + e->in_stride * (size_t)from + c;
+            for (int k = 0; k < 4; k++) out[k] = k < lanes ? in[k] : 0;
         }
     }
 }
@@ -6409,7 +6731,8 @@ SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
 
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 {
-    if (surface->levels == 0 || surface->cage_face_count == 0) return surface->fine.vertex_count;
+    if (surface->levels == 0 || surface->cage_face_count == 0 || surface->exact)
+        return surface->fine.vertex_count;
     return sdv_first_inside(&surface->order, cage_face);
 }
 
@@ -6419,8 +6742,14 @@ static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
     return surface->at_level_1 ? surface->at_level_1 : surface;
 }
 
+// See >>exact-surface.
+static size_t sdv_exact_size(const subdiv_surface *surface, int channels);
+static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
+                            size_t in_stride, void *scratch, const subdiv_options *opt);
+
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
+    if (surface->exact) return sdv_exact_size(surface, channels);
     surface = sdv_maker(surface);
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
@@ -6444,6 +6773,10 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, scratch, &in_stride);
     if (context.result) return context.result;
+    if (surface->exact) {
+        sdv_exact_begin(surface, channels, in, (size_t)in_stride, scratch, opt);
+        return SUBDIV_OK;
+    }
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.surface = sdv_maker(surface);
@@ -6453,6 +6786,14 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     evaluation.work = (float *)scratch;
     sdv_make_work(&evaluation, opt);
     return SUBDIV_OK;
+}
+
+// SUBDIV_EXACT has no points to make.
+static void sdv_check_result(sdv_context *context, const subdiv_surface *surface)
+{
+    if (!context->result && surface->exact)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
+                 "the surface was prepared with SUBDIV_EXACT, for subdiv_evaluate_at");
 }
 
 static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
@@ -6491,6 +6832,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
     sdv_context context = sdv_begin(opt);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_values(&context, surface, channels, scratch, &out_stride);
+    sdv_check_result(&context, surface);
     if (!context.result)
         sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
     if (context.result) return context.result;
@@ -6511,6 +6853,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
     sdv_arena arena = sdv_scratch();
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, out, &out_stride);
+    sdv_check_result(&context, surface);
     if (context.result) return context.result;
     if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
     if (!context.result)
@@ -6706,6 +7049,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else if (!surface->fine.face_size && surface->fine.face_count)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
+    sdv_check_result(&context, surface);
     if (!context.result) sdv_make_fine_faces(surface, face_vertices, cage_faces, opt);
     return context.result;
 }
@@ -6740,8 +7084,8 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     size_t count = 3 * (size_t)surface->cage_vertex_count;
     int huge = 0;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
-    for (size_t i = 0; i < count && !context->result && surface->levels > 0; i++)
-        huge |= fabs((double)(*positions)[i]) > FLT_MAX / 4096;
+    if (context->result || surface->levels == 0) return 1;
+    for (size_t i = 0; i < count; i++) huge |= fabsf((*positions)[i]) > FLT_MAX / 4096;
     if (!huge) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
@@ -6756,23 +7100,25 @@ static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surf
                                    const subdiv_options *opt)
 {
     subdiv_result result = SUBDIV_OK;
-    if (surface->uv) {
-        sdv_make_fine_faces(surface->uv, made->face_uvs, NULL, opt);
+    if (surface->uv)
         result = subdiv_evaluate(surface->uv, 2, surface->uvs, 2, made->uvs, 2, NULL, opt);
-    }
     if (surface->colors && !result)
         result = subdiv_evaluate(surface, 3, surface->colors, 3, made->colors, 3, NULL, opt);
     return result;
 }
 
-SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
-                                             const float *positions, const subdiv_options *opt)
+// once: the same surface if it makes nothing else, or NULL. What made its points is then freed
+// before the faces are written, so that both are never there together.
+static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                   subdiv_surface *once, const float *positions,
+                                   const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
     if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else if (surface->is_values)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
+    sdv_check_result(&context, surface);
     if (context.result) return context.result;
 
     subdiv_mesh made;
@@ -6784,18 +7130,29 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
         sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
         subdiv_limit out = { made.positions, made.normals, NULL, 0 };
-        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
-        sdv_fill_holes(surface, made.holes);
         context.result = limit ?
             subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
             subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
-    if (!context.result) sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
     sdv_arena_free(&arena);
+    if (once) sdv_arena_free(&once->points);
+    if (once && once->uv) sdv_arena_free(&once->uv->points);
+    if (!context.result) {
+        sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
+        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
+        if (surface->uv) sdv_make_fine_faces(surface->uv, made.face_uvs, NULL, opt);
+        sdv_fill_holes(surface, made.holes);
+    }
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                             const float *positions, const subdiv_options *opt)
+{
+    return sdv_make_mesh(fine, surface, NULL, positions, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
@@ -6813,11 +7170,2762 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
         if (fine && fine != cage) *fine = out;
         return context.result;
     }
-    subdiv_result result = subdiv_prepare(&surface, cage, levels, opt);
-    if (!result) result = subdiv_surface_mesh(&out, surface, cage->positions, opt);
+    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, opt);
+    if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
     *fine = out;
     return result;
+}
+
+// -------------------------------------------------------------------------- >>exact-surface
+// The limit surface anywhere. The cage is refined where it is not regular, until every face left
+// is a patch, whose polynomial is the surface, or in a nest: the faces around one irregular vertex
+// that look the same on every level from here on, half as large. They are the faces of a closed
+// ring, or those between two sharp edges.
+//
+//     +-------+-------+        Of the four children of a face in a nest, three are patches (p), the
+//     |       |       |        fourth is in the nest of the next level. Which points that level
+//     |   p   |   p   |        has and how they follow is the same at all such vertices, and is
+//     |       |       |        kept once: a nest kind. A sample near the vertex goes down from
+//     +---+---+-------+        nest to nest until it is on a patch; what the vertex itself has is
+//     | n | p |       |        subtracted and the rest doubled at every step, so that nothing
+//     +---+---+   p   |        gets lost, however near it is.
+//     | n | n |       |
+//     v---+---+-------+
+//
+// A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
+
+#define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
+#define SDV_NEST_LEVEL 4                // nests start there or deeper
+#define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
+
+// The powers of x and y of each coefficient.
+static const unsigned char sdv_powers[2][SDV_SLOTS][2] = {
+    { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
+      {0,2}, {1,2}, {2,2}, {3,2}, {0,3}, {1,3}, {2,3}, {3,3} },
+    { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
+      {0,2}, {1,2}, {0,3}, {1,3}, {0,4}, {4,0}, {0,0}, {0,0} } };
+
+// The coefficients of a patch from its control points. Patches with the same sharp edges share it.
+typedef struct sdv_matrix {
+    uint32_t key;
+    double weights[SDV_SLOTS][16];
+} sdv_matrix;
+
+// Points of a nest: the vertex; then of each face, counter-clockwise, as far as two faces away,
+//
+//     Catmull-Clark   5   4        Loop      .        the vertex v, and what continues the last
+//                     .   2   3              . 2      face of a nest that is no ring: its 0, 1.
+//                     v . 0 . 1              v 0 1
+typedef struct sdv_nest_kind {
+    int      faces, ring;
+    sdv_rule rule;                      // of the vertex; a dart's ring starts at its sharp edge
+    int      points;
+    int      work_count;                // the points, and those of the next level
+    sdv_step step;                      // which its rows make
+    int     *below;                     // [points] the same points of the next level's nest
+    int     *children;                  // [4 * faces] their patches; -1: in the nest
+    sdv_patches patches;
+    int     *matrices;                  // [patches.count]
+    double  *limit;                     // [3 * points] weights of the limit and of two tangents,
+                                        // of a smooth ring and a crease; NULL: none
+} sdv_nest_kind;
+
+typedef struct sdv_nest {
+    int kind, first;                    // where its points start
+} sdv_nest;
+
+typedef struct sdv_nest_face {
+    int nest, face, turn;               // the vertex of the nest is its vertex number turn
+} sdv_nest_face;
+
+typedef struct sdv_exact {
+    int patch_count;
+    int *nodes;                         // first those of faces, or of an n-gon's quads; a leaf is
+                                        // ~(2 patch) or ~(2 face of a nest + 1)
+    unsigned char *absent;              // [face_count] without surface; NULL: none
+    sdv_nest_kind *kinds;
+    int kind_count;
+    sdv_nest *nests;
+    int *nest_points;                   // work points
+    sdv_nest_face *nest_faces;
+    sdv_matrix *matrices;
+} sdv_exact;
+
+// While it is made.
+typedef struct sdv_exact_maker {
+    sdv_writer     *writer;
+    subdiv_surface *surface;
+    sdv_array nodes, kinds, nests, nest_points, nest_faces, matrices;
+    int      *slots;                    // [face_count of the level] their nodes
+} sdv_exact_maker;
+
+// The first node of a face, or the node of an n-gon's quad.
+static inline int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
+{
+    if (cage->face_size == (loop ? 3 : 4)) return f;
+    return sdv_face_start(cage, f) + corner;
+}
+
+// Appends count cleared items.
+static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, size_t item)
+{
+    void *room = sdv_array_room(context, array, count, item);
+    if (!room) return NULL;
+    memset(room, 0, count * item);
+    array->count += count;
+    return room;
+}
+
+// In the order of sdv_powers, for the channels of the polynomial.
+static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
+{
+    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
+    for (int k = 0; k < SDV_SLOTS; k++)
+        slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
+}
+
+static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
+                                 const float *points, sdv_polynomial *q)
+{
+    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    sdv_four p[16];
+    if (rules->loop) {
+        sdv_triangle_polynomial(patch, same, 0, rules->linear, points, q);
+        return;
+    }
+    sdv_load_points(same, 16, points, p);
+    q->origin = p[5];
+    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
+    sdv_quad_polynomial(p, 0, 0, rules->linear, q);
+}
+
+// What a patch makes of unit vectors, four at a time. All weights are multiples of 1/36, so that
+// rounding gives them back.
+static int sdv_find_matrix(sdv_exact_maker *maker, const sdv_patch *patch)
+{
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_matrix *known = (sdv_matrix *)sdv_items(&maker->matrices);
+    uint32_t key = patch->sharp;
+    for (int i = 0; i < 3; i++) key = key << 4 | patch->fan[i];
+    for (size_t i = 0; i < maker->matrices.count; i++) if (known[i].key == key) return (int)i;
+    sdv_matrix *matrix = (sdv_matrix *)sdv_append(maker->writer->context, &maker->matrices, 1,
+                                                  sizeof *matrix);
+    if (!matrix) return 0;
+    matrix->key = key;
+    for (int first = 0; first < sdv_control_points(rules); first += 4) {
+        float unit[64] = { 0 }, lanes[4];
+        sdv_polynomial q;
+        sdv_four slots[SDV_SLOTS];
+        for (int i = 0; i < 4; i++) unit[4 * (first + i) + i] = 1;
+        sdv_limit_polynomial(rules, patch, unit, &q);
+        q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
+        sdv_pack(&q, slots);
+        for (int k = 0; k < SDV_SLOTS; k++) {
+            sdv_store(lanes, slots[k]);
+            for (int i = 0; i < 4; i++)
+                matrix->weights[k][first + i] = floor(36 * (double)lanes[i] + 0.5) / 36;
+        }
+    }
+    return (int)maker->matrices.count - 1;
+}
+
+// The points of a nest whose first face is that of h, a face-vertex at its vertex.
+static void sdv_nest_points(const sdv_level *level, int h, int faces, int ring, int loop, int *out)
+{
+    *out++ = sdv_point_at(level, h);
+    for (int i = 0; i < faces; i++) {
+        int next = sdv_next(level, h), beside = level->across[next];
+        int outer = sdv_previous(level, beside), last = i + 1 == faces && !ring;
+        int tip = level->across[loop ? sdv_next(level, beside) : outer];
+        int end = loop ? level->across[outer] : level->across[sdv_next(level, next)];
+        *out++ = sdv_point_at(level, next);
+        if (loop) {
+            *out++ = sdv_point_at(level, sdv_previous(level, tip));
+            *out++ = sdv_point_at(level, outer);
+        } else {
+            *out++ = sdv_point_at(level, sdv_next(level, sdv_next(level, beside)));
+            *out++ = sdv_point_at(level, sdv_next(level, next));
+            *out++ = sdv_point_at(level, outer);
+            *out++ = sdv_point_at(level, sdv_next(level, sdv_next(level, tip)));
+            *out++ = sdv_point_at(level, sdv_previous(level, tip));
+        }
+        if (last) {
+            *out++ = sdv_point_at(level, sdv_previous(level, h));
+            *out++ = sdv_point_at(level, sdv_previous(level, end));
+        }
+        if (!last) h = sdv_around(level, h);
+    }
+}
+
+// The faces of a nest and those around it, as a mesh: for each face of the nest four faces.
+static void sdv_nest_mesh(const sdv_nest_kind *kind, int loop, int *faces)
+{
+    static const int quads[16] = { -1, 0, 2, 6, 0, 1, 3, 2, 2, 3, 4, 5, 6, 2, 5, 7 };
+    static const int triangles[12] = { -1, 0, 6, 0, 2, 6, 0, 1, 2, 6, 2, 7 };
+    int width = loop ? 3 : 6, size = loop ? 12 : 16;
+    for (int i = 0; i < kind->faces; i++) {
+        int first = 1 + width * i, next = i + 1 == kind->faces && kind->ring ? 1 : first + width;
+        for (int j = 0; j < size; j++) {
+            int k = loop ? triangles[j] : quads[j];         // 6, 7: the next face's 0, 1
+            *faces++ = k < 0 ? 0 : k < 6 ? first + k : next + k - 6;
+        }
+    }
+}
+
+// Weights of the limit and of tangents along the first edge and a quarter turn away, scaled so that
+// for a regular vertex they are the derivatives.
+static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nest_kind *kind,
+                           sdv_arena *arena, sdv_arena *scratch)
+{
+    int n = kind->faces, loop = rules->loop, width = loop ? 3 : 6, edges = n + !kind->ring;
+    double *t = SDV_NEW(context, scratch, double, 4 * (size_t)n + 8), *t0 = t, *t1 = t + 2 * n + 4;
+    sdv_mask mask = sdv_limit_mask(rules, kind->rule, n);
+    kind->limit = SDV_NEW(context, arena, double, 3 * (size_t)kind->points);
+    if (context->result) return;
+    if (kind->ring) sdv_smooth_tangents(n, loop, t0, t1);
+    else sdv_crease_tangents(n, loop, t0, t1);
+    double norm[2] = { 0, 0 }, wave = 4;
+    if (loop && !kind->ring) wave = 1 + 2 * cos(3.14159265358979323846 / n);
+    for (int i = 0; i < edges; i++) {
+        int inner = kind->ring || (i > 0 && i < n);
+        norm[0] += t0[1 + i] * t0[1 + i] / (kind->ring ? 4 : 1);
+        norm[1] += inner ? t1[1 + i] * t1[1 + i] / wave : 0;
+    }
+    for (int i = 0; i < n && !loop; i++)
+        for (int k = 0; k < 2; k++) norm[k] += t[k * (2 * n + 4) + 1 + edges + i] *
+                                               t[k * (2 * n + 4) + 1 + edges + i];
+    for (int k = 0; k < 3; k++) {
+        double *w = kind->limit + k * kind->points, *from = k == 1 ? t0 : t1;
+        double scale = k && norm[k - 1] > 0 ? 1 / norm[k - 1] : 1;
+        for (int i = 0; i < kind->points; i++) w[i] = 0;
+        w[0] = k ? scale * from[0] : mask.self;
+        for (int i = 0; i < edges; i++)
+            w[1 + width * i] = k ? scale * from[1 + i] :
+                               mask.edge + (i == 0 || i == n ? mask.crease : 0);
+        for (int i = 0; i < n && !loop; i++)
+            w[3 + width * i] = k ? scale * from[1 + edges + i] : mask.face;
+    }
+}
+
+// Which patches the children of a nest's faces are.
+static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const sdv_split *split,
+                              const sdv_level *next, sdv_arena *scratch)
+{
+    sdv_context *context = maker->writer->context;
+    int loop = maker->surface->rules.loop, count = 0;
+    int *patch = SDV_NEW(context, scratch, int, next->face_count);
+    kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
+    kind->matrices = SDV_NEW(context, &maker->surface->arena, int, kind->patches.count);
+    if (context->result) return;
+    for (int f = 0; f < next->face_count; f++)
+        patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
+    for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
+        kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
+    for (int i = 0; i < kind->patches.count && !context->result; i++)
+        kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
+}
+
+// Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
+// not one that both and their neighbours share as in the cage of a mesh.
+static void sdv_part_triangles(sdv_level *level, int dart)
+{
+    static const int pairs[2][2] = { { 1, 5 }, { 13, 17 } };
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            level->across[pairs[i][k]] = pairs[i][1 - k];
+            level->sharpness[pairs[i][k]] = 0;
+            level->vertex_sharpness[1 + 3 * i] = 0;
+            level->creased[1 + 3 * i] = (unsigned char)(dart && i == 0);
+        }
+}
+
+// Builds a kind: one step of refinement of a small mesh.
+static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
+{
+    int crease[4] = { 0, 1, 1, 2 };
+    float forever[2] = { SUBDIV_INFINITE, SUBDIV_INFINITE };
+    sdv_context *context = maker->writer->context;
+    subdiv_surface *surface = maker->surface;
+    const sdv_rules *rules = &surface->rules;
+    int loop = rules->loop, n = kind->faces;
+    sdv_arena scratch = sdv_scratch();
+    subdiv_mesh mesh;
+    sdv_cage cage;
+    sdv_split split;
+    sdv_level next;
+    memset(&mesh, 0, sizeof mesh);
+    kind->points = 1 + (loop ? 3 : 6) * n + (kind->ring ? 0 : 2);
+    mesh.vertex_count = kind->points;
+    mesh.face_count = 4 * n;
+    mesh.face_size = loop ? 3 : 4;
+    mesh.face_vertices = SDV_NEW(context, &scratch, int, 16 * (size_t)n);
+    mesh.crease_count = kind->rule == SDV_DART ? 2 : 0;
+    mesh.crease_vertices = crease;
+    mesh.corner_count = kind->rule == SDV_CORNER;
+    mesh.corner_vertices = crease;
+    mesh.crease_sharpness = mesh.corner_sharpness = forever;
+    if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
+    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
+    if (!context->result && loop && n == 2 && kind->ring)
+        sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
+    if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
+    if (!context->result) sdv_split_more(context, &scratch, &cage.level, &split);
+    kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
+    if (!context->result) {
+        for (int f = 0; f < 4 * n; f++) cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
+        memset(cage.level.vertex_done, 0, (size_t)kind->points);
+        memset(cage.level.edge_done, 0, (size_t)cage.level.face_vertex_count);
+        sdv_find_active(&cage.level, &split);
+        sdv_number_faces(&cage.level, &split, loop);
+        sdv_number_points(&cage.level, &split, loop);
+        if (!loop) sdv_step_faces(surface, &cage.level, &split, maker->writer, &kind->step);
+        sdv_step_points(surface, &cage.level, &split, maker->writer, &kind->step);
+    }
+    if (!context->result)
+        sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
+    if (!context->result) {
+        kind->work_count = next.first_point + next.vertex_count;
+        sdv_find_patches(maker->writer, &surface->arena, &next, rules, SDV_FOREVER,
+                         &kind->patches);
+    }
+    if (!context->result) {
+        sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
+        sdv_nest_children(maker, kind, &split, &next, &scratch);
+    }
+    if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
+        sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
+    sdv_arena_free(&scratch);
+}
+
+static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_rule rule)
+{
+    const sdv_nest_kind *known = (const sdv_nest_kind *)sdv_items(&maker->kinds);
+    sdv_nest_kind kind;
+    int count = (int)maker->kinds.count;
+    for (int i = 0; i < count; i++)
+        if (known[i].faces == faces && known[i].ring == ring && known[i].rule == rule) return i;
+    memset(&kind, 0, sizeof kind);
+    kind.faces = faces;
+    kind.ring = ring;
+    kind.rule = rule;
+    sdv_build_nest_kind(maker, &kind);
+    sdv_nest_kind *made = (sdv_nest_kind *)sdv_append(maker->writer->context, &maker->kinds, 1,
+                                                      sizeof kind);
+    if (made) *made = kind;
+    return count;
+}
+
+static int sdv_settled(float sharpness)
+{
+    return sharpness <= 0 || sharpness >= SUBDIV_INFINITE;
+}
+
+// Is nothing at a vertex semi-sharp?
+static int sdv_vertex_settled(const sdv_level *level, int v)
+{
+    int settled = sdv_settled(level->vertex_sharpness[v]);
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
+        settled &= sdv_settled(level->sharpness[h]) &&
+                   sdv_settled(level->sharpness[sdv_previous(level, h)]);
+    return settled;
+}
+
+// Is the vertex of h regular as seen from its face?
+static sdv_fan sdv_fan_at(const sdv_level *level, const sdv_rules *rules, int h)
+{
+    sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h], SDV_FOREVER);
+    return sdv_find_fan(level, kind, h, rules->loop);
+}
+
+// Are the neighbours in the faces from h on regular, creased only along the first and last edge?
+static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, int faces, int ring)
+{
+    int v = level->face_vertices[h], partner = level->partner ? level->partner[v] : -1;
+    if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
+        return 0;
+    for (int i = 0; i < faces; i++) {
+        int next = sdv_next(level, h), before = sdv_previous(level, h);
+        sdv_fan fan = sdv_fan_at(level, rules, next);
+        if (i > 0 || ring ? fan != SDV_FAN_RING : fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)
+            return 0;
+        if (rules->loop ? level->sharpness[next] > 0
+                        : sdv_fan_at(level, rules, sdv_next(level, next)) != SDV_FAN_RING) return 0;
+        fan = sdv_fan_at(level, rules, before);
+        if (i + 1 == faces && !ring && (fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)) return 0;
+        if (i + 1 < faces) h = sdv_around(level, h);
+    }
+    return 1;
+}
+
+// The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
+// number, or -2, at all its faces, and face_at where they stand in it. At a vertex that is not
+// manifold a crease may run apart from these faces: then they have none before the last level,
+// where the vertex has all but arrived.
+static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int depth, int h,
+                          int *at, int *face_at)
+{
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_context *context = maker->writer->context;
+    int first = h, faces = 1, i, number = -2;
+    while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
+    int ring = i == h;
+    for (i = first; (i = sdv_counter_clockwise(level, i)) >= 0 && i != first; ) faces++;
+    int last = first;
+    for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
+    sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
+    int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
+    int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
+    if ((!apart || depth + 1 == SDV_EXACT_LEVELS) &&
+        sdv_is_nest(level, rules, first, faces, ring)) {
+        if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
+        number = (int)maker->nests.count;
+        int kind = sdv_find_nest_kind(maker, faces, ring || dart, rule);
+        sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
+        if (context->result) return;
+        size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
+        nest->kind = kind;
+        nest->first = (int)maker->nest_points.count;
+        int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
+        if (points) sdv_nest_points(level, first, faces, ring || dart, rules->loop, points);
+    }
+    for (i = 0; i < faces; i++) {
+        at[first] = number;
+        face_at[first] = i;
+        if (i + 1 < faces) first = sdv_counter_clockwise(level, first);
+    }
+}
+
+// Turns the rough faces of nests into leaves.
+static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
+{
+    sdv_context *context = maker->writer->context;
+    sdv_arena scratch = sdv_scratch();
+    int *at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
+    int *face_at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) at[h] = -1;
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), found = -1;
+        for (int h = start; h < end && level->rough[f] && !context->result; h++) {
+            if (sdv_fan_at(level, &maker->surface->rules, h) != SDV_FAN_ROUGH) continue;
+            if (at[h] == -1) sdv_find_nest(maker, level, depth, h, at, face_at);
+            found = h;
+        }
+        if (found < 0 || context->result || at[found] < 0) continue;
+        int number = (int)maker->nest_faces.count;
+        sdv_nest_face *face = (sdv_nest_face *)sdv_append(context, &maker->nest_faces, 1,
+                                                          sizeof *face);
+        if (!face) continue;
+        face->nest = at[found];
+        face->face = face_at[found];
+        face->turn = found - start;
+        level->rough[f] = 0;
+        ((int *)sdv_items(&maker->nodes))[maker->slots[f]] = ~(2 * number + 1);
+    }
+    sdv_arena_free(&scratch);
+}
+
+// The nodes of the next level's faces.
+static void sdv_exact_children(sdv_exact_maker *maker, const sdv_level *level,
+                               const sdv_split *split, const sdv_level *next, sdv_arena *arena)
+{
+    sdv_context *context = maker->writer->context;
+    int loop = maker->surface->rules.loop, size = loop ? 3 : 4;
+    int *slots = SDV_NEW(context, arena, int, next->face_count);
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int start = sdv_face_start(level, f), count = sdv_face_end(level, f) - start;
+        int first = maker->slots[f];
+        if (!level->rough[f]) continue;
+        if (count == size) {
+            int four = (int)maker->nodes.count;
+            if (!sdv_append(context, &maker->nodes, 4, sizeof(int))) continue;
+            ((int *)sdv_items(&maker->nodes))[first] = four;
+            first = four;
+            count = 4;
+        }
+        for (int i = 0; i < count; i++)
+            slots[split->child[start + (loop ? f : 0) + i] / size] = first + i;
+    }
+    maker->slots = slots;
+}
+
+// Does the next level fit, with at most four children a face-vertex?
+static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *surface,
+                                 const sdv_level *level)
+{
+    double most = 4.0 * level->face_vertex_count + 4.0 * level->vertex_count;
+    if (most + surface->work_count > INT_MAX / 2)
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh make too many points");
+}
+
+// A level: its patches and nests become leaves; then the rows to the next level, if any face is
+// left.
+static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level, sdv_level *next,
+                            sdv_arena *next_arena)
+{
+    subdiv_surface *surface = maker->surface;
+    sdv_context *context = maker->writer->context;
+    sdv_patches *patches = &surface->patches[depth];
+    sdv_arena scratch = sdv_scratch();
+    sdv_split split;
+    int regular = level->face_size == (surface->rules.loop ? 3 : 4);
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, SDV_FOREVER,
+                     patches);
+    for (int f = 0; f < level->face_count && !context->result; f++)
+        if (level->core[f] && !level->rough[f])
+            ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
+                ~(2 * surface->exact->patch_count++);
+    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level, depth);
+    surface->work_count = level->first_point + level->vertex_count;
+    next->face_count = 0;
+    if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
+    SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
+    sdv_check_exact_size(context, surface, level);
+    sdv_split_new(context, &scratch, level, &split);
+    sdv_split_more(context, &scratch, level, &split);
+    if (!context->result) {
+        int loop = surface->rules.loop;
+        sdv_find_active(level, &split);
+        sdv_number_faces(level, &split, loop);
+        sdv_number_points(level, &split, loop);
+        if (!loop) sdv_step_faces(surface, level, &split, maker->writer, &surface->steps[depth]);
+        sdv_step_points(surface, level, &split, maker->writer, &surface->steps[depth]);
+    }
+    if (!context->result)
+        sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
+    if (!context->result) sdv_exact_children(maker, level, &split, next, next_arena);
+    sdv_arena_free(&scratch);
+}
+
+// Faces without a surface: dropped by boundary "none", or without values.
+static void sdv_find_absent(sdv_context *context, subdiv_surface *surface,
+                            const unsigned char *hole)
+{
+    int any = 0, faces = surface->face_count;
+    for (int f = 0; f < faces; f++)
+        any |= hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
+    if (!any) return;
+    unsigned char *absent = SDV_NEW(context, &surface->arena, unsigned char, faces);
+    surface->exact->absent = absent;
+    for (int f = 0; f < faces && absent; f++)
+        absent[f] = hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
+}
+
+static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *array, size_t item)
+{
+    void *kept = sdv_new(context, arena, array->count, item);
+    if (kept) sdv_copy(kept, sdv_items(array), array->count, item);
+    sdv_array_free(array);
+    return kept;
+}
+
+static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
+{
+    subdiv_surface *surface = maker->surface;
+    sdv_exact *exact = surface->exact;
+    sdv_arena *arena = &surface->arena;
+    exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
+    exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
+                                                   sizeof(sdv_nest_kind));
+    exact->kind_count = (int)maker->kinds.count;
+    exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
+    exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
+    exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
+                                                        sizeof(sdv_nest_face));
+    exact->matrices = (sdv_matrix *)sdv_keep_array(context, arena, &maker->matrices,
+                                                   sizeof(sdv_matrix));
+}
+
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
+{
+    surface->levels = SDV_EXACT_LEVELS;
+    surface->exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
+    if (surface->exact) memset(surface->exact, 0, sizeof *surface->exact);
+}
+
+static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                              const unsigned char *hole, sdv_arena *arena)
+{
+    sdv_arena next_arena = sdv_scratch();
+    sdv_level level = *cage, next = level;
+    sdv_writer writer;
+    sdv_exact_maker maker;
+    memset(&maker, 0, sizeof maker);
+    sdv_writer_new(context, &writer);
+    maker.writer = &writer;
+    maker.surface = surface;
+    maker.slots = SDV_NEW(context, arena, int, level.face_count);
+    sdv_append(context, &maker.nodes, (size_t)level.face_vertex_count, sizeof(int));
+    if (!context->result) {
+        memset(level.core, 1, (size_t)level.face_count);
+        memset(level.edge_done, 0, (size_t)level.face_vertex_count);
+        memset(level.vertex_done, 0, (size_t)level.vertex_count);
+        for (int f = 0; f < level.face_count; f++)
+            maker.slots[f] = sdv_face_node(&level, surface->rules.loop, f, 0);
+        sdv_level_fade(&level);
+        surface->work_count = level.vertex_count;
+        sdv_find_absent(context, surface, hole);
+    }
+    for (int i = 0; level.face_count && !context->result; i++) {
+        sdv_exact_level(&maker, i, &level, &next, &next_arena);
+        sdv_arena_free(arena);
+        *arena = next_arena;
+        next_arena = sdv_scratch();
+        level = next;
+    }
+    sdv_keep_exact(context, &maker);
+    sdv_keep_masks(context, surface, &writer);
+    sdv_writer_free(&writer);
+    sdv_arena_free(arena);
+}
+
+// The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
+// in their last digits alone; then the coefficients of each patch, channel by channel.
+typedef struct sdv_exact_memory {
+    double *work;                       // [4 * work_count] for every four channels
+    float  *patches;                    // [SDV_SLOTS * channels * patch_count]
+} sdv_exact_memory;
+
+static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
+{
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
+}
+
+static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
+{
+    return sizeof(double) + sdv_exact_work_size(surface, channels) +
+           SDV_SLOTS * sizeof(float) * (size_t)channels * (size_t)surface->exact->patch_count;
+}
+
+static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int channels, void *scratch)
+{
+    sdv_exact_memory memory;
+    size_t beyond = (size_t)((uintptr_t)scratch % sizeof(double));
+    char *base = (char *)scratch + (beyond ? sizeof(double) - beyond : 0);
+    memory.work = (double *)(void *)base;
+    memory.patches = (float *)(void *)(base + sdv_exact_work_size(surface, channels));
+    return memory;
+}
+
+// Rows as sdv_apply, in doubles.
+static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
+                           double *work)
+{
+    if (block == end) return;
+    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
+    const int *row = rows->items + rows->starts[block];
+    double *out = work + 4 * (size_t)(rows->first + first);
+    if (last > rows->count) last = rows->count;
+    for (int i = first; i < last; i++, out += 4) {
+        const sdv_weights *mask = &masks->items[row[0]];
+        const double *p0 = work + 4 * (size_t)row[1];
+        double sum[4] = { 0, 0, 0, 0 };
+        for (int j = 1; j < mask->count; j++) {
+            const double *p = work + 4 * (size_t)row[1 + j];
+            double w = mask->first < 0 ? (double)mask->even
+                                       : (double)masks->weights[mask->first + j];
+            for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
+        }
+        for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
+        row += 1 + mask->count;
+    }
+}
+
+// Jobs of an evaluation.
+typedef struct sdv_exact_evaluation {
+    const subdiv_surface *surface;
+    int channels;
+    const float *in;
+    size_t in_stride;
+    sdv_exact_memory memory;
+    int step, jobs;
+    int count;                          // locations, and where what is asked of each goes: value,
+    const subdiv_location *locations;   // du, dv, duu, duv, dvv; or NULL
+    float *out[6], *normals;
+    size_t stride, normal_stride;
+    int order;                          // of the highest derivative
+    unsigned char failed[256];          // jobs that got no memory
+    const subdiv_options *opt;
+} sdv_exact_evaluation;
+
+static void sdv_exact_input_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    const subdiv_surface *surface = e->surface;
+    int end = sdv_share(surface->cage_vertex_count, job + 1, e->jobs);
+    for (int v = sdv_share(surface->cage_vertex_count, job, e->jobs); v < end; v++) {
+        const float *in = e->in + e->in_stride * (size_t)(surface->source ? surface->source[v] : v);
+        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++)
+            e->memory.work[(size_t)(c / 4) * 4 * (size_t)surface->work_count + 4 * (size_t)v +
+                           (size_t)(c & 3)] = c < e->channels ? (double)in[c] : 0;
+    }
+}
+
+static void sdv_exact_share(const sdv_exact_evaluation *e, const sdv_rows *rows, int job)
+{
+    int blocks = (int)sdv_row_blocks(rows->count);
+    int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
+    for (int c = 0; c < e->channels; c += 4)
+        sdv_exact_rows(&e->surface->masks, rows, block, end,
+                       e->memory.work + (size_t)c * (size_t)e->surface->work_count);
+}
+
+static void sdv_exact_faces_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    sdv_exact_share(e, &e->surface->steps[e->step].faces, job);
+}
+
+static void sdv_exact_points_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    sdv_exact_share(e, &e->surface->steps[e->step].vertices, job);
+    sdv_exact_share(e, &e->surface->steps[e->step].edges, job);
+}
+
+// The polynomial of a patch from its work points, four channels or fewer.
+static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, const int *points,
+                            const double *work, int lanes, float *out)
+{
+    float relative[64], lane[4];
+    sdv_polynomial q;
+    sdv_four slots[SDV_SLOTS];
+    const double *origin = work + 4 * (size_t)points[rules->loop ? 4 : 5];
+    for (int i = 0; i < sdv_control_points(rules); i++)
+        for (int c = 0; c < 4; c++)
+            relative[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
+    sdv_limit_polynomial(rules, patch, relative, &q);
+    sdv_pack(&q, slots);
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        sdv_store(lane, slots[k]);
+        for (int c = 0; c < lanes; c++) out[SDV_SLOTS * c + k] = lane[c];
+    }
+    for (int c = 0; c < lanes; c++)
+        out[SDV_SLOTS * c] = (float)(origin[c] + (double)out[SDV_SLOTS * c]);
+}
+
+static void sdv_exact_patches_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    const subdiv_surface *surface = e->surface;
+    int first = sdv_share(surface->exact->patch_count, job, e->jobs);
+    int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs), base = 0;
+    size_t size = SDV_SLOTS * (size_t)e->channels;
+    size_t width = (size_t)sdv_control_points(&surface->rules);
+    for (int i = 0; i < surface->levels; base += surface->patches[i++].count) {
+        const sdv_patches *patches = &surface->patches[i];
+        int from = first > base ? first - base : 0, to = end - base;
+        if (to > patches->count) to = patches->count;
+        for (int k = from; k < to; k++)
+            for (int c = 0; c < e->channels; c += 4)
+                sdv_exact_patch(&surface->rules, &patches->items[k],
+                                patches->points + width * (size_t)k,
+                                e->memory.work + (size_t)c * (size_t)surface->work_count,
+                                e->channels - c < 4 ? e->channels - c : 4,
+                                e->memory.patches + size * (size_t)(base + k) +
+                                SDV_SLOTS * (size_t)c);
+    }
+}
+
+static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
+                            size_t in_stride, void *scratch, const subdiv_options *opt)
+{
+    sdv_exact_evaluation e;
+    memset(&e, 0, sizeof e);
+    e.surface = surface;
+    e.channels = channels;
+    e.in = in;
+    e.in_stride = in_stride;
+    e.memory = sdv_exact_parts(surface, channels, scratch);
+    e.jobs = sdv_jobs(surface->cage_vertex_count, 4096);
+    sdv_run(opt, sdv_exact_input_job, &e, e.jobs);
+    for (e.step = 0; e.step < surface->levels; e.step++) {
+        const sdv_step *step = &surface->steps[e.step];
+        e.jobs = sdv_jobs(step->faces.count, 4096);
+        sdv_run(opt, sdv_exact_faces_job, &e, e.jobs);
+        e.jobs = sdv_jobs(step->vertices.count + step->edges.count, 4096);
+        sdv_run(opt, sdv_exact_points_job, &e, e.jobs);
+    }
+    e.jobs = sdv_jobs(surface->exact->patch_count, 256);
+    sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
+}
+
+// The weights of the coefficients for a value and its derivatives at (x, y): first ones are scaled
+// by s, second ones by its square.
+static inline void sdv_quad_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+{
+    float xx = x * x, yy = y * y, ss = s * s;
+    sdv_four y1 = sdv_all(y), y2 = sdv_all(yy), y3 = sdv_all(y * yy), p = sdv_of(1, x, xx, x * xx);
+    w[0][0] = p;
+    w[0][1] = sdv_times(p, y1);
+    w[0][2] = sdv_times(p, y2);
+    w[0][3] = sdv_times(p, y3);
+    if (order == 0) return;
+    sdv_four along = sdv_of(0, s, 2 * s * x, 3 * s * xx);
+    sdv_four up = sdv_all(s), up2 = sdv_all(2 * s * y), up3 = sdv_all(3 * s * yy);
+    w[1][0] = along;
+    w[1][1] = sdv_times(along, y1);
+    w[1][2] = sdv_times(along, y2);
+    w[1][3] = sdv_times(along, y3);
+    w[2][0] = sdv_all(0);
+    w[2][1] = sdv_times(p, up);
+    w[2][2] = sdv_times(p, up2);
+    w[2][3] = sdv_times(p, up3);
+    if (order == 1) return;
+    sdv_four bend = sdv_of(0, 0, 2 * ss, 6 * ss * x);
+    w[3][0] = bend;
+    w[3][1] = sdv_times(bend, y1);
+    w[3][2] = sdv_times(bend, y2);
+    w[3][3] = sdv_times(bend, y3);
+    w[4][0] = w[5][0] = w[5][1] = sdv_all(0);
+    w[4][1] = sdv_times(along, up);
+    w[4][2] = sdv_times(along, up2);
+    w[4][3] = sdv_times(along, up3);
+    w[5][2] = sdv_times(p, sdv_all(2 * ss));
+    w[5][3] = sdv_times(p, sdv_all(6 * ss * y));
+}
+
+static inline void sdv_triangle_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+{
+    float xx = x * x, yy = y * y, ss = s * s;
+    w[0][0] = sdv_of(1, x, xx, x * xx);
+    w[0][1] = sdv_times(w[0][0], sdv_all(y));
+    w[0][2] = sdv_of(yy, x * yy, y * yy, x * (y * yy));
+    w[0][3] = sdv_of(yy * yy, xx * xx, 0, 0);
+    if (order == 0) return;
+    w[1][0] = sdv_of(0, s, 2 * s * x, 3 * s * xx);
+    w[1][1] = sdv_times(w[1][0], sdv_all(y));
+    w[1][2] = sdv_of(0, s * yy, 0, s * (y * yy));
+    w[1][3] = sdv_of(0, 4 * s * (x * xx), 0, 0);
+    w[2][0] = sdv_all(0);
+    w[2][1] = sdv_times(w[0][0], sdv_all(s));
+    w[2][2] = sdv_of(2 * s * y, 2 * s * (x * y), 3 * s * yy, 3 * s * (x * yy));
+    w[2][3] = sdv_of(4 * s * (y * yy), 0, 0, 0);
+    if (order == 1) return;
+    w[3][0] = sdv_of(0, 0, 2 * ss, 6 * ss * x);
+    w[3][1] = sdv_times(w[3][0], sdv_all(y));
+    w[3][2] = w[4][0] = w[4][3] = w[5][0] = w[5][1] = sdv_all(0);
+    w[3][3] = sdv_of(0, 12 * ss * xx, 0, 0);
+    w[4][1] = sdv_times(w[1][0], sdv_all(s));
+    w[4][2] = sdv_of(0, 2 * ss * y, 0, 3 * ss * yy);
+    w[5][2] = sdv_of(2 * ss, 2 * ss * x, 6 * ss * y, 6 * ss * (x * y));
+    w[5][3] = sdv_of(12 * ss * yy, 0, 0, 0);
+}
+
+// The sums of up to four channels.
+static inline sdv_four sdv_exact_sums(const float *data, int lanes, const sdv_four *w)
+{
+    sdv_four sum[4];
+    for (int i = 0; i < 4; i++) {
+        const float *p = data + SDV_SLOTS * (i < lanes ? i : 0);
+        if (i > 0 && i >= lanes) sum[i] = sum[0];
+        else sum[i] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[0]),
+                                        sdv_times(sdv_load(p + 4), w[1])),
+                               sdv_plus(sdv_times(sdv_load(p + 8), w[2]),
+                                        sdv_times(sdv_load(p + 12), w[3])));
+    }
+    return sdv_sums(sum[0], sum[1], sum[2], sum[3]);
+}
+
+// What is asked for of a patch, at location i, from the weights of values and derivatives.
+static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data,
+                             const sdv_four (*w)[4], size_t i)
+{
+    for (int k = 0; k < 6; k++)
+        for (int c = 0; c < e->channels && e->out[k]; c += 4) {
+            int lanes = e->channels - c < 4 ? e->channels - c : 4;
+            sdv_store_some(e->out[k] + e->stride * i + c,
+                           sdv_exact_sums(data + SDV_SLOTS * c, lanes, w[k]), lanes);
+        }
+}
+
+static void sdv_put_normal(const sdv_exact_evaluation *e, const float *data,
+                           const sdv_four (*w)[4], size_t i)
+{
+    float t[8];
+    sdv_store(t, sdv_exact_sums(data, 3, w[1]));
+    sdv_store(t + 4, sdv_exact_sums(data, 3, w[2]));
+    sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+}
+
+static inline void sdv_put_patch(const sdv_exact_evaluation *e, const float *data, int loop,
+                                 float x, float y, float s, size_t i)
+{
+    sdv_four w[6][4];
+    size_t at = e->stride * i;
+    if (loop) sdv_triangle_weights(x, y, s, e->order, w);
+    else sdv_quad_weights(x, y, s, e->order, w);
+    if (e->channels != 3 || e->order == 2) {
+        sdv_put_channels(e, data, (const sdv_four (*)[4])w, i);
+    } else {
+        if (e->out[0]) sdv_store_three(e->out[0] + at, sdv_exact_sums(data, 3, w[0]));
+        if (e->out[1]) sdv_store_three(e->out[1] + at, sdv_exact_sums(data, 3, w[1]));
+        if (e->out[2]) sdv_store_three(e->out[2] + at, sdv_exact_sums(data, 3, w[2]));
+    }
+    if (e->normals) sdv_put_normal(e, data, (const sdv_four (*)[4])w, i);
+}
+
+// Which child of a face, and where on it; a middle triangle is turned by half.
+static inline int sdv_descend_quad(double *x, double *y)
+{
+    int right = *x >= 0.5, up = *y >= 0.5;
+    *x = 2 * *x - right;
+    *y = 2 * *y - up;
+    return right ^ (up * 3);
+}
+
+static inline int sdv_descend_triangle(double *x, double *y, double *scale)
+{
+    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
+    *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
+    *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
+    if (child == 3) *scale = -*scale;
+    return child;
+}
+
+#define SDV_NEST_STACK 256              // work points; nests with more take memory
+
+// A sample in a nest, four channels at a time.
+typedef struct sdv_nest_sample {
+    const subdiv_surface *surface;
+    const sdv_nest_kind *kind;
+    int     face;
+    double  x, y;                       // as seen from the vertex
+    double *w;                          // [4 * work_count] points: (p - base) / shrink
+    double  base[4], shrink;
+    double  values[6][4];               // what comes out; derivatives are those in x and y
+    double  normal[2][4];               // tangents for the normal
+} sdv_nest_sample;
+
+static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
+{
+    const int *points = s->surface->exact->nest_points + nest->first;
+    for (int c = 0; c < 4; c++) s->base[c] = work[4 * (size_t)points[0] + (size_t)c];
+    for (int i = 0; i < s->kind->points; i++)
+        for (int c = 0; c < 4; c++)
+            s->w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
+    s->shrink = 1;
+}
+
+// The points of the next level.
+static void sdv_nest_refine(sdv_nest_sample *s)
+{
+    const sdv_masks *masks = &s->surface->masks;
+    const sdv_step *step = &s->kind->step;
+    const sdv_rows *rows[3] = { &step->faces, &step->vertices, &step->edges };
+    for (int i = 0; i < 3; i++)
+        sdv_exact_rows(masks, rows[i], 0, (int)sdv_row_blocks(rows[i]->count), s->w);
+}
+
+static void sdv_nest_go_down(sdv_nest_sample *s)
+{
+    const sdv_nest_kind *kind = s->kind;
+    sdv_nest_refine(s);
+    double vertex[4];
+    for (int c = 0; c < 4; c++) vertex[c] = s->w[4 * kind->below[0] + c];
+    for (int c = 0; c < 4; c++) s->base[c] += s->shrink * vertex[c];
+    for (int i = 0; i < kind->points; i++)
+        for (int c = 0; c < 4; c++)
+            s->w[4 * i + c] = 2 * (s->w[4 * kind->below[i] + c] - vertex[c]);
+    s->shrink /= 2;
+}
+
+// From the patch of a child, where (x, y) is not in the next nest.
+static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
+{
+    int loop = s->surface->rules.loop, count = loop ? 12 : 16;
+    double scale = 2;
+    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
+    int patch = s->kind->children[4 * s->face + child];
+    const sdv_matrix *matrix = &s->surface->exact->matrices[s->kind->matrices[patch]];
+    const int *points = s->kind->patches.points + count * patch;
+    double px[5] = { 1, x, x * x, x * x * x, x * x * x * x };
+    double py[5] = { 1, y, y * y, y * y * y, y * y * y * y };
+    memset(s->values, 0, sizeof s->values);
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        int i = sdv_powers[loop][k][0], j = sdv_powers[loop][k][1];
+        double c[4] = { 0, 0, 0, 0 };
+        for (int p = 0; p < count; p++)
+            for (int l = 0; l < 4; l++) c[l] += matrix->weights[k][p] * s->w[4 * points[p] + l];
+        double dx = i ? i * px[i - 1] : 0, dy = j ? j * py[j - 1] : 0;
+        double dxx = i > 1 ? i * (i - 1) * px[i - 2] : 0;
+        double dyy = j > 1 ? j * (j - 1) * py[j - 2] : 0;
+        double w[6] = { px[i] * py[j], scale * dx * py[j], scale * px[i] * dy, 4 * dxx * py[j],
+                        4 * dx * dy, 4 * px[i] * dyy };
+        for (int d = 0; d < 6; d++)
+            for (int l = 0; l < 4; l++) s->values[d][l] += w[d] * c[l];
+    }
+    for (int l = 0; l < 4; l++) {
+        s->values[0][l] = s->base[l] + s->shrink * s->values[0][l];
+        for (int d = 3; d < 6; d++) s->values[d][l] /= s->shrink;
+    }
+    memcpy(s->normal, s->values[1], sizeof s->normal);
+}
+
+// At the vertex itself: by the limit masks, if there are any. Else far down, along both edges and,
+// for the normal, between them. Second derivatives are 0.
+static void sdv_nest_masks(sdv_nest_sample *s)
+{
+    const sdv_nest_kind *kind = s->kind;
+    double sum[3][4], a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 4; c++) {
+            sum[k][c] = 0;
+            for (int i = 0; i < kind->points; i++)
+                sum[k][c] += kind->limit[k * kind->points + i] * s->w[4 * i + c];
+        }
+    for (int c = 0; c < 4; c++) {
+        s->values[0][c] = s->base[c] + sum[0][c];
+        for (int i = 0; i < 2; i++) {
+            s->values[1 + i][c] = cos((s->face + i) * a) * sum[1][c] +
+                                  sin((s->face + i) * a) * sum[2][c];
+            s->normal[i][c] = sum[1 + i][c];
+        }
+    }
+}
+
+static void sdv_nest_vertex(sdv_nest_sample *s)
+{
+    double along[2][4], normal[2][4];
+    if (s->kind->limit) {
+        sdv_nest_masks(s);
+    } else {
+        for (int i = 0; i < 100; i++) sdv_nest_go_down(s);
+        sdv_nest_refine(s);
+        for (int i = 0; i < 3; i++) {
+            sdv_nest_patch(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
+            if (i < 2) memcpy(along[i], s->values[1 + i], sizeof along[i]);
+            else memcpy(normal, s->normal, sizeof normal);
+        }
+        memcpy(s->values[1], along, sizeof along);
+        memcpy(s->normal, normal, sizeof normal);
+        memcpy(s->values[0], s->base, sizeof s->base);
+    }
+    memset(s->values[3], 0, 3 * sizeof s->values[3]);
+}
+
+static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
+{
+    double size = s->surface->rules.loop ? s->x + s->y : s->x > s->y ? s->x : s->y;
+    int down;
+    sdv_nest_load(s, nest, work);
+    if (size <= 0) {
+        sdv_nest_vertex(s);
+        return;
+    }
+    frexp(size, &down);
+    down = down > 0 ? 0 : -down;
+    for (int i = 0; i < down; i++) sdv_nest_go_down(s);
+    sdv_nest_refine(s);
+    sdv_nest_patch(s, ldexp(s->x, down), ldexp(s->y, down));
+}
+
+// What the coordinates of a face are as seen from its vertex number turn: those of row 2 i and
+// 2 i + 1 times (u, v), plus an offset.
+static const signed char sdv_turns[2][4][4] = {
+    { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
+    { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
+
+// Derivatives in u and v from those in x and y, with the scale of the face.
+static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
+{
+    double ss = scale * scale;
+    for (int c = 0; c < 4; c++) {
+        double dx = s->values[1][c], dy = s->values[2][c];
+        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
+        s->values[1][c] = scale * (t[0] * dx + t[2] * dy);
+        s->values[2][c] = scale * (t[1] * dx + t[3] * dy);
+        s->values[3][c] = ss * (t[0] * t[0] * dxx + 2 * t[0] * t[2] * dxy + t[2] * t[2] * dyy);
+        s->values[4][c] = ss * (t[0] * t[1] * dxx + (t[0] * t[3] + t[1] * t[2]) * dxy +
+                                t[2] * t[3] * dyy);
+        s->values[5][c] = ss * (t[1] * t[1] * dxx + 2 * t[1] * t[3] * dxy + t[3] * t[3] * dyy);
+    }
+}
+
+static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s, int c, size_t i)
+{
+    for (int k = 0; k < 6; k++)
+        for (int l = 0; l < 4 && c + l < e->channels && e->out[k]; l++) {
+            double value = s->values[k][l];
+            e->out[k][e->stride * i + (size_t)(c + l)] =
+                (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
+        }
+    if (!e->normals || c > 0) return;
+    const double *a = s->normal[0], *b = s->normal[1];
+    double n[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                    a[0] * b[1] - a[1] * b[0] };
+    sdv_make_unit(n, e->normals + e->normal_stride * i);
+}
+
+static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, double y, double scale,
+                        size_t i)
+{
+    const subdiv_surface *surface = e->surface;
+    const sdv_exact *exact = surface->exact;
+    const sdv_nest_face *face = &exact->nest_faces[index];
+    const sdv_nest *nest = &exact->nests[face->nest];
+    const signed char *t = sdv_turns[surface->rules.loop][face->turn];
+    double small[4 * SDV_NEST_STACK], z = 1 - x - y;
+    sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
+    sdv_arena arena = sdv_new_arena(0);
+    sdv_nest_sample s;
+    s.surface = surface;
+    s.kind = &exact->kinds[nest->kind];
+    s.face = face->face;
+    if (surface->rules.loop) {
+        s.x = face->turn == 0 ? x : face->turn == 1 ? y : z;
+        s.y = face->turn == 0 ? y : face->turn == 1 ? z : x;
+    } else {
+        s.x = face->turn == 0 ? x : face->turn == 1 ? y : face->turn == 2 ? 1 - x : 1 - y;
+        s.y = face->turn == 0 ? y : face->turn == 1 ? 1 - x : face->turn == 2 ? 1 - y : x;
+    }
+    if (s.y < 0) s.y = 0;
+    if (s.x < 0) s.x = 0;
+    s.w = s.kind->work_count <= SDV_NEST_STACK ? small
+        : SDV_NEW(&context, &arena, double, 4 * (size_t)s.kind->work_count);
+    for (int c = 0; c < e->channels && s.w; c += 4) {
+        sdv_nest_evaluate(&s, nest, e->memory.work + (size_t)c * (size_t)surface->work_count);
+        sdv_nest_turn(&s, t, scale);
+        sdv_nest_put(e, &s, c, i);
+    }
+    sdv_arena_free(&arena);
+    return s.w != NULL;
+}
+
+// Faces without a surface have zeros.
+static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
+{
+    for (int k = 0; k < 6; k++)
+        for (int c = 0; c < e->channels && e->out[k]; c++) e->out[k][e->stride * i + (size_t)c] = 0;
+    for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
+}
+
+// A coordinate without its rounding.
+static inline double sdv_on_face(float u)
+{
+    return u < 0 ? 0 : u > 1 ? 1 : (double)u;
+}
+
+// The leaf of a location, where on it that is, and how much smaller than the face it is.
+static inline int sdv_find_leaf(const subdiv_surface *surface, const int *nodes, int loop,
+                                const subdiv_location *at, double *x, double *y, double *scale)
+{
+    int f = surface->own_face ? surface->own_face[at->face] : at->face;
+    int node = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
+    *x = sdv_on_face(at->u);
+    *y = sdv_on_face(at->v);
+    if (loop && *x + *y > 1) *y = 1 - *x;
+    for (*scale = 1; node >= 0; *scale *= 2)
+        node = nodes[node + (loop ? sdv_descend_triangle(x, y, scale) : sdv_descend_quad(x, y))];
+    return node;
+}
+
+static inline int sdv_put_location(const sdv_exact_evaluation *e, const int *nodes, int loop,
+                                   size_t i)
+{
+    const subdiv_surface *surface = e->surface;
+    const subdiv_location *at = &e->locations[i];
+    double x, y, scale;
+    if (surface->exact->absent && surface->exact->absent[at->face]) {
+        sdv_put_zeros(e, i);
+        return 1;
+    }
+    int node = sdv_find_leaf(surface, nodes, loop, at, &x, &y, &scale);
+    if (~node & 1) return sdv_put_nest(e, ~node >> 1, x, y, scale, i);
+    sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * (size_t)(~node >> 1),
+                  loop, (float)x, (float)y, (float)scale, i);
+    return 1;
+}
+
+static void sdv_quads_job(void *context, int job)
+{
+    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    for (; i < end; i++)
+        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 0, i);
+}
+
+static void sdv_triangles_job(void *context, int job)
+{
+    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    for (; i < end; i++)
+        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 1, i);
+}
+
+// Is a location there?
+static inline int sdv_is_location(const subdiv_surface *surface, const subdiv_location *at)
+{
+    const float under = -1e-6f, over = 1 + 1e-6f;
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, f = at->face;
+    if (f < 0 || f >= surface->face_count) return 0;
+    if (!(at->u >= under && at->v >= under && at->u <= over && at->v <= over)) return 0;
+    if (loop && at->u + at->v > over) return 0;
+    if (at->corner == 0) return 1;
+    if (surface->own_face) f = surface->own_face[f];
+    if (f < 0) return at->corner > 0;
+    return at->corner > 0 && sdv_is_ngon(&surface->order, f) &&
+           at->corner < sdv_face_end(cage, f) - sdv_face_start(cage, f);
+}
+
+// The first location that is not there.
+static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
+                                const subdiv_location *locations)
+{
+    int i = 0;
+    while (i < count && sdv_is_location(surface, &locations[i])) i++;
+    if (i == count) return;
+    subdiv_location at = locations[i];
+    if (at.face < 0 || at.face >= surface->face_count) {
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
+                 at.face, surface->face_count);
+        return;
+    }
+    at.u = at.v = 0;
+    if (sdv_is_location(surface, &at))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
+    else
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i, at.face,
+                 at.corner);
+}
+
+static void sdv_check_exact(sdv_context *context, const subdiv_surface *surface, int channels,
+                            int count, const subdiv_location *locations,
+                            const subdiv_derivatives *out)
+{
+    if (context->result) return;
+    int values = out->points || out->du || out->dv || out->duu || out->duv || out->dvv;
+    if (!surface->exact)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared with SUBDIV_EXACT");
+    else if (count < 0 || (count > 0 && !locations))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, count < 0 ? "count is %d" : "locations is NULL",
+                 count);
+    else if (out->normals && channels < 3)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "normals of %d channels", channels);
+    else if (out->stride && ((values && out->stride < channels) ||
+                             (out->normals && out->stride < 3) || out->stride < 0))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is too small", out->stride);
+    else
+        sdv_check_locations(context, surface, count, locations);
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
+                                            const void *scratch, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_derivatives *out,
+                                            const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    int stride = 0;
+    sdv_check_values(&context, surface, channels, scratch, &stride);
+    if (!out) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "out is NULL");
+    sdv_check_exact(&context, surface, channels, count, locations, out);
+    if (context.result) return context.result;
+    sdv_exact_evaluation e;
+    float *to[6] = { out->points, out->du, out->dv, out->duu, out->duv, out->dvv };
+    memset(&e, 0, sizeof e);
+    e.surface = surface;
+    e.channels = channels;
+    e.memory = sdv_exact_parts(surface, channels, (void *)(size_t)scratch);     // only read
+    e.count = count;
+    e.locations = locations;
+    memcpy(e.out, to, sizeof to);
+    e.normals = out->normals;
+    e.stride = (size_t)(out->stride ? out->stride : channels);
+    e.normal_stride = (size_t)(out->stride ? out->stride : 3);
+    e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
+    e.opt = opt;
+    e.jobs = sdv_jobs(count, 1024);
+    sdv_run(opt, surface->rules.loop ? sdv_triangles_job : sdv_quads_job, &e, e.jobs);
+    if (memchr(e.failed, 1, sizeof e.failed))
+        sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
+    return context.result;
+}
+
+// ------------------------------------------------------------------------------ >>stencils
+// No rule is here a second time: rows have weights, and what a patch does to its control points
+// shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
+// of work points, and each of these, through its row, a sum of others, down to the cage's.
+
+typedef struct sdv_entry {
+    double weight;
+    int    vertex;                      // of the cage, or a value's number
+} sdv_entry;
+
+typedef struct sdv_stencil_maker {
+    sdv_context *context;
+    const subdiv_surface *surface;
+    sdv_arena  arena;
+
+    sdv_array  known;                   // sdv_entry: of all work points that are known,
+    size_t    *starts;                  // [work_count] where each one's start, and
+    int       *sizes;                   // [work_count] how many there are; 0: not known yet
+
+    int        parts;                   // 3 with tangents, else 1
+    int        size;                    // the sum that is being made: so many
+    int       *vertices;                // [cage_vertex_count] vertices, with
+    double    *sums;                    // [cage_vertex_count * parts] weights, and where
+    int       *places;                  // [cage_vertex_count] each vertex stands, or -1
+
+    size_t    *offsets;                 // [points + 1] what is made
+    sdv_array  indices, weights;        // ints, floats [parts] each
+} sdv_stencil_maker;
+
+static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
+                                  const subdiv_surface *surface, int points, int parts)
+{
+    size_t vertices = (size_t)surface->cage_vertex_count, work = (size_t)surface->work_count;
+    memset(make, 0, sizeof *make);
+    make->context = context;
+    make->surface = surface;
+    make->parts = parts;
+    make->arena = sdv_scratch();
+    make->starts = SDV_NEW(context, &make->arena, size_t, work);
+    make->sizes = SDV_NEW(context, &make->arena, int, work);
+    make->vertices = SDV_NEW(context, &make->arena, int, vertices);
+    make->sums = SDV_NEW(context, &make->arena, double, vertices * (size_t)parts);
+    make->places = SDV_NEW(context, &make->arena, int, vertices);
+    make->offsets = SDV_NEW(context, &make->arena, size_t, (size_t)points + 1);
+    if (context->result) return;
+    memset(make->sizes, 0, work * sizeof(int));
+    for (size_t v = 0; v < vertices; v++) make->places[v] = -1;
+    make->offsets[0] = 0;
+}
+
+static void sdv_stencil_maker_free(sdv_stencil_maker *make)
+{
+    sdv_array_free(&make->known);
+    sdv_array_free(&make->indices);
+    sdv_array_free(&make->weights);
+    sdv_arena_free(&make->arena);
+}
+
+static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, const double *w)
+{
+    int *place = &make->places[vertex], parts = make->parts;
+    double *sum = make->sums + (size_t)parts * (size_t)(*place < 0 ? make->size : *place);
+    if (*place < 0) {
+        make->vertices[*place = make->size++] = vertex;
+        for (int i = 0; i < parts; i++) sum[i] = 0;
+    }
+    for (int i = 0; i < parts; i++) sum[i] += factor * w[i];
+}
+
+// Adds a work point that is known, w [parts] times.
+static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count) {
+        sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
+        return;
+    }
+    const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
+    for (int i = 0; i < make->sizes[point]; i++)
+        sdv_add_to_sum(make, entry[i].vertex, entry[i].weight, w);
+}
+
+static void sdv_end_sum(sdv_stencil_maker *make)
+{
+    for (int i = 0; i < make->size; i++) make->places[make->vertices[i]] = -1;
+    make->size = 0;
+}
+
+// The row that makes a work point.
+static const int *sdv_find_row(const subdiv_surface *surface, int point)
+{
+    const int *row = NULL;
+    for (int i = 0; i < surface->levels && !row; i++) {
+        const sdv_step *step = &surface->steps[i];
+        const sdv_rows *three[3] = { &step->faces, &step->vertices, &step->edges };
+        for (int k = 0; k < 3; k++) {
+            int at = point - three[k]->first;
+            if (at < 0 || at >= three[k]->count) continue;
+            row = three[k]->items + three[k]->starts[at / SDV_ROW_BLOCK];
+            for (at %= SDV_ROW_BLOCK; at > 0; at--) row += 1 + surface->masks.items[row[0]].count;
+        }
+    }
+    return row;
+}
+
+// Makes a work point known, after those that it is made from.
+static void sdv_compose(sdv_stencil_maker *make, int point);
+
+static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int count)
+{
+    for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
+}
+
+// The weight of point i of a row with this mask: what the others leave of 1 is the first one's.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i)
+{
+    double left = 1;
+    if (i > 0) return (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    for (int j = 1; j < mask->count; j++) left -= sdv_row_weight(weights, mask, j);
+    return left;
+}
+
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
+{
+    double w[3] = { 0, 0, 0 };
+    for (int i = 0; i < mask->count; i++) {
+        w[0] = sdv_row_weight(make->surface->masks.weights, mask, i);
+        sdv_add_work_point(make, points[i], w);
+    }
+}
+
+static void sdv_compose(sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
+    const int *row = sdv_find_row(surface, point);
+    const sdv_weights *mask = &surface->masks.items[row[0]];
+    sdv_compose_all(make, row + 1, mask->count);
+    if (make->context->result) return;
+    sdv_add_row(make, mask, row + 1);
+    sdv_entry *entry = (sdv_entry *)sdv_array_room(make->context, &make->known,
+                                                   (size_t)make->size, sizeof *entry);
+    for (int i = 0; i < make->size && entry; i++) {
+        entry[i].vertex = make->vertices[i];
+        entry[i].weight = make->sums[make->parts * i];
+    }
+    make->starts[point] = make->known.count;
+    make->sizes[point] = make->size;
+    if (entry) make->known.count += (size_t)make->size;
+    sdv_end_sum(make);
+}
+
+// Gives what is missing from the total to the largest of count weights.
+static void sdv_balance(double *weights, int count, int stride, double total)
+{
+    double *largest = weights;
+    for (int i = 0; i < count; i++, weights += stride) {
+        if (fabs(*weights) > fabs(*largest)) largest = weights;
+        total -= *weights;
+    }
+    *largest += total;
+}
+
+// What is no more than rounding of the largest weight becomes 0.
+static void sdv_clean_part(sdv_stencil_maker *make, int part)
+{
+    double *sums = make->sums + part, largest = 0;
+    int parts = make->parts;
+    if (make->size == 0) return;                    // a face without a surface
+    for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
+    for (int i = 0; i < make->size; i++) {
+        double *w = &sums[parts * i];
+        *w = fabs(*w) <= (double)FLT_EPSILON * largest ? 0 : (double)(float)*w;
+    }
+    sdv_balance(sums, make->size, parts, part == 0 ? 1 : 0);
+}
+
+static void sdv_sort(int *numbers, int count)
+{
+    int gap = 1;
+    while (gap < count / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) {
+        for (int i = gap; i < count; i++) {
+            int number = numbers[i], at = i;
+            for (; at >= gap && numbers[at - gap] > number; at -= gap)
+                numbers[at] = numbers[at - gap];
+            numbers[at] = number;
+        }
+    }
+}
+
+// Makes the sum stencil i.
+static void sdv_write_stencil(sdv_stencil_maker *make, int i)
+{
+    size_t parts = (size_t)make->parts, size = (size_t)make->size;
+    int *index = (int *)sdv_array_room(make->context, &make->indices, size, sizeof(int));
+    float *weight = (float *)sdv_array_room(make->context, &make->weights, parts * size,
+                                            sizeof(float));
+    if (!index || !weight) return;
+    for (int k = 0; k < make->parts; k++) sdv_clean_part(make, k);
+    sdv_sort(make->vertices, make->size);
+    for (int j = 0; j < make->size; j++) {
+        int vertex = make->vertices[j], any = 0;
+        const double *sum = make->sums + parts * (size_t)make->places[vertex];
+        for (size_t k = 0; k < parts; k++) any |= fabs(weight[k] = (float)sum[k]) > 0;
+        weight += any ? parts : 0;
+        if (any) *index++ = vertex;
+        make->indices.count += (size_t)any;
+    }
+    make->weights.count = parts * make->indices.count;
+    make->offsets[i + 1] = make->indices.count;
+    sdv_end_sum(make);
+}
+
+static size_t sdv_carve_stencils(subdiv_stencils *stencils, size_t entries, int parts, char *base)
+{
+    size_t size = 0, tangents = parts > 1 ? entries : 0;
+    stencils->offsets = (size_t *)sdv_carve(base, &size, (size_t)stencils->count + 1,
+                                            sizeof(size_t));
+    stencils->indices = (int *)sdv_carve(base, &size, entries, sizeof(int));
+    stencils->weights = (float *)sdv_carve(base, &size, entries, sizeof(float));
+    stencils->du = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    stencils->dv = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    return size;
+}
+
+// All that was made, in one block of its own.
+static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
+{
+    subdiv_stencils made;
+    size_t entries = make->indices.count, parts = (size_t)make->parts;
+    const float *weights = (const float *)sdv_items(&make->weights);
+    if (make->context->result) return;
+    memset(&made, 0, sizeof made);
+    made.count = count;
+    sdv_block *block = sdv_allocate(make->context,
+                                    sdv_carve_stencils(&made, entries, make->parts, NULL));
+    if (!block) return;
+    made.memory = block;
+    sdv_carve_stencils(&made, entries, make->parts, (char *)(block + 1));
+    sdv_copy(made.offsets, make->offsets, (size_t)count + 1, sizeof(size_t));
+    sdv_copy(made.indices, sdv_items(&make->indices), entries, sizeof(int));
+    for (size_t i = 0; i < entries; i++) {
+        made.weights[i] = weights[parts * i];
+        if (parts == 1) continue;
+        made.du[i] = weights[parts * i + 1];
+        made.dv[i] = weights[parts * i + 2];
+    }
+    *stencils = made;
+}
+
+// Who makes the points of a refined surface: a row, a patch, or else it is one of the cage's, where
+// it stays. A patch evaluates unit vectors for all its points at once, into the points' records:
+// which patch it is, then the weights of its control points, some lanes after the other.
+typedef struct sdv_makers {
+    const subdiv_surface *surface;
+    int    first, end;                  // points
+    int    width, lanes;                // control points of a patch, unit vectors at once
+    size_t record, group;               // floats of a record and of the lanes in it
+    float *records;                     // [record * points]
+    const int **rows;                   // [points] or NULL
+    int    points[16];                  // 0, 1, 2, ...
+    float  units[6 * 64];               // the unit vectors: 16 control points, 4 lanes a pass
+} sdv_makers;
+
+enum { SDV_RECORD_NAME = 4 };           // floats: a patch's level + 1, and number in two halves
+
+static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                           int first, int count, sdv_makers *makers)
+{
+    int limit = surface->rules.limit;
+    memset(makers, 0, sizeof *makers);
+    makers->surface = surface;
+    makers->first = first;
+    makers->end = first + count;
+    makers->width = sdv_control_points(&surface->rules);
+    makers->lanes = limit ? 3 : 4;
+    makers->group = limit ? 9 : 4;
+    int passes = (makers->width + makers->lanes - 1) / makers->lanes;
+    makers->record = SDV_RECORD_NAME + makers->group * (size_t)passes;
+    for (int i = 0; i < 16; i++) {
+        int pass = i / makers->lanes, lane = i % makers->lanes;
+        makers->points[i] = i;
+        makers->units[64 * pass + 4 * i + lane] = 1;
+    }
+    makers->records = SDV_NEW(context, arena, float, makers->record * (size_t)count);
+    makers->rows = SDV_NEW(context, arena, const int *, count);
+    for (int i = 0; i < count && !context->result; i++) {
+        makers->records[makers->record * (size_t)i] = 0;
+        makers->rows[i] = NULL;
+    }
+}
+
+// One patch, whose control points have these values, writes into its points' records at this place.
+static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
+                           const float *values, size_t at, int tangents)
+{
+    float *out = makers->records + at;
+    if (makers->surface->rules.limit) {
+        sdv_limit_window window = { out, NULL, tangents ? out + 3 : NULL, makers->record,
+                                    makers->record, makers->first, makers->end };
+        sdv_limit_patches(makers->surface, patch, values, face, face + 1, &window);
+    } else {
+        sdv_window window = { out, makers->record, makers->lanes, makers->first,
+                              makers->end - makers->first };
+        sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
+    }
+}
+
+// Each patch of a face: first its name, as a constant goes through unchanged.
+static void sdv_push_patches(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int level = 0; level < surface->levels; level++) {
+        const sdv_patches *patches = &surface->patches[level];
+        int last = sdv_first_patch(&surface->order, patches, face + 1);
+        for (int i = sdv_first_patch(&surface->order, patches, face); i < last; i++) {
+            float names[16 * 4];
+            sdv_patches one = *patches;
+            one.count = 1;
+            one.items += i;
+            one.points = makers->points;
+            for (int k = 0; k < 16; k++) {
+                names[4 * k] = (float)(level + 1);
+                names[4 * k + 1] = (float)(i >> 16);
+                names[4 * k + 2] = (float)(i & 65535);
+                names[4 * k + 3] = 0;
+            }
+            sdv_push_units(makers, &one, face, names, 0, 0);
+            for (int k = 0; k * makers->lanes < makers->width; k++)
+                sdv_push_units(makers, &one, face, makers->units + 64 * k,
+                               SDV_RECORD_NAME + makers->group * (size_t)k, 1);
+        }
+    }
+}
+
+static void sdv_note_rows(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    int limit = surface->rules.limit;
+    const sdv_rows *rows = limit ? &surface->limit.rows : &surface->last;
+    if (rows->count == 0) return;
+    const int *row = rows->items + rows->starts[face], *end = rows->items + rows->starts[face + 1];
+    while (row < end) {
+        if (row[1] >= makers->first && row[1] < makers->end)
+            makers->rows[row[1] - makers->first] = row;
+        row += 2 + (limit ? surface->limit.masks[row[0]].count
+                          : surface->masks.items[row[0]].count);
+    }
+}
+
+// Has a cage face points from first to end - 1, inside, on an edge or at a vertex?
+static int sdv_face_has(const sdv_order *order, int f, int first, int end)
+{
+    const sdv_level *cage = &order->cage;
+    int has = sdv_first_inside(order, f) < end && sdv_first_inside(order, f + 1) > first;
+    for (int h = sdv_face_start(cage, f); h < sdv_face_end(cage, f) && !has; h++) {
+        int v = cage->face_vertices[h], on = cage->face_edges[h] * (order->n - 1);
+        int edge = order->first_edge_point + on;
+        has = (v >= first && v < end) || (edge < end && edge + order->n - 1 > first);
+    }
+    return has;
+}
+
+// The points of a face's nets. Their records: minus the level + 1, the net, and which of its points.
+static void sdv_note_nets(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int level = 0; level < surface->levels; level++) {
+        const sdv_nets *nets = &surface->nets[level];
+        int last = sdv_first_net(&surface->order, nets, face + 1), index[4];
+        for (int i = sdv_first_net(&surface->order, nets, face); i < last; i++) {
+            const sdv_patch *patch = &nets->items[i].patch;
+            sdv_grid grid;
+            sdv_grid_at(&surface->order, patch->h, &grid);
+            const sdv_spot *spots = sdv_net_spots(nets, &nets->items[i]);
+            int first = sdv_inside_index(&grid, patch->row, patch->column);
+            for (int j = 0; j < 4 * nets->blocks; j++) {
+                if (j % 4 == 0)
+                    sdv_spot_indices(&grid, patch, first, sdv_row_length(&grid, patch->row),
+                                     spots + j, index);
+                if (index[j % 4] < makers->first || index[j % 4] >= makers->end) continue;
+                float *record = makers->records +
+                                makers->record * (size_t)(index[j % 4] - makers->first);
+                record[0] = (float)-(level + 1);
+                record[1] = (float)(i >> 16);
+                record[2] = (float)(i & 65535);
+                record[3] = (float)j;
+            }
+        }
+    }
+}
+
+static void sdv_find_makers(sdv_makers *makers)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int f = 0; f < surface->cage_face_count && surface->levels > 0; f++) {
+        if (!sdv_face_has(&surface->order, f, makers->first, makers->end)) continue;
+        sdv_push_patches(makers, f);
+        sdv_note_nets(makers, f);
+        sdv_note_rows(makers, f);
+    }
+}
+
+// Adds the points of a limit row, as sdv_limit_sums does: the first one's weight is what is left.
+static void sdv_add_limit_row(sdv_stencil_maker *make, const int *row)
+{
+    const sdv_limit_rows *limit = &make->surface->limit;
+    const sdv_limit_weights *mask = &limit->masks[row[0]];
+    double left[3] = { 1, 0, 0 }, w[3];
+    sdv_compose_all(make, row + 2, mask->count);
+    for (int i = mask->count - 1; i >= 0 && !make->context->result; i--) {
+        for (int k = 0; k < 3; k++) {
+            w[k] = i ? (double)limit->weights[mask->first + (size_t)(k * mask->count + i)]
+                     : left[k];
+            left[k] -= w[k];
+        }
+        sdv_add_work_point(make, row[2 + i], w);
+    }
+}
+
+// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
+// they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
+{
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
+    sdv_compose_all(make, points, count);
+    for (int i = 0; i < count && !make->context->result; i++)
+        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
+}
+
+// Adds the control points of a patch.
+static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
+{
+    const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
+    size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
+    const int *points = patches->points + i * (size_t)makers->width;
+    double weights[3 * 16];
+    for (int j = 0; j < makers->width; j++) {
+        size_t group = makers->group * (size_t)(j / makers->lanes);
+        const float *w = record + SDV_RECORD_NAME + group + j % makers->lanes;
+        for (int k = 0; k < 3; k++)
+            weights[3 * j + k] = k < make->parts ? (double)w[makers->lanes * k] : 0;
+    }
+    sdv_add_rounded(make, points, makers->width, weights);
+}
+
+// Adds the points of a net. The weight of the first is what is left.
+static void sdv_add_net(sdv_stencil_maker *make, const float *record)
+{
+    const sdv_nets *nets = &make->surface->nets[-(int)record[0] - 1];
+    const sdv_net *net = &nets->items[(size_t)record[1] * 65536 + (size_t)record[2]];
+    const sdv_net_matrix *matrix = &nets->matrices[net->kind];
+    size_t spot = (size_t)record[3], row = spot / 4 * (size_t)(matrix->points / 2 * 2);
+    double weights[3 * SDV_NET_POINTS];
+    for (int i = 0; i < 3 * matrix->points; i++) weights[i] = 0;
+    weights[0] = 1;
+    for (int i = 1; i < matrix->points; i++) {
+        weights[3 * i] = (double)matrix->weights[4 * (row + (size_t)i - 1) + spot % 4];
+        weights[0] -= weights[3 * i];
+    }
+    sdv_add_rounded(make, nets->points + net->first, matrix->points, weights);
+}
+
+static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
+{
+    const subdiv_surface *surface = make->surface;
+    const int *row = makers->rows[i];
+    const float *record = makers->records + makers->record * (size_t)i;
+    const double one[3] = { 1, 0, 0 };
+    if (row && surface->rules.limit) {
+        sdv_add_limit_row(make, row);
+    } else if (row) {
+        const sdv_weights *mask = &surface->masks.items[row[0]];
+        sdv_compose_all(make, row + 2, mask->count);
+        if (!make->context->result) sdv_add_row(make, mask, row + 2);
+    } else if (record[0] < 0) {
+        sdv_add_net(make, record);
+    } else if (record[0] > 0) {
+        sdv_add_patch(make, makers, record);
+    } else {
+        sdv_add_work_point(make, makers->first + i, one);
+    }
+    if (!make->context->result) sdv_write_stencil(make, i);
+}
+
+static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
+                                 const subdiv_surface *surface, int first, int count)
+{
+    sdv_stencil_maker make;
+    sdv_makers makers;
+    sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
+    sdv_makers_new(context, &make.arena, surface, first, count, &makers);
+    if (!context->result) sdv_find_makers(&makers);
+    for (int i = 0; i < count && !context->result; i++) sdv_make_refined_stencil(&make, &makers, i);
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    if (surface) sdv_check_result(&context, surface);
+    if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
+    if (!context.result)
+        sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    return context.result;
+}
+
+// Evaluates unit vectors at locations: those of the work points that a location's leaf looks at,
+// four at a time, in scratch memory that is 0 everywhere else.
+typedef struct sdv_probe {
+    const subdiv_surface *surface;
+    void            *scratch;
+    sdv_exact_memory memory;            // parts of it
+    subdiv_options   opt;
+    unsigned char   *seen;              // [work_count] work points
+    int             *points;            // [most points of a leaf] those of this one, each once
+    double          *weights;           // [3 * most]
+} sdv_probe;
+
+static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                          sdv_probe *probe)
+{
+    const sdv_exact *exact = surface->exact;
+    size_t size = subdiv_scratch_size(surface, 4), work = (size_t)surface->work_count, most = 16;
+    for (int i = 0; i < exact->kind_count; i++)
+        if ((size_t)exact->kinds[i].points > most) most = (size_t)exact->kinds[i].points;
+    memset(probe, 0, sizeof *probe);
+    probe->surface = surface;
+    probe->opt.user = context->user;
+    probe->scratch = sdv_new(context, arena, size, 1);
+    probe->seen = SDV_NEW(context, arena, unsigned char, work);
+    probe->points = SDV_NEW(context, arena, int, most);
+    probe->weights = SDV_NEW(context, arena, double, 3 * most);
+    if (context->result) return;
+    probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
+    memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
+    memset(probe->seen, 0, work);
+}
+
+// The work points that a leaf looks at. Of a patch also its level and its number there.
+static int sdv_probe_points(sdv_probe *probe, int slot, int *level, int *patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    const sdv_exact *exact = surface->exact;
+    int leaf = ~slot >> 1, count, distinct = 0;
+    const int *points;
+    *level = -1;
+    if (~slot & 1) {
+        const sdv_nest *nest = &exact->nests[exact->nest_faces[leaf].nest];
+        points = exact->nest_points + nest->first;
+        count = exact->kinds[nest->kind].points;
+    } else {
+        for (*level = 0; leaf >= surface->patches[*level].count; (*level)++)
+            leaf -= surface->patches[*level].count;
+        *patch = leaf;
+        count = sdv_control_points(&surface->rules);
+        points = surface->patches[*level].points + (size_t)count * (size_t)leaf;
+    }
+    for (int i = 0; i < count; i++) {
+        if (probe->seen[points[i]]) continue;
+        probe->seen[points[i]] = 1;
+        probe->points[distinct++] = points[i];
+    }
+    for (int i = 0; i < distinct; i++) probe->seen[probe->points[i]] = 0;
+    return distinct;
+}
+
+// Their weights: of the point, du and dv.
+static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const subdiv_location *at,
+                               int slot, int count, int level, int patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    float lanes[3][4];
+    subdiv_derivatives out = { lanes[0], lanes[1], lanes[2], NULL, NULL, NULL, NULL, 0 };
+    for (int first = 0; first < count; first += 4) {
+        int some = count - first < 4 ? count - first : 4;
+        const int *points = probe->points + first;
+        for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
+        if (level >= 0) {
+            const sdv_patches *patches = &surface->patches[level];
+            size_t width = (size_t)sdv_control_points(&surface->rules);
+            sdv_exact_patch(&surface->rules, &patches->items[patch],
+                            patches->points + width * (size_t)patch, probe->memory.work, 4,
+                            probe->memory.patches + 4 * SDV_SLOTS * (size_t)(~slot >> 1));
+        }
+        subdiv_result result = subdiv_evaluate_at(surface, 4, probe->scratch, 1, at, &out,
+                                                  &probe->opt);
+        if (result) sdv_fail(context, result, "out of memory");
+        for (int i = 0; i < some; i++) {
+            probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
+            for (int k = 0; k < 3 && !context->result; k++)
+                probe->weights[3 * (size_t)(first + i) + (size_t)k] = (double)lanes[k][i];
+        }
+    }
+}
+
+static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
+                            const subdiv_surface *surface, int count,
+                            const subdiv_location *locations)
+{
+    sdv_stencil_maker make;
+    sdv_probe probe;
+    const unsigned char *absent = surface->exact->absent;
+    sdv_stencil_maker_new(context, &make, surface, count, 3);
+    sdv_probe_new(context, &make.arena, surface, &probe);
+    for (int i = 0; i < count && !context->result; i++) {
+        const subdiv_location *at = &locations[i];
+        if (!absent || !absent[at->face]) {
+            double x, y, scale;
+            int level, patch = 0;
+            int slot = sdv_find_leaf(surface, surface->exact->nodes, surface->rules.loop, at, &x,
+                                     &y, &scale);
+            int points = sdv_probe_points(&probe, slot, &level, &patch);
+            sdv_probe_location(context, &probe, at, slot, points, level, patch);
+            if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
+        }
+        if (!context->result) sdv_write_stencil(&make, i);
+    }
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_derivatives none;
+    memset(&none, 0, sizeof none);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_exact(&context, surface, 4, count, locations, &none);
+    if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
+    return context.result;
+}
+
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!stencils) return;
+    owned.blocks = (sdv_block *)stencils->memory;
+    sdv_arena_free(&owned);
+    memset(stencils, 0, sizeof *stencils);
+}
+
+// ---------------------------------------------------------------------------------- >>tiles
+// THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
+// its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
+// other polygon one quad of columns x columns pieces for each of its vertices. Where the edges cut
+// their face as its grid does, the face is that grid. Elsewhere the grid loses its outermost
+// pieces, and a strip joins what is left of it, the ring, with each edge:
+//
+//     +--o-----o--+                ring: what is left, here 2 pieces
+//     | /|\   /|\ |                and corners, which are joined with those of the face
+//     |/ | \ / | \|
+//     o--+--o--+--o                edge: here 3 pieces
+
+typedef struct sdv_inside {
+    int columns, rows;
+    int margin;                         // 0: the grid reaches the edges; 1: strips do
+} sdv_inside;
+
+typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
+    const sdv_level *cage;
+    int         loop;
+    int        *edge_rates;             // [edge_count]
+    sdv_inside *insides;                // [face_count]
+    int        *starts;                 // [edge_count + face_count + 1] the first point inside each
+    int        *home;                   // [vertex_count + edge_count] where each is evaluated: a
+                                        // face-vertex, or -1
+    int        *number;                 // [face_count] of a face for subdiv_evaluate_at; NULL: same
+    const unsigned char *hole;          // [faces so numbered]
+} sdv_tiling;
+
+// One face of it.
+typedef struct sdv_tile {
+    const sdv_tiling *tiling;
+    int first, sides;                   // its face-vertices
+    int inside;                         // its first point
+    int loop, ngon;
+    sdv_inside grid;
+} sdv_tile;
+
+static sdv_tile sdv_tile_at(const sdv_tiling *tiling, int f)
+{
+    const sdv_level *cage = tiling->cage;
+    sdv_tile tile;
+    tile.tiling = tiling;
+    tile.first = sdv_face_start(cage, f);
+    tile.sides = sdv_face_end(cage, f) - tile.first;
+    tile.inside = tiling->starts[cage->edge_count + f];
+    tile.loop = tiling->loop;
+    tile.ngon = !tile.loop && tile.sides != 4;
+    tile.grid = tiling->insides[f];
+    return tile;
+}
+
+static int sdv_edge_rate(const sdv_tile *tile, int side)
+{
+    return tile->tiling->edge_rates[tile->tiling->cage->face_edges[tile->first + side]];
+}
+
+// Pieces of the grid along a side.
+static int sdv_side_rate(const sdv_tile *tile, int side)
+{
+    if (tile->ngon) return 2 * tile->grid.columns;
+    return tile->loop || side % 2 == 0 ? tile->grid.columns : tile->grid.rows;
+}
+
+static int sdv_is_regular(const sdv_tile *tile)
+{
+    for (int i = 0; i < tile->sides; i++)
+        if (sdv_edge_rate(tile, i) != sdv_side_rate(tile, i)) return 0;
+    return 1;
+}
+
+// The grid of a face of such a rate; 0: that of its edges. Between a strip and the next there has
+// to be a point.
+static sdv_inside sdv_find_inside(sdv_tile tile, int rate)
+{
+    int most[2] = { 1, 1 };             // of the even sides, of the odd ones
+    for (int i = 0; i < tile.sides; i++) {
+        int *m = &most[tile.loop || tile.ngon ? 0 : i % 2], edge = sdv_edge_rate(&tile, i);
+        if (edge > *m) *m = edge;
+    }
+    tile.grid.columns = rate ? rate : most[0];
+    tile.grid.rows = rate ? rate : most[1];
+    if (tile.ngon && tile.grid.columns == INT_MAX) tile.grid.columns--;     // too large either way
+    if (tile.ngon) tile.grid.columns = (tile.grid.columns + 1) / 2;
+    int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
+    if (tile.grid.columns < least) tile.grid.columns = least;
+    if (tile.grid.rows < least) tile.grid.rows = least;
+    if (tile.loop || tile.ngon) tile.grid.rows = tile.grid.columns;
+    tile.grid.margin = !sdv_is_regular(&tile);
+    return tile.grid;
+}
+
+// How many points are inside a face.
+static uint64_t sdv_count_inside(const sdv_tile *tile)
+{
+    uint64_t columns = (uint64_t)tile->grid.columns, rows = (uint64_t)tile->grid.rows;
+    if (tile->loop) return (columns - 1) * (columns - 2) / 2;
+    if (!tile->ngon) return (columns - 1) * (rows - 1);
+    if (columns > 65536) return INT_MAX;                    // or the product would wrap
+    return 1 + (uint64_t)tile->sides * columns * (columns - 1);
+}
+
+// Point k on a side, from its first vertex: 0 that vertex, edge rate the next one.
+static int sdv_side_point(const sdv_tile *tile, int side, int k)
+{
+    const sdv_tiling *tiling = tile->tiling;
+    const int *vertices = tiling->cage->face_vertices + tile->first;
+    int a = vertices[side], b = vertices[side + 1 < tile->sides ? side + 1 : 0];
+    int e = tiling->cage->face_edges[tile->first + side], rate = tiling->edge_rates[e];
+    if (k == 0) return a;
+    if (k == rate) return b;
+    return tiling->starts[e] - 1 + (a > b ? rate - k : k);
+}
+
+// A point of the quad at vertex i of an n-gon: its last column is the spoke to edge i, backwards,
+// its last row that to the edge before.
+static int sdv_ngon_point(const sdv_tile *tile, int i, int row, int column)
+{
+    int m = tile->grid.columns, before = i ? i - 1 : tile->sides - 1, spokes = tile->inside + m;
+    if (row == 0) return sdv_side_point(tile, i, column);
+    if (column == 0) return sdv_side_point(tile, before, 2 * m - row);
+    if (row == m && column == m) return tile->inside;
+    if (column == m) return spokes + i * (m - 1) - row;
+    if (row == m) return spokes + before * (m - 1) - column;
+    return tile->inside + 1 + (tile->sides + i * (m - 1) + row - 1) * (m - 1) + column - 1;
+}
+
+// A point of the grid (of an n-gon: of its quad at vertex i). Row 0 and column 0, and what is
+// opposite, are the edges: not to be asked for if the grid has a margin.
+static int sdv_tile_point(const sdv_tile *tile, int i, int row, int column)
+{
+    int columns = tile->grid.columns, rows = tile->grid.rows;
+    if (tile->ngon) return sdv_ngon_point(tile, i, row, column);
+    if (row == 0) return sdv_side_point(tile, 0, column);
+    if (column == 0) return sdv_side_point(tile, tile->sides - 1, rows - row);
+    if (column == columns - (tile->loop ? row : 0)) return sdv_side_point(tile, 1, row);
+    if (!tile->loop && row == rows) return sdv_side_point(tile, 2, columns - column);
+    int cut = tile->loop ? row * (row - 1) / 2 : 0;
+    return tile->inside + (row - 1) * (columns - 1) - cut + column - 1;
+}
+
+// Point j of the ring along a side: from the corner of the ring at vertex 0 of that side on.
+static int sdv_ring_point(const sdv_tile *tile, int side, int j)
+{
+    int columns = tile->grid.columns, rows = tile->grid.rows, next = side + 1;
+    if (tile->ngon) {
+        if (j < columns) return sdv_ngon_point(tile, side, 1, j + 1);
+        return sdv_ngon_point(tile, next < tile->sides ? next : 0, 2 * columns - 1 - j, 1);
+    }
+    if (side == 0) return sdv_tile_point(tile, 0, 1, j + 1);
+    if (side == 1) return sdv_tile_point(tile, 0, j + 1, columns - 1 - (tile->loop ? j + 1 : 0));
+    if (tile->loop) return sdv_tile_point(tile, 0, rows - 2 - j, 1);
+    if (side == 2) return sdv_tile_point(tile, 0, rows - 1, columns - 1 - j);
+    return sdv_tile_point(tile, 0, rows - 1 - j, 1);
+}
+
+typedef struct sdv_faces_at {           // where faces are written, or if NULL, counted
+    int  triangles;                     // quads are cut
+    int *vertices;
+    int *sizes;                         // or NULL: all the same
+    size_t faces, face_vertices;
+} sdv_faces_at;
+
+static void sdv_put_face(sdv_faces_at *out, int size, const int *v)
+{
+    for (int i = 0; i < size && out->vertices; i++)
+        out->vertices[out->face_vertices + (size_t)i] = v[i];
+    if (out->sizes) out->sizes[out->faces] = size;
+    out->faces++;
+    out->face_vertices += (size_t)size;
+}
+
+static void sdv_put_triangle(sdv_faces_at *out, int a, int b, int c)
+{
+    int v[3] = { a, b, c };
+    sdv_put_face(out, 3, v);
+}
+
+static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
+{
+    int v[4] = { a, b, c, d };
+    if (!out->triangles) {
+        sdv_put_face(out, 4, v);
+        return;
+    }
+    sdv_put_triangle(out, a, b, c);
+    sdv_put_triangle(out, a, c, d);
+}
+
+// A row of faces between columns first and last of its lower points:
+//
+//     d c        quads a b c d; or triangles a b d, and c d b turned by half, with none at the end
+//     a b
+static void sdv_put_row(const sdv_tile *tile, int i, int row, int first, int last,
+                        sdv_faces_at *out)
+{
+    int a = sdv_tile_point(tile, i, row, first), d = sdv_tile_point(tile, i, row + 1, first);
+    for (int column = first + 1; column <= last; column++) {
+        int b = sdv_tile_point(tile, i, row, column), c = -1;
+        if (!tile->loop || column < last) c = sdv_tile_point(tile, i, row + 1, column);
+        if (!tile->loop) sdv_put_quad(out, a, b, c, d);
+        if (tile->loop) sdv_put_triangle(out, a, b, d);
+        if (tile->loop && c >= 0) sdv_put_triangle(out, c, d, b);
+        a = b;
+        d = c;
+    }
+}
+
+static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
+{
+    int first = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
+    int far = tile->ngon ? 0 : first, last = tile->grid.columns - far;
+    for (int i = 0; i < grids; i++)
+        for (int row = first; row < tile->grid.rows - far; row++)
+            sdv_put_row(tile, i, row, first, tile->loop ? last - row : last, out);
+}
+
+// The same without their vertices.
+static void sdv_count_inside_faces(const sdv_tile *tile, sdv_faces_at *out)
+{
+    size_t columns = (size_t)tile->grid.columns, rows = (size_t)tile->grid.rows;
+    size_t margin = (size_t)tile->grid.margin, quads;
+    if (tile->ngon) quads = (size_t)tile->sides * (columns - margin) * (columns - margin);
+    else quads = (columns - 2 * margin) * (rows - 2 * margin);
+    if (tile->loop) quads = (columns - 3 * margin) * (columns - 3 * margin);
+    size_t faces = out->triangles && !tile->loop ? 2 * quads : quads, size = out->triangles ? 3 : 4;
+    for (size_t i = 0; i < faces && out->sizes; i++) out->sizes[out->faces + i] = (int)size;
+    out->faces += faces;
+    out->face_vertices += size * faces;
+}
+
+// The strip between the ring, above, and a side: whichever piece has its middle first is joined to
+// the point reached on the other line, and two at once are a quad. In halves of a piece, middle i
+// of n is 2i + 1 along the side, and those of the ring are 2 behind (in a triangle's, which is
+// narrower, 3).
+static void sdv_put_strip(const sdv_tile *tile, int side, sdv_faces_at *out)
+{
+    int pieces = sdv_edge_rate(tile, side), rate = sdv_side_rate(tile, side);
+    int ring = rate - 2 - tile->loop, a = sdv_side_point(tile, side, 0);
+    int d = sdv_ring_point(tile, side, 0);
+    for (int i = 0, j = 0; i < pieces || j < ring;) {
+        int64_t here = (2 * (int64_t)i + 1) * rate;
+        int64_t there = (2 * (int64_t)j + 3 + tile->loop) * pieces;
+        int on = i < pieces && (j == ring || here <= there);
+        int up = j < ring && (i == pieces || there <= here);
+        int b = on ? sdv_side_point(tile, side, i + 1) : a;
+        int c = up ? sdv_ring_point(tile, side, j + 1) : d;
+        if (on && up) sdv_put_quad(out, a, b, c, d);
+        else if (on) sdv_put_triangle(out, a, b, d);
+        else sdv_put_triangle(out, a, c, d);
+        a = b;
+        d = c;
+        i += on;
+        j += up;
+    }
+}
+
+static void sdv_put_strips(const sdv_tile *tile, sdv_faces_at *out)
+{
+    for (int i = 0; i < tile->sides && tile->grid.margin; i++) sdv_put_strip(tile, i, out);
+}
+
+// Where on its face a point k of rate on a side is.
+static subdiv_location sdv_side_location(const sdv_tile *tile, int side, int k, int rate)
+{
+    subdiv_location at = { 0, 0, 0, 0 };
+    float t = (float)k / (float)rate, back = (float)(rate - k) / (float)rate;
+    if (tile->ngon) {
+        int behind = k > rate - k, next = side + 1 < tile->sides ? side + 1 : 0;
+        at.corner = behind ? next : side;
+        if (behind) at.v = 2 * back;
+        else at.u = 2 * t;
+    } else if (tile->loop) {
+        at.u = side == 0 ? t : side == 1 ? back : 0;
+        at.v = side == 0 ? 0 : side == 1 ? t : back;
+    } else {
+        at.u = side == 0 ? t : side == 1 ? 1 : side == 2 ? back : 0;
+        at.v = side == 0 ? 0 : side == 1 ? t : side == 2 ? 1 : back;
+    }
+    return at;
+}
+
+// Where point k inside an n-gon is: its centre, the spokes, or the inside of its quads.
+static subdiv_location sdv_ngon_location(const sdv_tile *tile, int k)
+{
+    subdiv_location at = { 0, 0, 1, 1 };
+    int m = tile->grid.columns, line = (k - 1) / (m - 1 ? m - 1 : 1), left = k - 1 - line * (m - 1);
+    if (k == 0) return at;
+    if (line < tile->sides) {
+        at.corner = line;
+        at.v = (float)(m - 1 - left) / (float)m;
+        return at;
+    }
+    line -= tile->sides;
+    at.corner = line / (m - 1);
+    at.u = (float)(left + 1) / (float)m;
+    at.v = (float)(line % (m - 1) + 1) / (float)m;
+    return at;
+}
+
+// Where point k inside a face is. The rows of a triangle are counted from its last, of one point.
+static subdiv_location sdv_inside_location(const sdv_tile *tile, int k)
+{
+    subdiv_location at = { 0, 0, 0, 0 };
+    int columns = tile->grid.columns, rows = tile->grid.rows, row, column;
+    if (tile->ngon) return sdv_ngon_location(tile, k);
+    if (tile->loop) {
+        int64_t behind = (int64_t)(columns - 1) * (columns - 2) / 2 - 1 - k;
+        int from_last = (int)((sqrt(8 * (double)behind + 1) - 1) / 2);
+        row = columns - 2 - from_last;
+        column = columns - row - 1 - (int)(behind - (int64_t)from_last * (from_last + 1) / 2);
+    } else {
+        row = k / (columns - 1) + 1;
+        column = k % (columns - 1) + 1;
+    }
+    at.u = (float)column / (float)columns;
+    at.v = (float)row / (float)rows;
+    return at;
+}
+
+// The edge or, behind them all, the face with point p inside.
+static int sdv_find_item(const sdv_tiling *tiling, int p)
+{
+    int low = 0, high = tiling->cage->edge_count + tiling->cage->face_count;
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        if (tiling->starts[middle] <= p) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+// Where the points are, one after the other: in a vertex, an edge or, behind them all, a face.
+typedef struct sdv_cursor {
+    int item;                           // edge or face
+    int vertex;                         // or vertex; -1: none
+    int h, rate;                        // of the edge or vertex, where it is evaluated
+    sdv_tile tile;                      // the face there
+    int number;                         // of it, for subdiv_evaluate_at
+} sdv_cursor;
+
+// Takes the cursor to what point p is in. There is no face at a vertex without one: h is -1.
+static void sdv_move_cursor(const sdv_tiling *tiling, sdv_cursor *at, int p)
+{
+    const sdv_level *cage = tiling->cage;
+    int f = at->item - cage->edge_count;
+    at->vertex = p < cage->vertex_count ? p : -1;
+    while (at->vertex < 0 && tiling->starts[at->item + 1] <= p) f = ++at->item - cage->edge_count;
+    if (at->vertex >= 0 || f < 0) {
+        at->h = tiling->home[at->vertex >= 0 ? p : cage->vertex_count + at->item];
+        at->rate = at->vertex >= 0 ? 1 : tiling->edge_rates[at->item];
+        if (at->h < 0) return;
+        f = sdv_face_of(cage, at->h);
+    }
+    at->tile = sdv_tile_at(tiling, f);
+    at->number = tiling->number ? tiling->number[f] : f;
+}
+
+static subdiv_location sdv_cursor_location(const sdv_tiling *tiling, const sdv_cursor *at, int p)
+{
+    const sdv_level *cage = tiling->cage;
+    subdiv_location location;
+    int k = p - tiling->starts[at->item] + 1, side = at->h - at->tile.first;
+    if (at->vertex >= 0) {
+        location = sdv_side_location(&at->tile, side, 0, 1);
+    } else if (at->item < cage->edge_count) {
+        int from = cage->face_vertices[at->h], to = cage->face_vertices[sdv_next(cage, at->h)];
+        location = sdv_side_location(&at->tile, side, from > to ? at->rate - k : k, at->rate);
+    } else {
+        location = sdv_inside_location(&at->tile, k - 1);
+    }
+    location.face = at->number;
+    return location;
+}
+
+// The locations of points p and on, at most count, up to a vertex without faces; returns how many.
+static int sdv_find_locations(const sdv_tiling *tiling, sdv_cursor *at, int p, int count,
+                              subdiv_location *out)
+{
+    for (int i = 0; i < count; i++, p++) {
+        if (p < tiling->cage->vertex_count || at->vertex >= 0 || tiling->starts[at->item + 1] <= p)
+            sdv_move_cursor(tiling, at, p);
+        if (at->vertex >= 0 && at->h < 0) return i;
+        out[i] = sdv_cursor_location(tiling, at, p);
+    }
+    return count;
+}
+
+// Values that are evaluated: what subdiv_evaluate_at needs.
+typedef struct sdv_source {
+    const subdiv_surface *surface;
+    int          channels;
+    const float *in;
+    void        *work;
+} sdv_source;
+
+// What a tessellation works on.
+typedef struct sdv_tessellator {
+    const subdiv_surface *surface;
+    const subdiv_tessellation *how;
+    const subdiv_options *opt;
+    sdv_arena  arena;
+    sdv_tiling points, uvs;
+    sdv_source positions;
+    int        triangles;
+    size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
+    size_t    *first_face_vertex;       // [face_count + 1] face_vertices
+    subdiv_mesh mesh;                   // the result
+    int        jobs;
+} sdv_tessellator;
+
+static int sdv_user_face(const subdiv_surface *surface, int f)
+{
+    return surface->cage_face ? surface->cage_face[f] : f;
+}
+
+static void sdv_new_tiling(sdv_context *context, sdv_arena *arena, sdv_tiling *tiling,
+                           const sdv_level *cage, int loop)
+{
+    size_t edges = (size_t)cage->edge_count, faces = (size_t)cage->face_count;
+    size_t homes = (size_t)cage->vertex_count + edges;
+    tiling->cage = cage;
+    tiling->loop = loop;
+    tiling->edge_rates = SDV_NEW(context, arena, int, edges);
+    tiling->insides = SDV_NEW(context, arena, sdv_inside, faces);
+    tiling->starts = SDV_NEW(context, arena, int, edges + faces + 1);
+    tiling->home = SDV_NEW(context, arena, int, homes);
+    if (context->result) return;
+    memset(tiling->starts, 0, (edges + faces + 1) * sizeof(int));
+    memset(tiling->insides, 0, faces * sizeof(sdv_inside));
+    for (size_t i = 0; i < homes; i++) tiling->home[i] = -1;
+}
+
+// Vertices and edges are evaluated on the first face that has them and is no hole, or else on the
+// first hole.
+static void sdv_find_homes(sdv_tiling *tiling, const unsigned char *hole)
+{
+    const sdv_level *cage = tiling->cage;
+    tiling->hole = hole;
+    for (int kind = 1; kind >= 0; kind--) {
+        for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
+            int f = sdv_face_of(cage, h);
+            if (hole[tiling->number ? tiling->number[f] : f] != kind) continue;
+            tiling->home[cage->face_vertices[h]] = h;
+            tiling->home[cage->vertex_count + cage->face_edges[h]] = h;
+        }
+    }
+}
+
+// Where the points stand: those inside each edge, then those inside each face; none where there is
+// no surface. Returns how many there are.
+static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
+{
+    const sdv_level *cage = tiling->cage;
+    uint64_t count = (uint64_t)cage->vertex_count;
+    for (int i = 0; i < cage->edge_count + cage->face_count && count <= INT_MAX; i++) {
+        int f = i - cage->edge_count;
+        tiling->starts[i] = (int)count;
+        if (f < 0 && tiling->home[cage->vertex_count + i] >= 0)
+            count += (uint64_t)tiling->edge_rates[i] - 1;
+        if (f >= 0 && tiling->hole[tiling->number ? tiling->number[f] : f] != SDV_DROPPED) {
+            sdv_tile tile = sdv_tile_at(tiling, f);
+            count += sdv_count_inside(&tile);
+        }
+    }
+    if (count > INT_MAX) {
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                 "these rates make more than %d vertices", INT_MAX);
+        return 0;
+    }
+    tiling->starts[cage->edge_count + cage->face_count] = (int)count;
+    return (int)count;
+}
+
+static sdv_source sdv_begin_source(sdv_context *context, sdv_tessellator *t,
+                                   const subdiv_surface *surface, int channels, const float *in)
+{
+    sdv_source source = { surface, channels, in, NULL };
+    source.work = sdv_new(context, &t->arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, channels, in, 0, source.work, t->opt);
+    return source;
+}
+
+// The first count points of a tiling and, unless NULL, their normals.
+typedef struct sdv_samples {
+    const sdv_tiling *tiling;
+    const sdv_source *source;
+    float *points, *normals;
+    int    count, jobs;
+    subdiv_options alone;               // those of a job
+    subdiv_result  results[SDV_MOST_JOBS];
+} sdv_samples;
+
+#define SDV_SAMPLES 128                 // at once
+
+static void sdv_sample_job(void *context, int job)
+{
+    sdv_samples *s = (sdv_samples *)context;
+    const subdiv_surface *surface = s->source->surface;
+    subdiv_location at[SDV_SAMPLES];
+    int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
+    int channels = s->source->channels;
+    size_t width = (size_t)channels;
+    sdv_cursor cursor;
+    memset(&cursor, 0, sizeof cursor);
+    cursor.item = sdv_find_item(s->tiling, p);
+    cursor.vertex = p;                  // to be moved
+    for (int n; p < end && !s->results[job]; p += n) {
+        subdiv_derivatives out;
+        memset(&out, 0, sizeof out);
+        out.points = s->points + width * (size_t)p;
+        if (s->normals) out.normals = s->normals + width * (size_t)p;
+        n = end - p < SDV_SAMPLES ? end - p : SDV_SAMPLES;
+        n = sdv_find_locations(s->tiling, &cursor, p, n, at);
+        if (n) {
+            s->results[job] = subdiv_evaluate_at(surface, channels, s->source->work, n, at, &out,
+                                                 &s->alone);
+            continue;
+        }
+        int from = surface->source ? surface->source[p] : p;    // a vertex without faces
+        memcpy(out.points, s->source->in + width * (size_t)from, width * sizeof(float));
+        if (out.normals) memset(out.normals, 0, width * sizeof(float));
+        n = 1;
+    }
+}
+
+static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sdv_tiling *tiling,
+                       const sdv_source *source, float *points, float *normals, int count)
+{
+    sdv_samples s;
+    memset(&s, 0, sizeof s);
+    s.tiling = tiling;
+    s.source = source;
+    s.points = points;
+    s.normals = normals;
+    s.count = count;
+    s.jobs = sdv_jobs(count, 1024);
+    s.alone.user = context->user;
+    if (!context->result) sdv_run(opt, sdv_sample_job, &s, s.jobs);
+    for (int i = 0; i < s.jobs; i++)
+        if (s.results[i]) sdv_fail(context, s.results[i], subdiv_result_string(s.results[i]));
+}
+
+// Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
+static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float factor)
+{
+    sdv_tiling halves = t->points;
+    const sdv_level *cage = halves.cage;
+    halves.edge_rates = SDV_NEW(context, &t->arena, int, cage->edge_count);
+    for (int e = 0; e < cage->edge_count && !context->result; e++) halves.edge_rates[e] = 2;
+    for (int f = 0; f < cage->face_count; f++)
+        halves.insides[f].columns = halves.insides[f].rows = 1;
+    if (!context->result) sdv_place_points(context, &halves);
+    if (context->result) return;
+    int count = halves.starts[cage->edge_count];
+    float *points = SDV_NEW(context, &t->arena, float, 3 * (size_t)count);
+    sdv_sample(context, t->opt, &halves, &t->positions, points, NULL, count);
+    if (!context->result) sdv_multiply(points, 3 * (size_t)count, factor);
+    for (int e = 0; e < cage->edge_count && !context->result; e++) {
+        int h = halves.home[cage->vertex_count + e];
+        if (h < 0) continue;
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        int low = a < b ? a : b, high = a + b - low;
+        int rate = t->how->edge_rate(t->how->user, e, points + 3 * (size_t)low,
+                                     points + 3 * (size_t)halves.starts[e],
+                                     points + 3 * (size_t)high);
+        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+        if (rate) t->points.edge_rates[e] = rate;
+    }
+}
+
+// The rates of edges as they are given: one by one, or by the faces that have them, or for all.
+static void sdv_set_edge_rates(sdv_context *context, sdv_tessellator *t)
+{
+    const sdv_level *cage = t->points.cage;
+    const subdiv_tessellation *how = t->how;
+    int *rates = t->points.edge_rates, e, f;
+    for (e = 0; e < cage->edge_count; e++) rates[e] = 0;
+    for (int h = 0; h < cage->face_vertex_count && how->face_rates; h++) {
+        f = sdv_user_face(t->surface, sdv_face_of(cage, h));
+        int rate = how->face_rates[f], *edge = &rates[cage->face_edges[h]];
+        if (rate > *edge) *edge = rate;
+        if (rate < 0)
+            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
+                          "face %d: the rate is %d", f, rate);
+    }
+    for (e = 0; e < cage->edge_count; e++) {
+        int rate = how->edge_rates ? how->edge_rates[e] : 0;
+        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+        if (rate) rates[e] = rate;
+        if (!rates[e]) rates[e] = how->rate ? how->rate : 1;
+    }
+}
+
+static void sdv_set_insides(sdv_tessellator *t)
+{
+    const int *rates = t->how->face_rates;
+    for (int f = 0; f < t->points.cage->face_count; f++) {
+        int rate = rates ? rates[sdv_user_face(t->surface, f)] : 0;
+        t->points.insides[f] = sdv_find_inside(sdv_tile_at(&t->points, f), rate);
+    }
+}
+
+// UVs have the rates of the faces and edges that they are on.
+static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_surface *uv = t->surface->uv;
+    const sdv_level *from = t->points.cage, *to = &uv->order.cage;
+    sdv_new_tiling(context, &t->arena, &t->uvs, to, t->points.loop);
+    t->uvs.number = SDV_NEW(context, &t->arena, int, to->face_count);
+    if (context->result) return;
+    for (int f = 0; f < from->face_count; f++) {
+        int own = uv->own_face[f], start = sdv_face_start(from, f);
+        if (own < 0) continue;
+        t->uvs.number[own] = f;
+        t->uvs.insides[own] = t->points.insides[f];
+        for (int h = sdv_face_start(to, own), i = 0; h < sdv_face_end(to, own); h++, i++)
+            t->uvs.edge_rates[to->face_edges[h]] =
+                t->points.edge_rates[from->face_edges[start + i]];
+    }
+    sdv_find_homes(&t->uvs, t->surface->hole);
+    t->mesh.uv_count = sdv_place_points(context, &t->uvs);
+}
+
+// Is the face left out of the result?
+static int sdv_is_left_out(const sdv_tessellator *t, int f)
+{
+    int hole = t->surface->hole[f];
+    return hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes));
+}
+
+// How many faces each face of the cage gets and, if they are of several sizes, which.
+static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
+{
+    int faces = t->points.cage->face_count;
+    sdv_faces_at out = { t->triangles, NULL, t->mesh.face_sizes, 0, 0 };
+    t->mesh.hole_count = 0;
+    for (int f = 0; f < faces; f++) {
+        t->first_face[f] = out.faces;
+        t->first_face_vertex[f] = out.face_vertices;
+        if (sdv_is_left_out(t, f)) continue;
+        sdv_tile tile = sdv_tile_at(&t->points, f);
+        sdv_count_inside_faces(&tile, &out);
+        sdv_put_strips(&tile, &out);
+        if (out.faces > INT_MAX) {
+            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                     "these rates make more than %d faces", INT_MAX);
+            return;
+        }
+        if (t->surface->hole[f]) t->mesh.hole_count += (int)(out.faces - t->first_face[f]);
+    }
+    t->first_face[faces] = out.faces;
+    t->first_face_vertex[faces] = out.face_vertices;
+    t->mesh.face_count = (int)out.faces;
+}
+
+// What the result will be like, all but its numbers.
+static void sdv_plan_tiles(sdv_context *context, sdv_tessellator *t)
+{
+    size_t faces = (size_t)t->points.cage->face_count;
+    t->first_face = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    t->first_face_vertex = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    t->mesh.face_sizes = NULL;
+    if (!context->result) sdv_count_tiles(context, t);
+    if (context->result) return;
+    size_t count = t->first_face[faces], face_vertices = t->first_face_vertex[faces];
+    t->mesh.face_size = t->triangles ? 3 : face_vertices == 4 * count ? 4 : 0;
+    if (t->mesh.face_size) return;
+    t->mesh.face_sizes = SDV_NEW(context, &t->arena, int, count);
+    if (!context->result) sdv_count_tiles(context, t);
+}
+
+static void sdv_tile_job(void *context, int job)
+{
+    const sdv_tessellator *t = (const sdv_tessellator *)context;
+    const subdiv_surface *uv = t->surface->uv;
+    int faces = t->points.cage->face_count, end = sdv_share(faces, job + 1, t->jobs);
+    for (int f = sdv_share(faces, job, t->jobs); f < end; f++) {
+        if (sdv_is_left_out(t, f)) continue;
+        size_t first = t->first_face[f], at = t->first_face_vertex[f];
+        sdv_faces_at out = { t->triangles, t->mesh.face_vertices, NULL, first, at };
+        sdv_tile tile = sdv_tile_at(&t->points, f);
+        sdv_put_inside(&tile, &out);
+        sdv_put_strips(&tile, &out);
+        for (size_t i = first; i < t->first_face[f + 1]; i++)
+            t->mesh.cage_faces[i] = sdv_user_face(t->surface, f);
+        if (!uv) continue;
+        sdv_faces_at seams = { t->triangles, t->mesh.face_uvs, NULL, first, at };
+        for (size_t i = at; uv->own_face[f] < 0 && i < t->first_face_vertex[f + 1]; i++)
+            t->mesh.face_uvs[i] = -1;
+        if (uv->own_face[f] < 0) continue;
+        tile = sdv_tile_at(&t->uvs, uv->own_face[f]);
+        sdv_put_inside(&tile, &seams);
+        sdv_put_strips(&tile, &seams);
+    }
+}
+
+static void sdv_make_tiles(sdv_tessellator *t)
+{
+    int *hole = t->mesh.holes, faces = t->points.cage->face_count;
+    t->jobs = sdv_jobs(faces, 1);
+    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
+    for (int f = 0; f < faces && t->mesh.hole_count; f++)
+        for (size_t i = t->first_face[f]; i < t->first_face[f + 1] && t->surface->hole[f]; i++)
+            *hole++ = (int)i;
+}
+
+// The points of the result, its UVs and colours.
+static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_surface *surface = t->surface, *uv = surface->uv;
+    subdiv_mesh *mesh = &t->mesh;
+    sdv_sample(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
+               mesh->vertex_count);
+    if (surface->colors) {
+        sdv_source colors = sdv_begin_source(context, t, surface, 3, surface->colors);
+        sdv_sample(context, t->opt, &t->points, &colors, mesh->colors, NULL, mesh->vertex_count);
+    }
+    if (uv) {
+        sdv_source uvs = sdv_begin_source(context, t, uv, 2, surface->uvs);
+        sdv_sample(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
+    }
+}
+
+// Statements stand before the first face of their face, or of the next one that has any.
+static void sdv_move_statements(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_mesh *from = &t->surface->fine;
+    int *faces = SDV_NEW(context, &t->arena, int, from->statement_count);
+    for (int i = 0; i < from->statement_count && !context->result; i++)
+        faces[i] = (int)t->first_face[from->statement_faces[i]];
+    t->mesh.statement_faces = faces;
+}
+
+static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float *positions,
+                           float factor)
+{
+    const subdiv_surface *surface = t->surface;
+    sdv_new_tiling(context, &t->arena, &t->points, &surface->order.cage, surface->rules.loop);
+    t->positions = sdv_begin_source(context, t, surface, 3, positions);
+    if (context->result) return;
+    sdv_find_homes(&t->points, surface->hole);
+    sdv_set_edge_rates(context, t);
+    if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
+    if (context->result) return;
+    sdv_set_insides(t);
+    subdiv_mesh made, *mesh = &t->mesh;
+    *mesh = surface->fine;
+    mesh->crease_count = mesh->corner_count = 0;
+    mesh->vertex_count = sdv_place_points(context, &t->points);
+    if (surface->uv && !context->result) sdv_tile_uvs(context, t);
+    if (!context->result) sdv_plan_tiles(context, t);
+    if (!context->result) sdv_move_statements(context, t);
+    if (!context->result) sdv_new_mesh(context, &made, mesh, SDV_LIMIT);
+    if (context->result) return;
+    *mesh = made;
+    sdv_make_tiles(t);
+    sdv_make_samples(context, t);
+    sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
+    if (context->result) subdiv_mesh_free(mesh);
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
+                                                   const subdiv_surface *surface,
+                                                   const float *positions,
+                                                   const subdiv_tessellation *how,
+                                                   const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_tessellation plain;
+    sdv_tessellator t;
+    memset(&plain, 0, sizeof plain);
+    memset(&t, 0, sizeof t);
+    if (!how) how = &plain;
+    if (fine) memset(fine, 0, sizeof *fine);
+    if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (surface->is_values)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
+    else if (!surface->exact)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared for SUBDIV_EXACT");
+    if (how->rate < 0) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the rate is %d", how->rate);
+    if (context.result) return context.result;
+
+    t.surface = surface;
+    t.how = how;
+    t.opt = opt;
+    t.arena = sdv_scratch();
+    t.triangles = how->triangles || surface->rules.loop;
+    float factor = sdv_tame(&context, &t.arena, surface, &positions);
+    if (!context.result) sdv_tessellate(&context, &t, positions, factor);
+    if (!context.result) *fine = t.mesh;
+    sdv_arena_free(&t.arena);
+    return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
+                                           const subdiv_tessellation *how,
+                                           const subdiv_options *opt)
+{
+    subdiv_mesh out;
+    subdiv_surface *surface = NULL;
+    memset(&out, 0, sizeof out);
+    sdv_context context = sdv_begin(opt);
+    if (!fine || fine == cage)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    if (!context.result) context.result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (!context.result)
+        context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
+    subdiv_surface_free(surface);
+    if (fine && fine != cage) *fine = out;
+    return context.result;
+}
+
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
+{
+    return surface->order.cage.edge_count;
+}
+
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
+{
+    const sdv_level *cage = &surface->order.cage;
+    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        ends[2 * cage->face_edges[h]] = a < b ? a : b;
+        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
+    }
 }
 
 // ---------------------------------------------------------------------------- >>generators
@@ -7777,13 +10885,13 @@ static uint32_t sdv_shortest(float number, int *ten)
         decimal.head += (uint64_t)twice_above;
         if (twice_above && sdv_nearest_float(&decimal) == number) break;
     }
-    for (; decimal.head % 10 == 0; decimal.head /= 10) ++*ten;
     return (uint32_t)decimal.head;
 }
 
 // digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
 static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
+    for (; digits && digits % 10 == 0; digits /= 10) ten++;
     char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
     int count = (int)(end - first), point = count + ten;    // digits before the point
     if (point > 9 || point < -4) {
@@ -7831,16 +10939,28 @@ static inline uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t num
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
-// How many of them are 0 before the first other; of 8 zeros 7.
-static inline int sdv_zeros_before(uint64_t text)
+// The first and the last of 8 digits that is not 0; one of them is.
+static inline int sdv_first_digit(uint64_t text)
 {
-    uint64_t others = ((text + 0x4f4f4f4f4f4f4f4fu) & 0x8080808080808080u) | (uint64_t)1 << 63;
+    uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
     return __builtin_ctzll(others) / 8;
 #else
-    int zeros = 0;
-    while (!(others >> 8 * zeros & 128)) zeros++;
-    return zeros;
+    int i = 0;
+    while (!(others >> 8 * i & 255)) i++;
+    return i;
+#endif
+}
+
+static inline int sdv_last_digit(uint64_t text)
+{
+    uint64_t others = text ^ 0x3030303030303030u;
+#if defined(__GNUC__)
+    return (63 - __builtin_clzll(others)) / 8;
+#else
+    int i = 7;
+    while (!(others >> 8 * i)) i--;
+    return i;
 #endif
 }
 
@@ -7868,40 +10988,40 @@ static char *sdv_write_exactly(char *p, float number)
 // A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
 // Returns where they end.
 //
-// All numbers between low and high read back as this float, and they are 1 to 10 units of 10^ten
-// apart. So at most one multiple of 10 lies between them. It has fewer digits than all others;
-// without it, the nearest multiple of 1 is the answer.
-static inline char *sdv_write_float(const sdv_figures *figures, char *p, float number)
+// All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
+// So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
+// nearest multiple of 1 is the answer. A power of 2 counts as the last number before it, plus one:
+// its gap is the one below. Above there is more room, which only matters if nothing is found.
+static inline char *sdv_write_float(const sdv_figures *figures, char *p, const float *number)
 {
     const uint64_t one = (uint64_t)1 << 36, doubt = one >> 11;
     uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    uint32_t exponent = bits >> 23 & 255, mantissa = bits & 0x7fffff;
-    uint64_t gap = figures->gaps[exponent], size = (mantissa | 0x800000) * gap;
-    uint64_t low = size - (mantissa ? gap / 2 : gap / 4), high = size + gap / 2;    // 2^n is nearer
-    uint32_t tens = (uint32_t)(low >> 36) / 10 + 1, ones = (uint32_t)((size + one / 2) >> 36);
-    uint64_t above_low = 10 * tens * one - low, below_high = high - 10 * tens * one;
-    uint32_t inside = (int64_t)below_high > 0;
+    memcpy(&bits, number, sizeof bits);
+    uint32_t exponent = (bits - 1) >> 23 & 255, mantissa = ((bits - 1) & 0x7fffff) + 0x800001;
+    uint64_t gap = figures->gaps[exponent], size = mantissa * gap, high = size + gap / 2;
+    uint32_t tens = (uint32_t)(high >> 36) / 10, ones = (uint32_t)((size + one / 2) >> 36);
+    uint64_t below_high = high - 10 * tens * one, outside = below_high - gap;
+    uint32_t inside = (uint32_t)(outside >> 63);
     *p++ = ' ';
-    if (above_low - doubt > 10 * one - 2 * doubt || below_high + doubt < 2 * doubt ||
-        inside < (mantissa == 0)) return sdv_write_exactly(p, number);      // also if gap is 0
+    if (below_high - doubt > 10 * one - 2 * doubt || outside + doubt < 2 * doubt ||
+        inside < mantissa >> 24) return sdv_write_exactly(p, *number);      // also if gap is 0
     uint32_t digits = ones ^ ((ones ^ tens) & (0 - inside));
     int ten = figures->tens[exponent] + (int)inside;
-    for (; digits % 10 == 0; digits /= 10) ten++;
 
     *p = '-';
     p += bits >> 31;
     if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
     uint64_t text = sdv_eight_digits(figures, digits);
-    int zeros = sdv_zeros_before(text), count = 8 - zeros, point = count + ten;
+    int zeros = sdv_first_digit(text), count = sdv_last_digit(text) + 1 - zeros;
+    int point = 8 - zeros + ten;
     text >>= 8 * zeros;
-    if (point >= 0 && point < count) {
+    if (point >= 0 && ten < 0) {
         *p = '0';
         sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
         p += point + (point == 0);
-        *p++ = '.';
-        sdv_store_eight(p, text >> 8 * point);
-        return p + count - point;
+        *p = '.';
+        sdv_store_eight(p + 1, text >> 8 * point);
+        return count > point ? p + 1 + count - point : p;       // 12
     }
     if (point < 0 && point >= -4) {
         memcpy(p, "0.0000", 6);
@@ -7921,10 +11041,7 @@ static inline char *sdv_write_index(const sdv_figures *figures, char *p, int num
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = 0;                          // by comparing, as neighbours have as many digits
-    if (number < 10000) zeros = sdv_zeros_before(text);
-    else if (number < 1000000) zeros = 2 + (number < 100000);
-    else if (number < 10000000) zeros = 1;
+    int zeros = number ? sdv_first_digit(text) : 7;
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
 }
@@ -8061,7 +11178,8 @@ typedef struct sdv_obj {
     sdv_array    ahead[2];              // of vertices, of uvs
     int          most_faces;            // with those that are skipped
     int          uv_faces;              // faces with UVs
-    int          bare_line, mixed_line; // of the first face without, and the first that has some
+    int          mixed_faces;           // with a vt at some of their vertices only
+    int          bare_line, mixed_line; // of the first face that has none, and of the first such
     int          skipped_counts[SDV_STATEMENT_KINDS], skipped_lines[SDV_STATEMENT_KINDS];
     sdv_array    tags, skipped;         // skipped: numbers of the file's faces not in the mesh
     sdv_array    ints, floats;          // of one tag
@@ -8343,8 +11461,9 @@ static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
         sdv_series_add(&obj->face_uvs, size);
         obj->uv_faces++;
     } else {
-        if (!obj->bare_line) obj->bare_line = obj->line;
-        if (uvs && !obj->mixed_line) obj->mixed_line = obj->line;
+        int *line = uvs ? &obj->mixed_line : &obj->bare_line;
+        if (*line == 0) *line = obj->line;
+        obj->mixed_faces += uvs > 0;
     }
     if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
     if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
@@ -8508,11 +11627,25 @@ static int sdv_read_tag(sdv_obj *obj, const char **at)
 
 // -------- statements
 
+// Where the comment behind a name begins: at a # between blanks, as some names are "Material #25".
+// Smoothing groups have no names, so there any # will do.
+static const char *sdv_find_comment(sdv_token keyword, const char *end)
+{
+    int any = *keyword.begin == 's';
+    for (const char *p = keyword.end; p < end; p++) {
+        if (*p != '#') continue;
+        int behind = any || p == keyword.end || sdv_is_blank(p[-1]) || sdv_is_newline(p[-1]);
+        if (behind && (any || p == keyword.end || sdv_ends_token(p + 1))) return p;
+    }
+    return end;
+}
+
 // Keeps "usemtl stone" as it stands in the file, names with blanks and all, joined where it goes on
 // in the next line. Returns what is behind.
 static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 {
-    const char *next = sdv_skip_statement(obj, keyword.end), *end = next, *p = keyword.end;
+    const char *next = sdv_skip_statement(obj, keyword.end), *p = keyword.end;
+    const char *end = obj->context->result ? p : sdv_find_comment(keyword, next);
     if (obj->context->result) return next;
     while (end > p && (sdv_is_blank(end[-1]) || sdv_is_newline(end[-1]) || sdv_continues(end - 1)))
         end--;
@@ -8789,18 +11922,19 @@ static void sdv_fill_tags(const sdv_obj *obj, subdiv_mesh *mesh)
 // A mesh has UVs if any of its faces has.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
-    int bare = obj->mesh.face_count - obj->uv_faces;
+    int bare = obj->mesh.face_count - obj->uv_faces - obj->mixed_faces;
+    if (obj->mixed_faces)
+        sdv_warn(obj->context, obj->mixed_line,
+                 "%d of %d faces have a vt at some of their vertices only: they get no UVs",
+                 obj->mixed_faces, obj->mesh.face_count);
     if (obj->uv_faces == 0) {
-        if (obj->mixed_line)
-            sdv_warn(obj->context, obj->mixed_line,
-                     "no face has a vt at each of its vertices: the UVs are skipped");
         obj->mesh.uv_count = 0;
         return;
     }
     sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
     if (bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs (a vt at each vertex)",
-                 bare, obj->mesh.face_count);
+        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare,
+                 obj->mesh.face_count);
 }
 
 static void sdv_finish_statements(sdv_obj *obj)
@@ -8911,7 +12045,7 @@ typedef struct sdv_output {
     size_t       used;
 } sdv_output;
 
-#define SDV_OUTPUT_SIZE 65536
+#define SDV_OUTPUT_SIZE 16384           // stays in the nearest cache
 #define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
 
 static void sdv_flush(sdv_output *out)
@@ -9000,7 +12134,7 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
 
 static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
 {
-    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, numbers[i]);
+    for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, &numbers[i]);
     return p;
 }
 
@@ -9008,10 +12142,11 @@ static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
+    const size_t length = strlen(keyword);
     for (int i = 0; i < count && !out->context->result; i++, values += width) {
         char *p = sdv_room(out);
-        *p++ = keyword[0];
-        if (keyword[1]) *p++ = keyword[1];
+        memcpy(p, keyword, 2);
+        p += length;
         p = sdv_write_floats(out->figures, p, values, width);
         if (more) p = sdv_write_floats(out->figures, p, more + 3 * (size_t)i, 3);
         *p++ = '\n';
@@ -9192,9 +12327,10 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
         for (int g = 0; g < grids; g++) {
-            sdv_grid grid = sdv_grid_at(order, start + g), uv_grid = grid;
+            sdv_grid grid, uv_grid;
+            sdv_grid_at(order, start + g, &grid);
             if (own >= 0)
-                uv_grid = sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g);
+                sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
             for (int i = 0; i < grid.size && !out->context->result; i++) {
                 int count = (int)(sdv_grid_faces(&grid, i, row) - row) / size;
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, uvs);
@@ -9248,6 +12384,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
 {
     sdv_context context = sdv_begin(opt);
     if (!surface || !write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    sdv_check_result(&context, surface);
     if (context.result) return context.result;
     if (surface->levels == 0)
         return sdv_stream_copy(&context, surface, positions, write, user, opt);
@@ -9391,10 +12528,576 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 #endif // SUBDIV_NO_STDIO
 
+// -------------------------------------------------------------------------------- >>explain
+// The words for what >>sharpness and >>masks decide, and the row that they write for a point.
+
+enum { SDV_GROUPS = 4 };
+
+typedef struct sdv_explainer {
+    sdv_context *context;
+    sdv_arena    arena;
+    sdv_text     out;
+    sdv_cage     cage;
+    sdv_rules    rules;
+    unsigned     papers;                // a bit for each that was named
+    double      *weights;               // [vertices, faces] the mask
+    int         *order;                 // [vertices] those that have a weight, heavy ones first
+    int          count;
+    int          group_sizes[SDV_GROUPS];   // how many of them weigh the same; 0: no more
+} sdv_explainer;
+
+static const struct { const char *tag, *title; } sdv_papers[] = {
+    { "[CC78]", "Catmull, Clark: Recursively generated B-spline surfaces on arbitrary\n"
+                "       topological meshes, 1978" },
+    { "[Loop87]", "Loop: Smooth subdivision surfaces based on triangles, 1987" },
+    { "[HDD94]", "Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction, 1994" },
+    { "[DKT98]", "DeRose, Kass, Truong: Subdivision surfaces in character animation, 1998" },
+    { "[OSD]", "OpenSubdiv 3.5: the rules where the papers are silent" }
+};
+
+enum { SDV_CC78, SDV_LOOP87, SDV_HDD94, SDV_DKT98, SDV_OSD, SDV_PAPERS };
+
+static void sdv_say(sdv_explainer *x, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    sdv_format(&x->out, format, args);
+    va_end(args);
+}
+
+static void sdv_cite(sdv_explainer *x, int paper)
+{
+    x->papers |= 1u << paper;
+    sdv_say(x, "  %s\n", sdv_papers[paper].tag);
+}
+
+// A number as a fraction, if it is a simple one as far as floats can tell; else as a float.
+static const char *sdv_number_text(double number, char *text)
+{
+    sdv_text out = { text, 0, 32 };
+    for (int q = 1; q <= 400; q++) {
+        int p = (int)(number * q + 0.5);
+        if (p == 0 || fabs(number * q - p) > (double)FLT_EPSILON * p) continue;
+        sdv_put_int(&out, p);
+        if (q > 1) sdv_put(&out, "/", 1);
+        if (q > 1) sdv_put_int(&out, q);
+        return text;
+    }
+    *sdv_write_exactly(text, (float)number) = 0;
+    return text;
+}
+
+static const char *sdv_float_text(float number, char *text)
+{
+    *sdv_write_exactly(text, number) = 0;
+    return text;
+}
+
+// ---- the mask
+
+// The row of a point goes to the weights of vertices and face points, factor times.
+static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int *row,
+                           double factor)
+{
+    const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
+    const float *weights = (const float *)sdv_items(&writer->weights);
+    for (int i = 0; i < mask->count; i++)
+        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i);
+}
+
+// How many vertices from place i of the order on weigh the same.
+static int sdv_group_size(const sdv_explainer *x, int i)
+{
+    double weight = x->weights[x->order[i]];
+    int size = 1;
+    while (i + size < x->count &&
+           x->weights[x->order[i + size]] > weight - 1e-6 * fabs(weight)) size++;
+    return size;
+}
+
+// Puts the vertices with a weight in order.
+static void sdv_find_order(sdv_explainer *x)
+{
+    const double *w = x->weights;
+    int groups = 0;
+    for (int v = 0; v < x->cage.level.vertex_count; v++) {
+        int at = x->count;
+        if (!(fabs(w[v]) > 0)) continue;
+        for (; at > 0 && w[x->order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
+            x->order[at] = x->order[at - 1];
+        x->order[at] = v;
+        x->count++;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size = sdv_group_size(x, i);
+        if (groups < SDV_GROUPS) x->group_sizes[groups++] = size;
+    }
+}
+
+// The mask of vertex v, of the edge that leads on from h, or of face f, whichever is not -1, on the
+// vertices of the cage: its row, then those of the face points in it.
+static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
+{
+    sdv_level *level = &x->cage.level;
+    size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
+    size_t size = (size_t)level->face_vertex_count + 1;         // of any face's row
+    sdv_writer writer;
+    sdv_rows rows;
+    if (v >= 0) size += sdv_vertex_row_size(level, v, x->rules.loop);
+    if (h >= 0) size += sdv_edge_row_size(level, h);
+    sdv_writer_new(x->context, &writer);
+    x->weights = SDV_NEW(x->context, &x->arena, double, points);
+    x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
+    sdv_begin_rows(&writer, &x->arena, &rows, size, 1, 0);
+    for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
+    for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
+    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
+    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
+    if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
+    if (!x->context->result) sdv_spread_row(x, &writer, rows.items, 1);
+    for (int i = 0; i < level->face_count && !x->context->result; i++) {
+        double weight = x->weights[level->vertex_count + i];
+        if (!(fabs(weight) > 0)) continue;
+        writer.row = rows.items;
+        rows.count = 0;
+        sdv_face_row(level, i, &writer);
+        if (!x->context->result) sdv_spread_row(x, &writer, rows.items, weight);
+    }
+    if (!x->context->result) sdv_find_order(x);
+    sdv_writer_free(&writer);
+}
+
+static void sdv_say_blanks(sdv_explainer *x, size_t count)
+{
+    while (count--) sdv_put(&x->out, " ", 1);
+}
+
+// One line a weight, with all the vertices that have it.
+static void sdv_say_table(sdv_explainer *x)
+{
+    char text[32];
+    size_t width = 6;                               // of the weights
+    for (int i = 0; i < x->count; i += sdv_group_size(x, i)) {
+        size_t size = strlen(sdv_number_text(x->weights[x->order[i]], text));
+        if (size > width) width = size;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size_t start = x->out.size;
+        size = sdv_group_size(x, i);
+        sdv_number_text(x->weights[x->order[i]], text);
+        sdv_say(x, "    %s", text);
+        sdv_say_blanks(x, width + 2 - strlen(text));
+        sdv_say(x, size == 1 ? "vertex" : "vertices");
+        for (int j = i; j < i + size; j++) {
+            if (x->out.size > start + 68) {
+                sdv_say(x, "\n");
+                start = x->out.size;
+                sdv_say_blanks(x, width + 14);
+            }
+            sdv_say(x, " %d", x->order[j]);
+        }
+        sdv_say(x, "\n");
+    }
+}
+
+// Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
+// weights, heavy ones first, in six places each.
+typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+
+static const struct { sdv_point_kind kind; int sizes[SDV_GROUPS]; const char *text; }
+sdv_pictures[] = {
+    { SDV_FACE_POINT, { 4, 0, 0, 0 },
+      "  aaaaaa --- aaaaaa\n"
+      "     |          |\n"
+      "     |    F     |\n"
+      "     |          |\n"
+      "  aaaaaa --- aaaaaa\n" },
+    { SDV_FACE_POINT, { 3, 0, 0, 0 },
+      "       aaaaaa\n"
+      "         / \\\n"
+      "        / F \\\n"
+      "       /     \\\n"
+      "  aaaaaa -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 0, 0, 0 },
+      "  aaaaaa -- E -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 4, 0, 0 },
+      "  bbbbbb ------- bbbbbb\n"
+      "     |              |\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "     |              |\n"
+      "  bbbbbb ------- bbbbbb\n" },
+    { SDV_EDGE_POINT, { 2, 2, 0, 0 },
+      "         bbbbbb\n"
+      "        /      \\\n"
+      "       /        \\\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "       \\        /\n"
+      "        \\      /\n"
+      "         bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
+      "  bbbbbb --- aaaaaa --- bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
+      "  cccccc --- bbbbbb --- cccccc\n"
+      "     |          |          |\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     |          |          |\n"
+      "  cccccc --- bbbbbb --- cccccc\n" },
+    { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
+      "       bbbbbb --- bbbbbb\n"
+      "        /    \\     /    \\\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "        \\    /     \\    /\n"
+      "       bbbbbb --- bbbbbb\n" }
+};
+
+// The picture with its weights, if they fit.
+static void sdv_draw(sdv_explainer *x, const char *picture)
+{
+    char texts[SDV_GROUPS][32];
+    for (int i = 0, g = 0; i < x->count; i += x->group_sizes[g++]) {
+        sdv_number_text(x->weights[x->order[i]], texts[g]);
+        if (strlen(texts[g]) > 6) return;
+    }
+    size_t start = x->out.size;
+    for (const char *p = picture; *p; p++) {
+        if (*p < 'a' || *p > 'c') {
+            while (*p == '\n' && x->out.text[x->out.size - 1] == ' ') x->out.size--;
+            sdv_put(&x->out, p, 1);
+            continue;
+        }
+        const char *text = texts[*p - 'a'];
+        size_t size = strlen(text), left = (7 - size) / 2;
+        sdv_put(&x->out, "   ", left);
+        sdv_put(&x->out, text, size);
+        sdv_put(&x->out, "   ", 6 - left - size);
+        p += 5;
+    }
+    char *line = x->out.text + start;               // lines reach all weights but for a blank
+    size_t end = x->out.size - start;
+    for (size_t i = 0; i + 2 < end; i++)
+        if (line[i] == '-' && line[i + 1] == ' ' && line[i + 2] == ' ') line[i + 1] = '-';
+    for (size_t i = end; i > 2; i--)
+        if (line[i - 1] == '-' && line[i - 2] == ' ' && line[i - 3] == ' ') line[i - 2] = '-';
+    sdv_say(x, "\n");
+}
+
+static void sdv_say_mask(sdv_explainer *x, sdv_point_kind kind)
+{
+    sdv_say(x, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
+    for (size_t i = 0; i < sizeof sdv_pictures / sizeof *sdv_pictures; i++)
+        if (sdv_pictures[i].kind == kind &&
+            memcmp(sdv_pictures[i].sizes, x->group_sizes, sizeof x->group_sizes) == 0)
+            sdv_draw(x, sdv_pictures[i].text);
+    sdv_say_table(x);
+    if (x->papers) sdv_say(x, "\n");
+    for (int i = 0; i < SDV_PAPERS; i++)
+        if (x->papers >> i & 1)
+            sdv_say(x, "%s %s\n", sdv_papers[i].tag, sdv_papers[i].title);
+}
+
+// ---- vertices
+
+// What a rule makes of a vertex, behind "V = ".
+static void sdv_say_rule(sdv_explainer *x, sdv_rule rule, int n)
+{
+    char text[32];
+    if (rule == SDV_CORNER || x->rules.linear) {
+        sdv_say(x, "v\n");
+    } else if (rule == SDV_CREASE) {
+        sdv_say(x, "(a + 6 v + b) / 8");
+        sdv_cite(x, SDV_HDD94);
+    } else if (x->rules.loop) {
+        sdv_say(x, "(1 - n b) v + b (e1 + ... + en)");
+        sdv_cite(x, SDV_LOOP87);
+        sdv_say(x, "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
+                sdv_number_text(sdv_loop_vertex(n).edge, text), n);
+    } else {
+        sdv_say(x, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d", n);
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
+{
+    int crease = rule == SDV_CREASE || next == SDV_CREASE;
+    int smooth = rule < SDV_CREASE || next < SDV_CREASE;
+    sdv_say(x, "\nHere v is the vertex");
+    if (crease) sdv_say(x, " and a, b are its neighbours along the crease");
+    if (smooth && crease) sdv_say(x, ";\nthe e are all its neighbours");
+    else if (smooth) sdv_say(x, ", the e are its neighbours");
+    if (smooth && !x->rules.loop) sdv_say(x, ", the f the face points there");
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
+{
+    char text[32];
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, ", sharp forever");
+    else sdv_say(x, ", of sharpness %s", sdv_float_text(sharpness, text));
+}
+
+// The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
+static void sdv_say_edge(sdv_explainer *x, int h, int v)
+{
+    const sdv_level *level = &x->cage.level;
+    int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+    int from = a == v || b == v ? v : a < b ? a : b;
+    sdv_say(x, "%d-%d", from, a + b - from);
+}
+
+// Lists the sharp edges at a vertex, if they are few; how many they are, and how many boundaries.
+static sdv_edges_at sdv_say_sharp_edges(sdv_explainer *x, int v, int say)
+{
+    const sdv_level *level = &x->cage.level;
+    sdv_edges_at sharp = { 0, 0, 0 };
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            if (say && sharp.count) sdv_say(x, " and ");
+            if (say) sdv_say_edge(x, two[i], v);
+            sharp.boundary += sdv_is_boundary(level, two[i]);
+            sharp.count++;
+        }
+    }
+    return sharp;
+}
+
+static void sdv_say_corner(sdv_explainer *x, int v)
+{
+    float sharpness = x->cage.level.vertex_sharpness[v];
+    if (x->cage.level.vertex_faces[v] == 0) {
+        sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
+        return;
+    }
+    sdv_say(x, "Vertex %d is a corner", v);
+    if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
+        sdv_say(x, ": the surface is non-manifold there");
+    else if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x, ": it has one face, and the rule is \"edge and corner\"");
+    else if (sharpness > 0)
+        sdv_say_sharpness(x, sharpness);
+    else
+        sdv_say(x, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
+{
+    int boundary = sdv_say_sharp_edges(x, v, 0).boundary == 2;
+    if (x->rules.linear) {
+        sdv_say(x, "Refinement is linear: vertex %d stays where it is.\n", v);
+    } else if (rule == SDV_CORNER) {
+        sdv_say_corner(x, v);
+    } else if (rule == SDV_SMOOTH) {
+        sdv_say(x, "Vertex %d is interior, of valence %d, and smooth.\n", v,
+                x->cage.level.vertex_faces[v]);
+    } else {
+        sdv_say(x, rule == SDV_DART ? "Vertex %d is a dart: the crease " :
+                boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
+                "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
+        sdv_say_sharp_edges(x, v, 1);
+        sdv_say(x, rule == SDV_DART ? " ends there.\nIt moves as if it were smooth.\n" :
+                ", a cubic B-spline.\n");
+    }
+}
+
+static void sdv_explain_vertex(sdv_explainer *x, int v)
+{
+    static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
+    static const char letters[] = "SSCK";
+    sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
+    sdv_rule rule = fading.rule, next = fading.next;
+    int n = x->cage.level.vertex_faces[v];
+    char more[32], less[32];
+    int blend = rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear;
+    sdv_say_vertex_rule(x, v, rule);
+    if (!blend) {
+        sdv_say(x, "\n    V = ");
+        sdv_say_rule(x, rule, n);
+    } else {
+        sdv_say(x, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
+                "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
+                sdv_number_text(fading.weight, more), more, letters + rule, 1,
+                sdv_number_text(1 - fading.weight, less), letters + next, 1);
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    %t = ", letters + rule, 1);
+        sdv_say_rule(x, rule, n);
+        sdv_say(x, "    %t = ", letters + next, 1);
+        sdv_say_rule(x, next, n);
+    }
+    if (!blend) next = rule;
+    if (!x->rules.linear && (rule != SDV_CORNER || blend)) sdv_say_letters(x, rule, next);
+}
+
+// ---- edges and faces
+
+// The smooth point of an edge, behind "E = ".
+static void sdv_say_smooth_edge(sdv_explainer *x, int h)
+{
+    const sdv_level *level = &x->cage.level;
+    int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
+    char ends[32], faces[32];
+    if (x->rules.loop) {
+        sdv_say(x, "(3 a + 3 b + c + d) / 8");
+        sdv_cite(x, SDV_LOOP87);
+    } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
+        sdv_mask mask = sdv_smooth_triangle_edge(triangles);
+        sdv_say(x, "%s (a + b) + %s (f + g)", sdv_number_text(mask.self, ends),
+                sdv_number_text(mask.face, faces));
+        sdv_cite(x, SDV_OSD);
+    } else {
+        sdv_say(x, "(a + b + f + g) / 4");
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    sdv_say(x, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge " :
+            "Edge ");
+    sdv_say_edge(x, h, -1);
+    if (x->rules.linear) {
+        sdv_say(x, ".\n");
+    } else if (x->cage.edge_nonmanifold[e]) {
+        sdv_say(x, " is non-manifold, and so a crease.\n");
+    } else if (sdv_is_boundary(level, h)) {
+        sdv_say(x, " is on the boundary, which is a crease.\n");
+    } else if (sharpness <= 0) {
+        sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
+                sdv_face_of(level, level->across[h]));
+    } else {
+        sdv_say(x, " is a crease");
+        sdv_say_sharpness(x, sharpness);
+        sdv_say(x, stays_sharp ? ".\n" : ".\nIt ends before the next level");
+        if (!stays_sharp) sdv_say(x, sharpness < 1 ? ", and so much of the point is still sharp:\n"
+                                                   : ".\n");
+    }
+}
+
+static void sdv_explain_edge(sdv_explainer *x, int e)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
+    int smooth = !crease && sharpness <= 0;
+    char more[32], less[32];
+    sdv_say_edge_rule(x, e, stays_sharp);
+    if (!crease && !smooth) {
+        sdv_say(x, "\n    E = %s C + %s S",
+                sdv_number_text((double)sharpness, more),
+                sdv_number_text(1 - (double)sharpness, less));
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    C = (a + b) / 2\n    S = ");
+    } else {
+        sdv_say(x, "\n    E = %s", crease ? "(a + b) / 2\n" : "");
+    }
+    if (!crease) sdv_say_smooth_edge(x, h);
+    sdv_say(x, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
+            x->rules.loop ? ", and c and d the vertices opposite" :
+            ", and f and g the face points beside it");
+}
+
+static void sdv_explain_face(sdv_explainer *x, int f)
+{
+    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
+    sdv_say(x, "Face %d has %d vertices; its face point is their mean.\n\n"
+            "    F = (v1 + ... + vn) / n, n = %d", f, n, n);
+    sdv_cite(x, SDV_CC78);
+}
+
+// The first line, the words, the mask.
+static void sdv_explain_point(sdv_explainer *x, int point)
+{
+    const sdv_level *level = &x->cage.level;
+    int e = point - level->vertex_count, f = e - level->edge_count;
+    int h = e >= 0 && f < 0 ? level->edge_first[e] : -1;
+    sdv_find_mask(x, e < 0 ? point : -1, h, f >= 0 ? f : -1);
+    if (x->context->result) return;
+    sdv_say(x, "Point %d of the mesh refined once is the ", point);
+    if (e < 0) {
+        sdv_say(x, "vertex point of vertex %d.\n", point);
+        sdv_explain_vertex(x, point);
+    } else if (f < 0) {
+        sdv_say(x, "edge point of edge ");
+        sdv_say_edge(x, h, -1);
+        sdv_say(x, ".\n");
+        sdv_explain_edge(x, e);
+    } else {
+        sdv_say(x, "face point of face %d.\n", f);
+        sdv_explain_face(x, f);
+    }
+    sdv_say_mask(x, e < 0 ? SDV_VERTEX_POINT : f < 0 ? SDV_EDGE_POINT : SDV_FACE_POINT);
+}
+
+static void sdv_check_point(sdv_context *context, const sdv_level *level, int loop, int point)
+{
+    char message[256];
+    sdv_text out = { message, 0, sizeof message };
+    const char *const names[3] = { "vertices", "edges", "faces" };
+    int counts[3] = { level->vertex_count, level->edge_count, loop ? 0 : level->face_count };
+    int first = 0;
+    message[0] = 0;
+    for (int i = 0; i < 3; first += counts[i++]) {
+        if (!counts[i]) continue;
+        sdv_put(&out, i ? ", " : "", i ? 2 : 0);
+        sdv_put_int(&out, first);
+        sdv_put(&out, " to ", 4);
+        sdv_put_int(&out, first + counts[i] - 1);
+        sdv_put(&out, " of ", 4);
+        sdv_put(&out, names[i], strlen(names[i]));
+    }
+    if (point < 0 || point >= first)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+                 point, message);
+}
+
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_surface *cut = NULL;
+    sdv_explainer x;
+    memset(&x, 0, sizeof x);
+    if (text && capacity) text[0] = 0;
+    else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
+    if (!context.result) sdv_check_request(&context, &cut, cage, 1, opt);
+    if (context.result) return context.result;
+
+    subdiv_mesh work = *cage;
+    cut = sdv_new_surface(&context, 1);
+    x.context = &context;
+    x.arena = sdv_scratch();
+    x.out.text = text;
+    x.out.capacity = capacity;
+    x.rules.loop = cage->scheme == SUBDIV_LOOP;
+    x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
+    x.rules.triangles = cage->triangles;
+    if (cut) sdv_copy_faces(&context, cut, &work, cage);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
+    if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
+    if (!context.result) sdv_level_fade(&x.cage.level);
+    if (!context.result) sdv_explain_point(&x, point);
+    if (!context.result && x.out.size + 1 == capacity)
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    if (context.result) text[0] = 0;
+    sdv_arena_free(&x.arena);
+    subdiv_surface_free(cut);
+    return context.result;
+}
+
 // ------------------------------------------------------------------------------- >>cleanup
 #undef SDV_NEW
 #undef SDV_IMPLIED
 #undef SDV_CHECKED
+#undef SDV_MOST_JOBS
+#undef SDV_SAMPLES
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS

@@ -1,7 +1,8 @@
 // A cube whose UVs are an unfolded cross, refined twice with each rule for seams. Seven edges of
 // the cube are seams, so its 8 vertices have 14 values. You will see where two of them go: an outer
 // corner of the cross, which only the last rule rounds off, and an inner one, which curves unless
-// the rule keeps it. The positions do not differ. build/uv_*.obj are the results to compare.
+// the rule keeps it. The positions do not differ. uv_*.obj are the results to compare, in the folder
+// given or else in build.
 //
 //     cc -O2 -I. examples/04_uv_seams.c -o build/04_uv_seams -lm && build/04_uv_seams
 //
@@ -25,8 +26,9 @@ static const float places[] = {0,1, 1,1, 2,1, 3,1, 4,1, 0,2, 1,2, 2,2, 3,2, 4,2,
                                1,0, 2,0, 1,3, 2,3};
 static int UV_F[] = {0,1,6,5, 1,2,7,6, 2,3,8,7, 3,4,9,8, 12,6,7,13, 11,2,1,10};
 
-int main(void)
+int main(int argc, char **argv)
 {
+    const char *folder = argc > 1 ? argv[1] : "build";
     static const char *const names[] = {"corners only", "corners plus 1", "corners plus 2",
                                         "boundaries", "all", "none"};
     static const char *const files[] = {"corners_only", "corners_plus1", "corners_plus2",
@@ -51,9 +53,9 @@ int main(void)
         subdiv_mesh fine = {0};
         cube.uv_rule = (subdiv_uv_rule)rule;
         if (subdiv_refine(&fine, &cube, 2, &opt)) break;
-        char file[64];
+        char file[256];
         const float *a = fine.uvs + 2 * 4, *b = fine.uvs + 2 * 6;   // value i stays value i
-        snprintf(file, sizeof file, "build/uv_%s.obj", files[rule]);
+        snprintf(file, sizeof file, "%s/uv_%s.obj", folder, files[rule]);
         printf("%-14s  %8d  %3d  (%.4f, %.4f)  (%.4f, %.4f)  %s\n", names[rule], fine.vertex_count,
                fine.uv_count, (double)a[0], (double)a[1], (double)b[0], (double)b[1], file);
         subdiv_save_obj(&fine, file, &opt);

@@ -33,9 +33,9 @@ enum { MAX_THREADS = 256 };
 // ------------------------------------------------------------------------------ command line
 
 enum {
-    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, THREADS,
+    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, TESSELLATE, THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
-    STREAM, TRIANGULATE, KEEP_HOLES, INFO, TIME, HELP, VERSION, OPTION_COUNT
+    EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
 
 // A list of names stands in the order of the library's enum, so that the place of a name in the
@@ -44,7 +44,7 @@ typedef struct option {
     char        letter;               // 0: none
     const char *name;
     const char *values;               // NULL: a switch; "N": a whole number; "DEG", "S": a
-                                      // number; else names between bars
+                                      // number; "SAMPLES": a file; else names between bars
     const char *help;
 } option;
 
@@ -57,15 +57,20 @@ static const option options[OPTION_COUNT] = {
     {'u', "uv", "corners-only|corners-plus1|corners-plus2|boundaries|all|none",
      "what happens to UVs at seams and boundaries"},
     {'L', "limit", NULL, "put the points on the limit surface, with normals"},
+    {0, "tessellate", "N", "instead of levels: cut every edge into N pieces, on the limit surface"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
     {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
     {0, "crease-smoothing-groups", NULL, "make the borders of smoothing groups sharp"},
     {0, "crease-seams", NULL, "make UV seams sharp"},
     {0, "crease-sharpness", "S", "of these three: for S levels, forever when not given"},
+    {0, "eval", "SAMPLES",
+     "print the limit surface instead, px py pz ux uy uz vx vy vz (point and derivatives), at\n"
+     "          each line 'face u v' or 'face/corner u v' of SAMPLES, counted from 0"},
     {0, "stream", NULL, "refine and save piece by piece, in little memory; large results always"},
     {0, "triangulate", NULL, "Loop: cut larger faces into triangles first"},
     {0, "keep-holes", NULL, "keep the faces of holes, tagged as holes"},
     {0, "info", NULL, "print what the cage is made of, and what is odd about it"},
+    {0, "explain", "N", "print the rule and the mask of point N of the cage refined once"},
     {0, "time", NULL, "print how long each step takes"},
     {'h', "help", NULL, "print this"},
     {0, "version", NULL, "print the version"},
@@ -74,7 +79,7 @@ static const option options[OPTION_COUNT] = {
 typedef struct command {
     int         given[OPTION_COUNT];  // the value of each option; -1: not given
     float       numbers[OPTION_COUNT];    // of those with any number
-    const char *input, *output;       // NULL: not given
+    const char *input, *output, *samples;     // NULL: not given
 } command;
 
 // Says what is wrong with the command line.
@@ -141,9 +146,13 @@ static int set_option(command *cmd, int id, const char *value)
     }
     if (value == NULL) return misused("--%s needs a value", o->name);
     if (id == CREASE_ANGLE || id == CREASE_SHARPNESS) return set_number(cmd, id, value);
+    if (id == EVAL) {
+        cmd->samples = value;
+        return DONE;
+    }
     int number = strcmp(o->values, "N") == 0;
     int read = number ? read_number(value) : find_name(o->values, value);
-    if (number && (read < 0 || (id == THREADS && read < 1)))
+    if (number && (read < 0 || ((id == THREADS || id == TESSELLATE) && read < 1)))
         return misused("--%s needs a whole number, not '%s'", o->name, value);
     if (read < 0) return misused("--%s is one of %s, not '%s'", o->name, o->values, value);
     cmd->given[id] = read;
@@ -190,12 +199,23 @@ static int read_command(command *cmd, int argc, char **argv)
     if (cmd->given[HELP] == 1 || cmd->given[VERSION] == 1) return DONE;
     if (cmd->given[LIMIT] == 1 && cmd->given[STREAM] == 1)
         return misused("--stream writes no normals, so not with --limit");
+    if (cmd->given[TESSELLATE] > 0 && (cmd->given[LEVELS] >= 0 || cmd->given[STREAM] == 1))
+        return misused("--tessellate has no levels and is no stream");
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
     if (cmd->given[CREASE_SHARPNESS] == 1 && cmd->given[CREASE_ANGLE] < 0 &&
         cmd->given[CREASE_GROUPS] < 0 && cmd->given[CREASE_SEAMS] < 0)
         return misused("--crease-sharpness needs one of the other crease options");
+    if (cmd->samples && (cmd->output || cmd->given[INFO] == 1 || cmd->given[LEVELS] >= 0 ||
+                         cmd->given[LIMIT] == 1 || cmd->given[STREAM] == 1 ||
+                         cmd->given[TESSELLATE] > 0))
+        return misused("--eval prints: no OUTPUT, --info, --levels, --limit, --tessellate or "
+                       "--stream beside it");
+    if (cmd->samples && strcmp(cmd->samples, "-") == 0 && strcmp(cmd->input, "-") == 0)
+        return misused("--eval - and INPUT - would share standard input");
     if (cmd->given[INFO] == 1 && cmd->output && strcmp(cmd->output, "-") == 0)
         return misused("--info and OUTPUT - would share standard output");
+    if (cmd->given[EXPLAIN] >= 0 && cmd->output)
+        return misused("--explain writes to standard output alone");
     return DONE;
 }
 
@@ -244,6 +264,21 @@ static int print_face_sizes(const subdiv_mesh *mesh, int max_face_size)
         if (count[size]) printf("  of %-21d%d\n", size, count[size]);
     free(count);
     return DONE;
+}
+
+// How many statements there are of each kind.
+static void print_statements(const subdiv_mesh *mesh)
+{
+    static const char *const words[] = {"g", "o", "s", "usemtl", "mtllib"};
+    printf("%-26s%d\n", "statements", mesh->statement_count);
+    for (int k = 0; k < 5; k++) {
+        size_t size = strlen(words[k]);
+        int count = 0;
+        for (int i = 0; i < mesh->statement_count; i++)
+            count += strncmp(mesh->statements[i], words[k], size) == 0 &&
+                     strchr(" \t", mesh->statements[i][size]) != NULL;
+        if (count) printf("  %-24s%d\n", words[k], count);
+    }
 }
 
 // A float with the fewest digits that tell it from others, behind a blank.
@@ -315,12 +350,15 @@ static int print_info(const subdiv_mesh *mesh, const subdiv_info *info, const fi
         {"corners", info->corner_count},
         {"holes", info->hole_count},
         {"components", info->component_count},
+        {"UVs", mesh->uv_count},
+        {"vertices with colours", mesh->colors ? mesh->vertex_count : 0},
     };
     printf("%-26s%d\n%-26s%d\n%-26s%d\n", "vertices", info->vertex_count, "edges",
            info->edge_count, "faces", info->face_count);
     if (print_face_sizes(mesh, info->max_face_size)) return FAILED;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         printf("%-26s%d\n", rows[i].name, rows[i].value);
+    print_statements(mesh);
     print_bounding_box(mesh);
     print_findings(odd);
     return flush_output();
@@ -471,16 +509,17 @@ static subdiv_result load(subdiv_mesh *cage, const command *cmd, const subdiv_op
     return result;
 }
 
-static int report(const subdiv_options *opt)
+// Names the file, where the message does not: of standard input, and once the cage is read.
+static void print_message(const char *kind, const char *file, const char *message)
 {
-    fprintf(stderr, "subdiv: %s\n", opt->error->message);
-    return FAILED;
+    int named = strncmp(message, file, strlen(file)) == 0;
+    fprintf(stderr, "subdiv: %s%s%s%s", kind, named ? "" : file, named ? "" : ": ", message);
 }
 
-// The same where the message does not know the name of the file: once the cage is read.
-static int report_cage(const command *cmd, const subdiv_options *opt)
+static int report(const char *file, const subdiv_options *opt)
 {
-    fprintf(stderr, "subdiv: %s: %s\n", cmd->input, opt->error->message);
+    print_message("", file, opt->error->message);
+    fputc('\n', stderr);
     return FAILED;
 }
 
@@ -493,7 +532,7 @@ static int add_creases(subdiv_mesh *cage, const command *cmd, const subdiv_optio
     if ((given[CREASE_ANGLE] == 1 && subdiv_crease_by_angle(cage, degrees, sharpness, opt)) ||
         (given[CREASE_GROUPS] == 1 && subdiv_crease_by_smoothing_groups(cage, sharpness, opt)) ||
         (given[CREASE_SEAMS] == 1 && subdiv_crease_by_uv_seams(cage, sharpness, opt)))
-        return report_cage(cmd, opt);
+        return report(cmd->input, opt);
     return DONE;
 }
 
@@ -504,9 +543,26 @@ static int inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
     findings odd = {{0}, {0}, {{{0}}}};
     subdiv_error before = *opt->error;
     if (subdiv_inspect(&info, cage, opt) ||
-        subdiv_check(odd.counts, cage, keep_finding, &odd, opt)) return report_cage(cmd, opt);
+        subdiv_check(odd.counts, cage, keep_finding, &odd, opt)) return report(cmd->input, opt);
     if (cmd->output) *opt->error = before;
     return print_info(cage, &info, &odd);
+}
+
+// Prints the explanation of a point, however long it is.
+static int explain(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt)
+{
+    subdiv_result result = SUBDIV_ERROR_TOO_LARGE;
+    for (size_t size = 4096; result == SUBDIV_ERROR_TOO_LARGE && size < LARGE; size *= 2) {
+        char *text = (char *)malloc(size);
+        if (text == NULL) {
+            fputs("subdiv: out of memory\n", stderr);
+            return FAILED;
+        }
+        result = subdiv_explain(text, size, cage, cmd->given[EXPLAIN], opt);
+        fputs(text, stdout);
+        free(text);
+    }
+    return result ? report(cmd->input, opt) : flush_output();
 }
 
 static int writes_stdout(const command *cmd)
@@ -526,7 +582,7 @@ static int check_output(subdiv_result result, const command *cmd, const subdiv_o
         FILE *file = fopen(cmd->output, "wb");
         if (file) fclose(file);
     }
-    return report(opt);
+    return report(writes_stdout(cmd) ? cmd->input : cmd->output, opt);
 }
 
 // What a run needs and main frees.
@@ -557,11 +613,15 @@ static void print_times(const work *w, int vertex_count)
 // Frees the cage and what was prepared as soon as they are no longer needed.
 static int refine_then_save(work *w, const command *cmd, const subdiv_options *opt)
 {
-    subdiv_result result = subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
+    subdiv_tessellation how = {0};
+    how.rate = cmd->given[TESSELLATE];
+    subdiv_result result = how.rate > 0
+        ? subdiv_surface_tessellate(&w->fine, w->surface, w->cage.positions, &how, opt)
+        : subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
     subdiv_surface_free(w->surface);
     w->surface = NULL;
     subdiv_mesh_free(&w->cage);
-    if (result) return report_cage(cmd, opt);
+    if (result) return report(cmd->input, opt);
     end_step(w, "refine");
     result = writes_stdout(cmd) ? subdiv_save_obj_callback(&w->fine, write_stdout, NULL, opt)
                                 : subdiv_save_obj(&w->fine, cmd->output, opt);
@@ -581,43 +641,191 @@ static int stream(work *w, const command *cmd, const subdiv_options *opt)
     return DONE;
 }
 
+// Places to evaluate, and the lines they stand on.
+typedef struct samples {
+    subdiv_location *at;
+    int             *lines;
+    int              count, capacity;
+} samples;
+
+static int bad_sample(const command *cmd, int line, const char *text)
+{
+    fprintf(stderr, "subdiv: %s:%d: %s\n", cmd->samples, line, text);
+    return FAILED;
+}
+
+static int add_sample(samples *all, subdiv_location at, int line)
+{
+    if (all->count == all->capacity) {
+        size_t capacity = 2 * (size_t)all->capacity + 1024;
+        void *places = realloc(all->at, capacity * sizeof *all->at);
+        if (places) all->at = (subdiv_location *)places;
+        void *lines = realloc(all->lines, capacity * sizeof *all->lines);
+        if (lines) all->lines = (int *)lines;
+        if (!places || !lines || capacity > INT_MAX / 16) return FAILED;
+        all->capacity = (int)capacity;
+    }
+    all->at[all->count] = at;
+    all->lines[all->count++] = line;
+    return DONE;
+}
+
+// Reads face u v or face/corner u v. Returns whether there is nothing else on the line.
+static int read_sample(char *text, subdiv_location *at)
+{
+    char *words[4], *corner, *end_u, *end_v;
+    int count = 0;
+    for (char *p = strtok(text, " \t\r\n"); p && count < 4; p = strtok(NULL, " \t\r\n"))
+        words[count++] = p;
+    if (count != 3) return 0;
+    corner = strchr(words[0], '/');
+    if (corner) *corner++ = 0;
+    at->face = read_number(words[0]);
+    at->corner = corner ? read_number(corner) : 0;
+    at->u = (float)strtod(words[1], &end_u);
+    at->v = (float)strtod(words[2], &end_v);
+    return at->face >= 0 && at->corner >= 0 && *end_u == 0 && *end_v == 0;
+}
+
+static int read_samples(FILE *file, const command *cmd, samples *all)
+{
+    char text[256];
+    for (int line = 1; fgets(text, sizeof text, file); line++) {
+        subdiv_location at;
+        if (strchr(text, '\n') == NULL && !feof(file)) return bad_sample(cmd, line, "too long");
+        if (text[strspn(text, " \t\r\n")] == 0) continue;
+        if (!read_sample(text, &at))
+            return bad_sample(cmd, line, "not 'face u v' or 'face/corner u v'");
+        if (add_sample(all, at, line)) return bad_sample(cmd, line, "out of memory");
+    }
+    return ferror(file) ? bad_sample(cmd, 0, "reading failed") : DONE;
+}
+
+// What the library writes as three vertices, v x y z, is one line here.
+static int print_sample_lines(const char *text, size_t size)
+{
+    int lines = 0;
+    for (size_t i = 0; i < size; i++) {
+        if (text[i] == 'v') i++;
+        else if (text[i] == '\n') putchar(++lines % 3 ? ' ' : '\n');
+        else putchar(text[i]);
+    }
+    return flush_output();
+}
+
+// Writes the numbers [9 * count] as the library does.
+static int print_samples(float *numbers, int count)
+{
+    subdiv_mesh points = {0};
+    size_t size = 0;
+    points.vertex_count = 3 * count;
+    points.positions = numbers;
+    if (count == 0) return DONE;
+    if (subdiv_save_obj_memory(&points, NULL, 0, &size, NULL)) return FAILED;
+    char *text = (char *)malloc(size);
+    int result = FAILED;
+    if (text && subdiv_save_obj_memory(&points, text, size, &size, NULL) == SUBDIV_OK)
+        result = print_sample_lines(text, size);
+    else fputs("subdiv: out of memory\n", stderr);
+    free(text);
+    return result;
+}
+
+// Names the line of the first sample that the library refuses.
+static int report_samples(const work *w, const void *scratch, const samples *all,
+                          const command *cmd, const subdiv_options *opt)
+{
+    const subdiv_derivatives nothing = {0};
+    int i = 0;
+    while (i + 1 < all->count && subdiv_evaluate_at(w->surface, 3, scratch, 1, &all->at[i],
+                                                    &nothing, opt) == SUBDIV_OK) i++;
+    subdiv_evaluate_at(w->surface, 3, scratch, 1, &all->at[i], &nothing, opt);
+    const char *reason = strchr(opt->error->message, ':');
+    return bad_sample(cmd, all->lines[i], reason ? reason + 2 : opt->error->message);
+}
+
+static int evaluate(work *w, const samples *all, const command *cmd, const subdiv_options *opt)
+{
+    if (subdiv_prepare(&w->surface, &w->cage, SUBDIV_EXACT, opt)) return report(cmd->input, opt);
+    end_step(w, "prepare");
+    void *scratch = malloc(subdiv_scratch_size(w->surface, 3));
+    float *numbers = (float *)malloc(9 * sizeof(float) * ((size_t)all->count + 1));
+    int result = FAILED;
+    if (scratch && numbers) {
+        subdiv_derivatives out = {0};
+        out.points = numbers;
+        out.du = numbers + 3;
+        out.dv = numbers + 6;
+        out.stride = 9;
+        subdiv_evaluate_begin(w->surface, 3, w->cage.positions, 0, scratch, opt);
+        result = subdiv_evaluate_at(w->surface, 3, scratch, all->count, all->at, &out, opt)
+            ? report_samples(w, scratch, all, cmd, opt) : print_samples(numbers, all->count);
+        end_step(w, "evaluate");
+    } else {
+        fputs("subdiv: out of memory\n", stderr);
+    }
+    free(scratch);
+    free(numbers);
+    return result;
+}
+
+static int run_samples(work *w, const command *cmd, const subdiv_options *opt)
+{
+    samples all = { NULL, NULL, 0, 0 };
+    int is_stdin = strcmp(cmd->samples, "-") == 0;
+    FILE *file = is_stdin ? stdin : fopen(cmd->samples, "r");
+    int result = FAILED;
+    if (!file) fprintf(stderr, "subdiv: %s: cannot be opened\n", cmd->samples);
+    else result = read_samples(file, cmd, &all);
+    if (file && !is_stdin) fclose(file);
+    if (result == DONE) result = evaluate(w, &all, cmd, opt);
+    free(all.at);
+    free(all.lines);
+    return result;
+}
+
 // Load, tell, refine, save.
 static int run(work *w, const command *cmd, const subdiv_options *opt)
 {
     int info = cmd->given[INFO] == 1, timed = cmd->given[TIME] == 1;
     w->start = milliseconds();
-    if (load(&w->cage, cmd, opt)) return report(opt);
+    if (load(&w->cage, cmd, opt)) return report(cmd->input, opt);
     if (add_creases(&w->cage, cmd, opt)) return FAILED;
     end_step(w, "load");
+    if (cmd->given[EXPLAIN] >= 0) return explain(&w->cage, cmd, opt);
     if (info && inspect(&w->cage, cmd, opt)) return FAILED;
     if (info && cmd->output == NULL) {
         if (timed) print_times(w, w->cage.vertex_count);
         return DONE;
     }
     int levels = cmd->given[LEVELS] >= 0 ? cmd->given[LEVELS] : 1;
+    if (cmd->given[TESSELLATE] > 0) levels = SUBDIV_EXACT;
     w->start = milliseconds();
-    if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report_cage(cmd, opt);
+    if (cmd->samples) {
+        if (run_samples(w, cmd, opt)) return FAILED;
+        if (timed) print_times(w, w->cage.vertex_count);
+        return DONE;
+    }
+    if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report(cmd->input, opt);
     end_step(w, "prepare");
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     int streams = cmd->given[STREAM] == 1 || (vertex_count > LARGE && !opt->limit);
     if (streams ? stream(w, cmd, opt) : refine_then_save(w, cmd, opt)) return FAILED;
-    if (timed) print_times(w, vertex_count);
+    if (timed) print_times(w, streams ? vertex_count : w->fine.vertex_count);
     return DONE;
 }
 
 static void print_warnings(const command *cmd, const subdiv_error *error)
 {
     if (error->warning_count == 0) return;
-    int named = strncmp(error->warning, cmd->input, strlen(cmd->input)) == 0;
-    fprintf(stderr, "subdiv: warning: %s%s%s", named ? "" : cmd->input, named ? "" : ": ",
-            error->warning);
+    print_message("warning: ", cmd->input, error->warning);
     if (error->warning_count > 1) fprintf(stderr, " (and %d more)", error->warning_count - 1);
     fputc('\n', stderr);
 }
 
 int main(int argc, char **argv)
 {
-    command cmd = {{0}, {0}, NULL, NULL};
+    command cmd = {{0}, {0}, NULL, NULL, NULL};
     int result = read_command(&cmd, argc, argv);
     if (result) return result;
 #ifdef SIGPIPE

@@ -26,8 +26,8 @@ for compiler in gcc clang; do
         done
     done
     sanitize="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
-    for test in masks order invariants patches evaluate limit recorded creases check obj errors uv \
-                memory; do
+    for test in masks order invariants patches evaluate limit exact stencils recorded creases check \
+                obj errors uv memory; do
         step $compiler build_and_run $compiler -std=c99 $sanitize -pthread -I. tests/test_$test.c
     done
 done

@@ -56,6 +56,26 @@ static unsigned long long add_limit(unsigned long long sum, const subdiv_mesh *m
     return sum;
 }
 
+// The limit surface at places on all faces.
+static unsigned long long add_exact(unsigned long long sum, const subdiv_mesh *m, unsigned seed)
+{
+    subdiv_surface *surface = NULL;
+    float out[6][4], normal[4];
+    subdiv_derivatives to = { out[0], out[1], out[2], out[3], out[4], out[5], normal, 4 };
+    if (subdiv_prepare(&surface, m, SUBDIV_EXACT, NULL)) abort();
+    void *scratch = malloc(subdiv_scratch_size(surface, 3));
+    if (!scratch || subdiv_evaluate_begin(surface, 3, m->positions, 0, scratch, NULL)) abort();
+    for (int f = 0; f < m->face_count; f++) {
+        subdiv_location at = { f, 0, (float)(seed % 8) / 16, (float)(f % 9) / 17 };
+        if (subdiv_evaluate_at(surface, 3, scratch, 1, &at, &to, NULL)) abort();
+        for (int k = 0; k < 6; k++) sum = add_bits(sum, out[k], 3);
+        sum = add_bits(sum, normal, 3);
+    }
+    subdiv_surface_free(surface);
+    free(scratch);
+    return sum;
+}
+
 int main(void)
 {
     unsigned long long sum = 14695981039346656037u;
@@ -67,6 +87,7 @@ int main(void)
             c->positions[i] = floorf(c->positions[i] * 4096) / 4096;
         sum = add_cage(sum, &c->mesh, seed);
         sum = add_limit(sum, &c->mesh, seed);
+        if (seed % 8 == 0) sum = add_exact(sum, &c->mesh, seed);
         random_cage_free(c);
     }
     printf("%016llx\n", sum);

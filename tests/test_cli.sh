@@ -130,8 +130,9 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
+              --tessellate \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
-              --stream --triangulate --info --time --help --version; do
+              --stream --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
 fine "--help is not an error" test ! -s err
@@ -367,6 +368,42 @@ done
 ends 2 --limit --stream limit.obj form.obj
 says "so not with --limit"
 
+# ------------------------------------------------------------------------------------- tessellate
+
+# A cube in quads: rate 4 is the limit of level 2; 3 is what no level is.
+ends 0 --limit -l 2 limit.obj form.obj
+ends 0 --tessellate 4 limit.obj tiles.obj
+fine "--tessellate 4 has the faces of two levels" \
+    test "$(grep '^f' tiles.obj | cksum)" = "$(grep '^f' form.obj | cksum)"
+ends 0 --tessellate 3 limit.obj tiles.obj
+counts tiles.obj 56 54
+fine "--tessellate writes normals" test "$(grep -c '^vn' tiles.obj)" = 56
+ends 0 --tessellate 3 -j 3 limit.obj threads.obj
+same threads.obj tiles.obj
+ends 2 --tessellate 0 limit.obj form.obj
+says "--tessellate needs a whole number"
+ends 2 --tessellate 3 -l 2 limit.obj form.obj
+says "--tessellate has no levels"
+ends 2 --tessellate 3 --stream limit.obj form.obj
+says "is no stream"
+
+# --------------------------------------------------------------------------------------- explain
+
+ends 0 --explain 0 limit.obj
+fine "--explain names the rule" grep -q '^Vertex 0 is interior, of valence 3, and smooth\.$' out
+fine "--explain has fractions" grep -q '^    5/12    vertex 0$' out
+ends 0 --crease-angle 30 --explain 8 limit.obj
+fine "--explain sees creases" grep -q 'is a crease, sharp forever\.$' out
+ends 0 -s loop --triangulate --explain 25 limit.obj
+ends 1 --explain 26 limit.obj
+says "8 to 19 of edges, 20 to 25 of faces"
+ends 2 --explain 0 limit.obj form.obj
+says "standard output alone"
+awk 'BEGIN { n = 3000; for (i = 0; i < n; i++) print "v", i, i % 7, 0; printf "f"
+             for (i = 1; i <= n; i++) printf " %d", i; print "" }' > huge.obj
+ends 0 --explain 6000 huge.obj
+fine "--explain of a large face is whole" grep -q '^\[CC78\]' out
+
 # --------------------------------------------------------------------------------------- threads
 
 # The same bytes for any number of threads, also for more than there are jobs or cores.
@@ -464,7 +501,7 @@ same out one_and_one.obj
 subdiv -l2 box.obj box_itself.obj && cp box.obj itself.obj && subdiv -l2 itself.obj itself.obj
 same itself.obj two.obj
 ends 1 - < bad_vertex.obj
-says "line 2"
+says "-: line 2: "
 ends 1 - < /dev/null
 says "no vertices"
 ends 1 - <&-
@@ -636,6 +673,15 @@ fine "--info: counted from 0" grep -qx '  (faces, vertices and tags are counted 
 fine "--info: an edge" grep -qx '  edge 0-1 has 3 faces: 0, 2, 3' out
 fine "--info: a vertex" grep -qx '  no face has vertex 7' out
 fine "--info prints no mesh" sh -c '! grep -q "^[vf] " out'
+printf 'mtllib a\no b\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 1\ng a\nusemtl c\nf 1/1 2/2 3/1
+usemtl d\n' > named.obj
+ends 0 --info named.obj
+row UVs 2
+row 'vertices with colours' 3
+row statements 5
+row usemtl 2
+row mtllib 1
+fine "--info: no smoothing groups" sh -c '! grep -q "^  s " out'
 ends 0 --info box.obj info.obj
 same info.obj one.obj
 row vertices 8
@@ -684,6 +730,38 @@ fine "--time --stream: ns/vertex are ms by vertices" awk -v n="$n" "$per_vertex"
 ends 0 --time --info box.obj
 fine "--time --info: one line" test "$(wc -l < err)" -eq 1
 fine "--time --info: load" grep -q '^load ' err
+
+# The limit surface at samples: of a flat grid of nine quads, and of triangles around a point.
+{ for y in 0 1 2 3; do for x in 0 1 2 3; do echo "v $x $y 0"; done; done
+  for f in 1 2 3 5 6 7 9 10 11; do echo "f $f $((f + 1)) $((f + 5)) $((f + 4))"; done; } > flat.obj
+printf '4 0 0\n\n4 0.25 1\r\n 4\t1 .5\n' > samples.txt
+printf '1 1 0 1 0 0 0 1 0\n1.25 2 0 1 0 0 0 1 0\n2 1.5 0 1 0 0 0 1 0\n' > expected.txt
+ends 0 --eval samples.txt flat.obj
+same out expected.txt
+ends 0 --eval - flat.obj < samples.txt
+same out expected.txt
+ends 0 --eval=samples.txt -j 2 - < flat.obj
+same out expected.txt
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > corner.obj
+printf '0/1 0 0\n0/2 1 1\n' > samples.txt
+ends 0 -s bilinear --eval samples.txt corner.obj
+printf '1 0 0 -0.5 0.5 0 -0.5 0 0\n0.33333334 0.33333334 0 0.33333334 -0.16666667 0 0.33333334 -0.16666667 0\n' > expected.txt
+fine "--eval: the corner of a triangle" test "$(head -n 1 out)" = "$(head -n 1 expected.txt)"
+: > samples.txt
+ends 0 --eval samples.txt flat.obj
+fine "--eval: nothing for no samples" test ! -s out
+for line in '9 0 0' '4/1 0 0' '4 2 0' '4 0 -1' '4 nan 0' '4 0' '4 0 0 0' '-1 0 0' '4/ 0 0' 'x 0 0' '4 0 0x'
+do
+    printf '4 0 0\n%s\n4 1 1\n' "$line" > samples.txt
+    ends 1 --eval samples.txt flat.obj
+    says "samples.txt:2: "
+done
+ends 1 --eval no_such_file flat.obj
+says no_such_file
+ends 2 --eval samples.txt flat.obj out.obj
+ends 2 --eval samples.txt -l 2 flat.obj
+ends 2 --eval - -
+ends 2 --eval
 
 printf '%-24s %4d passed, %d failed\n' cli $passed $failed
 [ $failed = 0 ]

@@ -470,7 +470,7 @@ static void test_null_arguments(void)
     CHECK_EQUAL(subdiv_prepare(&surface, NULL, 1, &opt), SUBDIV_ERROR_ARGUMENT);
     CHECK(surface == NULL);
     surface = (subdiv_surface *)&cage;
-    CHECK_EQUAL(subdiv_prepare(&surface, &cage, -1, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_prepare(&surface, &cage, -2, &opt), SUBDIV_ERROR_ARGUMENT);
     CHECK(surface == NULL);
     memset(&fine, 0x55, sizeof fine);
     CHECK_EQUAL(subdiv_surface_mesh(&fine, NULL, P, &opt), SUBDIV_ERROR_ARGUMENT);

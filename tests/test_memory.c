@@ -18,7 +18,7 @@ static void  heap_free(void *pointer, void *user);
 
 // ------------------------------------------------------------------------- the allocator's books
 
-enum { HEAP_BLOCKS = 256 };
+enum { HEAP_BLOCKS = 1024 };
 
 typedef struct heap {
     int    calls, fail_at;            // call number fail_at fails; 0: none
@@ -226,6 +226,115 @@ static subdiv_result call_limit_zero(const subdiv_mesh *cage, const subdiv_optio
     return limit_as(cage, SUBDIV_CATMULL_CLARK, 0, opt);
 }
 
+static subdiv_result stencils_as(const subdiv_mesh *cage, int limit, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_options with = *opt;
+    subdiv_stencils stencils, zero;
+    with.limit = limit;
+    subdiv_result result = subdiv_prepare(&surface, cage, 2, &with);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_refined_stencils(&stencils, surface, 0, 3000, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_stencils(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return stencils_as(cage, 0, opt);
+}
+
+static subdiv_result call_limit_stencils(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return stencils_as(cage, 1, opt);
+}
+
+// On a face of the strip and, in a nest, at its pentagon.
+static subdiv_result call_stencils_at(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_stencils stencils, zero;
+    subdiv_location at[2] = { { 40, 0, 0.25f, 0.5f }, { cage->face_count - 2, 3, 0.9999f, 1 } };
+    subdiv_result result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_stencils_at(&stencils, surface, 2, at, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_explain(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    char text[4096] = "";
+    subdiv_mesh other = *cage;
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    other.scheme = SUBDIV_LOOP;
+    other.creasing = SUBDIV_CREASING_CHAIKIN;
+    subdiv_result result = subdiv_explain(text, sizeof text, &other, 12, &triangulate);
+    CHECK((text[0] != 0) == (result == SUBDIV_OK));
+    return result;
+}
+
+static int rate_of_edge(void *user, int edge, const float *a, const float *middle, const float *b)
+{
+    (void)user;
+    return 1 + edge % 3 + (a[0] < middle[0]) + (middle[0] < b[0]);
+}
+
+// The first faces of the cage, with UVs, colours and statements.
+static subdiv_result tessellate_as(const subdiv_mesh *cage, subdiv_scheme scheme,
+                                   const subdiv_options *opt)
+{
+    subdiv_mesh mesh, other = *cage;
+    subdiv_tessellation how = {0};
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    other.scheme = scheme;
+    other.face_count = 40;
+    other.crease_count = other.corner_count = other.statement_count = 5;
+    other.hole_count = 1;
+    how.edge_rate = rate_of_edge;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_tessellate(&mesh, &other, &how, &triangulate));
+}
+
+static subdiv_result call_tessellate(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return tessellate_as(cage, SUBDIV_CATMULL_CLARK, opt);
+}
+
+// Evaluation at a vertex with so many faces takes memory of its own.
+static subdiv_result call_tessellate_fan(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    enum { FACES = 90 };
+    static int triangles[3 * FACES];
+    subdiv_mesh mesh, fan = {0};
+    for (int i = 0; i < FACES; i++) {
+        triangles[3 * i + 1] = 1 + i;
+        triangles[3 * i + 2] = 1 + (i + 1) % FACES;
+    }
+    fan.vertex_count = 1 + FACES;
+    fan.positions = cage->positions;
+    fan.face_count = FACES;
+    fan.face_size = 3;
+    fan.face_vertices = triangles;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_tessellate(&mesh, &fan, NULL, opt));
+}
+
+static subdiv_result call_tessellate_loop(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return tessellate_as(cage, SUBDIV_LOOP, opt);
+}
+
 // For a copy of the cage; a failure has to leave it as it was.
 static subdiv_result call_normals(const subdiv_mesh *cage, const subdiv_options *opt)
 {
@@ -275,6 +384,55 @@ static subdiv_result call_creases(const subdiv_mesh *cage, const subdiv_options 
     if (!result) CHECK(mesh.memory != before.memory);
     if (result) CHECK(memcmp(&mesh, &before, sizeof mesh) == 0);
     subdiv_mesh_free(&mesh);
+    return result;
+}
+
+// Everywhere, also at a vertex of high valence, whose nest is too large for the stack.
+static subdiv_result call_exact(const subdiv_mesh *mesh, const subdiv_options *opt)
+{
+    static float positions[3 * 42], values[3 * 42];
+    static int faces[20 * 4], face_uvs[20 * 4];
+    float p[3], normal[3];
+    subdiv_mesh cage = *mesh;
+    subdiv_surface *surface = NULL;
+    subdiv_location at[2] = { { 0, 0, 0, 0 }, { 3, 0, 1e-5f, 1e-6f } };
+    subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, normal, 3 };
+    memset(&cage, 0, sizeof cage);
+    for (int i = 0; i < 40; i++) {
+        positions[3 * (i + 1)] = (float)cos(i * 0.1570796);
+        positions[3 * (i + 1) + 1] = (float)sin(i * 0.1570796);
+    }
+    for (int f = 0; f < 20; f++) {
+        int quad[4] = { 0, 1 + 2 * f, 2 + 2 * f, 1 + (2 * f + 2) % 40 };
+        memcpy(faces + 4 * f, quad, sizeof quad);
+        memcpy(face_uvs + 4 * f, quad, sizeof quad);
+    }
+    face_uvs[5] = 41;
+    cage.vertex_count = 41;
+    cage.positions = positions;
+    cage.face_count = 20;
+    cage.face_size = 4;
+    cage.face_vertices = faces;
+    subdiv_result result = subdiv_prepare(&surface, &cage, SUBDIV_EXACT, opt);
+    if (result) CHECK(surface == NULL);
+    if (!result) {
+        void *scratch = malloc(subdiv_scratch_size(surface, 3));
+        result = subdiv_evaluate_begin(surface, 3, positions, 0, scratch, opt);
+        if (!result) result = subdiv_evaluate_at(surface, 3, scratch, 1, at, &out, opt);
+        if (!result) result = subdiv_evaluate_at(surface, 3, scratch, 1, at + 1, &out, opt);
+        free(scratch);
+    }
+    subdiv_surface_free(surface);
+    surface = NULL;
+    if (!result)
+        result = subdiv_prepare_face_varying(&surface, &cage, 42, face_uvs, SUBDIV_UV_CORNERS_ONLY,
+                                             SUBDIV_EXACT, opt);
+    if (!result) {
+        void *scratch = malloc(subdiv_scratch_size(surface, 3));
+        result = subdiv_evaluate_begin(surface, 3, values, 0, scratch, opt);
+        free(scratch);
+    }
+    subdiv_surface_free(surface);
     return result;
 }
 
@@ -371,9 +529,29 @@ static void test_limit(void)
     CHECK_EQUAL(check_call(call_normals), 2);
 }
 
+static void test_tessellate(void)
+{
+    CHECK(check_call(call_tessellate) > 0);
+    CHECK(check_call(call_tessellate_loop) > 0);
+    CHECK(check_call(call_tessellate_fan) > 0);
+}
+
 static void test_prepare(void)
 {
     CHECK(check_call(call_prepare) > 1);
+}
+
+static void test_exact(void)
+{
+    CHECK(check_call(call_exact) > 2);
+}
+
+static void test_stencils(void)
+{
+    CHECK(check_call(call_stencils) > 1);
+    CHECK(check_call(call_limit_stencils) > 1);
+    CHECK(check_call(call_stencils_at) > 1);
+    CHECK(check_call(call_explain) > 1);
 }
 
 static void test_inspect(void)
@@ -425,7 +603,10 @@ int main(void)
     RUN(test_load);
     RUN(test_refine);
     RUN(test_limit);
+    RUN(test_tessellate);
     RUN(test_prepare);
+    RUN(test_exact);
+    RUN(test_stencils);
     RUN(test_inspect);
     RUN(test_creases);
     RUN(test_check);

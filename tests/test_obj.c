@@ -305,13 +305,15 @@ static void test_faces_without_uvs(void)
         {QUAD, 0, "", 0, ""},
         {VT4 QUAD, 0, "", 0, ""},
         {UVS, 4, "0 1 2 3;", 0, ""},
-        {UVS "f 1 2 3\n", 4, "0 1 2 3;-1 -1 -1;", 1, "line 10: 1 of 2 faces"},
+        {UVS "f 1 2 3\n", 4, "0 1 2 3;-1 -1 -1;", 1, "line 10: 1 of 2 faces have no UVs"},
         {V4 VT4 "f 1 2 3\nf 2 3 4\nf 1/4 2/3 3/2\nf 1 3 4\n", 4,
          "-1 -1 -1;-1 -1 -1;3 2 1;-1 -1 -1;", 1, "line 9: 3 of 4 faces"},
         {V4 VT4 "f 1/1 2/2 3\nf 1 2/1 3/1\nf 1/1 2 3/4 4/2\nf 4/4 3/3 1/1\n", 4,
-         "-1 -1 -1;-1 -1 -1;-1 -1 -1 -1;3 2 0;", 1, "line 9: 3 of 4 faces"},
-        {V4 VT4 "f 1/1 2/2 3//\n", 0, "", 1, "line 9: no face has a vt"},
-        {V4 "vt 0 0\nvn 0 0 1\nf 1 2/1 3//1 4/1/1\n", 0, "", 1, "line 7: no face has a vt"},
+         "-1 -1 -1;-1 -1 -1;-1 -1 -1 -1;3 2 0;", 1, "line 9: 3 of 4 faces have a vt at some"},
+        {V4 VT4 "f 1 2 3\nf 1/1 2/1 3\nf 1/4 2/3 3/2\nf 2 3 4\n", 4,
+         "-1 -1 -1;-1 -1 -1;3 2 1;-1 -1 -1;", 2, "line 10: 1 of 4 faces have a vt at some"},
+        {V4 VT4 "f 1/1 2/2 3//\n", 0, "", 1, "line 9: 1 of 1 faces have a vt at some"},
+        {V4 "vt 0 0\nvn 0 0 1\nf 1 2/1 3//1 4/1/1\n", 0, "", 1, "line 7: 1 of 1 faces have a vt at some"},
         {V4 VT4 "f 1/1 2/2\nf 1/3 2/2 3/1\nf 4/1\n", 4, "2 1 0;", 2, "line 9: a face with 2"},
         {"f 1/1 2/2 3\nf 3/3 2/2 1/1\n" V4 VT4, 4, "-1 -1 -1;2 1 0;", 1, "line 1: 1 of 2 faces"},
     };
@@ -353,7 +355,10 @@ static void test_statements(void)
          "0 usemtl Material #25\n0 g left  side\n1 o \xc3\xa9t\xc3\xa9 \xe2\x98\x83\n"},
         {V4 "g a \\\n b\\\r\nc\nf 1 2 3\ns \\\n\nf 1 2 3\nmtllib C:\\dir\\ \no x # y \\\n"
          "f 1 2 4\ng z\\",
-         "0 g a   b c\n1 s\n2 mtllib C:\\dir\\\n2 o x # y\n3 g z\n"},
+         "0 g a   b c\n1 s\n2 mtllib C:\\dir\\\n2 o x\n3 g z\n"},
+        {V4 "usemtl red # bright\nusemtl a#b #\ng # none\ng# none\no ## x\no \\\n# x\nf 1 2 3\n"
+         "s off# x\ns 1 #2\no #2 #3\t#\n",
+         "0 usemtl red\n0 usemtl a#b\n0 g\n0 g\n0 o\n0 o\n1 s off\n1 s 1\n1 o #2 #3\n"},
         {V4 "f 1 2 3\nf 1 2\ng a\nf 1\nf 1 2 3\ns 1", "1 g a\n2 s 1\n"},
         {V4 "group a\nusemtls b\nf 1 2 3\nusemtl", "1 usemtl\n"},
     };

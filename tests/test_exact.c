@@ -1,0 +1,679 @@
+// The limit surface at any (face, u, v). The references: the formula of the bicubic B-spline; the
+// limit points of refined meshes; for derivatives, how much values change; near an extraordinary
+// vertex, the eigenvalues of the papers.
+//
+//     cc -I. tests/test_exact.c -o build/test_exact -lm -pthread && build/test_exact
+#include <stdlib.h>
+
+#define SUBDIV_IMPLEMENTATION
+#include "subdiv.h"
+#include "cages.h"
+#include "random_cage.h"
+#include "test.h"
+
+// ---------------------------------------------------------------------------------- evaluation
+
+// A surface that is ready for three channels.
+typedef struct ready {
+    subdiv_surface *surface;
+    void *scratch;
+} ready;
+
+static ready get_ready(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    ready r = { NULL, NULL };
+    CHECK_EQUAL(subdiv_prepare(&r.surface, cage, SUBDIV_EXACT, opt), SUBDIV_OK);
+    r.scratch = malloc(subdiv_scratch_size(r.surface, 3));
+    CHECK_EQUAL(subdiv_evaluate_begin(r.surface, 3, cage->positions, 0, r.scratch, opt), SUBDIV_OK);
+    return r;
+}
+
+static void put_away(ready *r)
+{
+    subdiv_surface_free(r->surface);
+    free(r->scratch);
+}
+
+// All there is at one place.
+typedef struct sample {
+    float p[3], du[3], dv[3], duu[3], duv[3], dvv[3], normal[3];
+} sample;
+
+static sample evaluate(const ready *r, int face, int corner, double u, double v)
+{
+    sample s;
+    subdiv_location at = { face, corner, (float)u, (float)v };
+    subdiv_derivatives out = { s.p, s.du, s.dv, s.duu, s.duv, s.dvv, s.normal, 0 };
+    memset(&s, 0, sizeof s);
+    CHECK_EQUAL(subdiv_evaluate_at(r->surface, 3, r->scratch, 1, &at, &out, NULL), SUBDIV_OK);
+    return s;
+}
+
+static double length(const float *a)
+{
+    return sqrt((double)a[0] * (double)a[0] + (double)a[1] * (double)a[1] +
+                (double)a[2] * (double)a[2]);
+}
+
+static double distance(const float *a, const float *b)
+{
+    float d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+    return length(d);
+}
+
+static double extent(const subdiv_mesh *m)
+{
+    double size = 0;
+    for (int i = 0; i < 3 * m->vertex_count; i++) size = fmax(size, fabs((double)m->positions[i]));
+    return size;
+}
+
+// -------------------------------------------------------------------------------- regular faces
+
+// The cubic B-spline at t of p[0..3] and its derivatives: the basis functions of the textbooks.
+static double spline(const double *p, double t, int derivative)
+{
+    double s = 1 - t;
+    double b[3][4] = {
+        { s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+          (3 * s * s * s - 6 * s * s + 4) / 6, t * t * t / 6 },
+        { -s * s / 2, (3 * t * t - 4 * t) / 2, (-3 * s * s + 4 * s) / 2, t * t / 2 },
+        { s, 3 * t - 2, 3 * s - 2, t } };
+    double sum = 0;
+    for (int i = 0; i < 4; i++) sum += b[derivative][i] * p[i];
+    return sum;
+}
+
+static double bicubic(double p[4][4], double u, double v, int du, int dv)
+{
+    double rows[4];
+    for (int i = 0; i < 4; i++) rows[i] = spline(p[i], u, du);
+    return spline(rows, v, dv);
+}
+
+static void test_bicubic(void)
+{
+    test_cage c;
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 3);
+    for (int i = 0; i < 3 * c.mesh.vertex_count; i++)
+        c.positions[i] = (float)((i * 37 + i * i * 11) % 64) / 16;
+    ready r = get_ready(&c.mesh, NULL);
+    const int *q = face_vertices(&c.mesh, 4), step[2] = { q[1] - q[0], q[3] - q[0] };
+    for (int i = 0; i < 81; i++) {
+        double u = i % 9 / 8.0, v = i / 9 / 8.0;
+        sample s = evaluate(&r, 4, 0, u, v);
+        for (int k = 0; k < 3; k++) {
+            double p[4][4];
+            for (int a = 0; a < 16; a++)
+                p[a / 4][a % 4] = (double)c.positions[3 * (q[0] + (a % 4 - 1) * step[0] +
+                                                          (a / 4 - 1) * step[1]) + k];
+            CHECK_NEAR(s.p[k], bicubic(p, u, v, 0, 0), 2e-6);
+            CHECK_NEAR(s.du[k], bicubic(p, u, v, 1, 0), 5e-6);
+            CHECK_NEAR(s.dv[k], bicubic(p, u, v, 0, 1), 5e-6);
+            CHECK_NEAR(s.duu[k], bicubic(p, u, v, 2, 0), 1e-5);
+            CHECK_NEAR(s.duv[k], bicubic(p, u, v, 1, 1), 1e-5);
+            CHECK_NEAR(s.dvv[k], bicubic(p, u, v, 0, 2), 1e-5);
+        }
+    }
+    put_away(&r);
+}
+
+// ------------------------------------------------------------------------- against refined meshes
+
+enum { DEEP = 4 };
+
+// Sharpness that is gone on level DEEP - 1, or infinite.
+static void tame_sharpness(random_cage *c)
+{
+    for (int i = 0; i < c->mesh.crease_count; i++)
+        if (c->crease_sharpness[i] < SUBDIV_INFINITE)
+            c->crease_sharpness[i] = fminf(c->crease_sharpness[i], DEEP - 1.25f);
+    for (int i = 0; i < c->mesh.corner_count; i++)
+        if (c->corner_sharpness[i] < SUBDIV_INFINITE)
+            c->corner_sharpness[i] = fminf(c->corner_sharpness[i], DEEP - 1.25f);
+}
+
+// Does any infinite crease of the lists meet v? Where one ends >>limit has another limit; that is
+// fewer vertices than are left out.
+static int at_infinite_crease(const subdiv_mesh *m, int v)
+{
+    for (int i = 0; i < m->crease_count; i++)
+        if (m->crease_sharpness[i] >= SUBDIV_INFINITE &&
+            (m->crease_vertices[2 * i] == v || m->crease_vertices[2 * i + 1] == v)) return 1;
+    return 0;
+}
+
+static int is_at_crease(const subdiv_mesh *m, const order *o, order_place p)
+{
+    int at = place_point(o, p);
+    return at < m->vertex_count && at_infinite_crease(m, at);
+}
+
+static void compare_with_limit(random_cage *c, int level, subdiv_options opt, double *worst)
+{
+    subdiv_mesh *m = &c->mesh, fine;
+    opt.limit = 1;
+    CHECK_EQUAL(subdiv_refine(&fine, m, level, &opt), SUBDIV_OK);
+    ready r = get_ready(m, &opt);
+    order grid, *o = &grid;
+    CHECK(order_make(o, m, level, NULL));
+    double size = extent(m);
+    for (int f = 0; f < m->face_count; f++) {
+        if (r.surface->exact->absent && r.surface->exact->absent[f]) continue;
+        order_place p = { f, 0, 0, 0, 0 };
+        do {
+            double n = order_grid(o, f);
+            sample s = evaluate(&r, f, p.quad, p.column / n, p.row / n);
+            double off = distance(s.p, fine.positions + 3 * place_point(o, p)) / size;
+            if (is_at_crease(m, o, p)) continue;
+            *worst = fmax(*worst, off);
+            if (off > 1e-6)
+                TEST_REPORT("face %d.%d row %d column %d is off by %g", f, p.quad, p.row, p.column,
+                            off);
+        } while (place_next_point(o, &p));
+    }
+    order_free(o);
+    put_away(&r);
+    subdiv_mesh_free(&fine);
+}
+
+static void test_limit_of_refined(void)
+{
+    char context[64];
+    double worst = 0;
+    for (unsigned seed = 1; seed <= 250; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_options opt;
+        memset(&opt, 0, sizeof opt);
+        opt.linear = seed % 9 == 0;
+        tame_sharpness(c);
+        snprintf(context, sizeof context, "seed %u", seed);
+        test_context = context;
+        compare_with_limit(c, DEEP, opt, &worst);
+        random_cage_free(c);
+    }
+    CHECK(worst > 0);
+}
+
+// ------------------------------------------------------------------------------------ derivatives
+
+// A polynomial of degree 4 changes as much as Simpson's rule makes of its derivative, exactly.
+static void check_change(const float *a, const float *b, const float *da, const float *dm,
+                         const float *db, double h, double size)
+{
+    for (int k = 0; k < 3; k++) {
+        double sum = h / 6 * ((double)da[k] + 4 * (double)dm[k] + (double)db[k]);
+        CHECK_NEAR((double)b[k] - (double)a[k], sum, size);
+    }
+}
+
+// In the cells of a grid that no irregular vertex touches, along u (du = 1) or v.
+static void check_cell(const ready *r, int f, int corner, double u, double v, double h, int along_u,
+                       double size)
+{
+    double du = along_u ? h : 0, dv = along_u ? 0 : h;
+    sample a = evaluate(r, f, corner, u, v), b = evaluate(r, f, corner, u + du, v + dv);
+    sample m = evaluate(r, f, corner, u + du / 2, v + dv / 2);
+    double first = fmax(size, h * fmax(length(a.duu), length(a.dvv)));
+    if (along_u) {
+        check_change(a.p, b.p, a.du, m.du, b.du, h, 2e-6 * size);
+        check_change(a.du, b.du, a.duu, m.duu, b.duu, h, 2e-5 * first);
+        check_change(a.dv, b.dv, a.duv, m.duv, b.duv, h, 2e-5 * first);
+    } else {
+        check_change(a.p, b.p, a.dv, m.dv, b.dv, h, 2e-6 * size);
+        check_change(a.dv, b.dv, a.dvv, m.dvv, b.dvv, h, 2e-5 * first);
+        check_change(a.du, b.du, a.duv, m.duv, b.duv, h, 2e-5 * first);
+    }
+}
+
+static void check_derivatives(random_cage *c, int level)
+{
+    const subdiv_mesh *m = &c->mesh;
+    int loop = m->scheme == SUBDIV_LOOP;
+    ready r = get_ready(m, NULL);
+    order grid, *o = &grid;
+    CHECK(order_make(o, m, level, NULL));
+    for (int f = 0; f < m->face_count; f++)
+        for (int quad = 0; quad < (order_is_ngon(o, f) ? order_face_size(o, f) : 1); quad++) {
+            int n = order_grid(o, f);
+            for (int i = 0; i < n * n; i++) {
+                int row = i / n, column = i % n, middle = row > 0 && row + 1 < n;
+                double h = 1.0 / n, u = column * h, v = (row + 0.5) * h;
+                // A row through the middle of cells; under Loop along edges inside the grid.
+                if (loop ? row == 0 || row + column + 1 >= n || column == 0 : !middle) continue;
+                if (loop) v = row * h;
+                check_cell(&r, f, quad, u, v, h, 1, 4 * extent(m));
+                check_cell(&r, f, quad, v, u, h, 0, 4 * extent(m));
+            }
+        }
+    order_free(o);
+    put_away(&r);
+}
+
+static void test_derivatives(void)
+{
+    char context[64];
+    for (unsigned seed = 1; seed <= 100; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        tame_sharpness(c);
+        snprintf(context, sizeof context, "seed %u", seed);
+        test_context = context;
+        check_derivatives(c, DEEP);
+        random_cage_free(c);
+    }
+}
+
+// ------------------------------------------------------------------------ extraordinary vertices
+
+static double pi(void)
+{
+    return 4 * atan(1.0);
+}
+
+// The next to largest eigenvalue of refinement around a vertex of valence n [CC78], [Loop87].
+static double eigenvalue(int n, int loop)
+{
+    double c = cos(2 * pi() / n);
+    if (loop) return 0.375 + c / 4;
+    return (5 + c + cos(pi() / n) * sqrt(2 * (9 + c))) / 16;
+}
+
+// A closed fan that is a hill.
+static void build_hill(test_cage *c, int loop, int n)
+{
+    build_fan(c, loop ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK, n, 1);
+    for (int v = 0; v < c->mesh.vertex_count; v++) {
+        float *p = c->positions + 3 * v;
+        p[2] = 1 - 0.5f * (p[0] * p[0] + p[1] * p[1]) + 0.2f * p[0];
+    }
+}
+
+// Which corner of a face is the vertex 0, and a place near it, as seen from there.
+static void near_vertex(const subdiv_mesh *m, int f, double x, double y, double *u, double *v)
+{
+    const int *q = face_vertices(m, f);
+    double z = 1 - x - y;
+    int at = 0;
+    while (q[at] != 0) at++;
+    if (face_size(m, f) == 3) {
+        *u = at == 0 ? x : at == 1 ? z : y;
+        *v = at == 0 ? y : at == 1 ? x : z;
+    } else {
+        *u = at == 0 ? x : at == 1 ? 1 - y : at == 2 ? 1 - x : y;
+        *v = at == 0 ? y : at == 1 ? x : at == 2 ? 1 - y : 1 - x;
+    }
+}
+
+static void check_vertex(int loop, int n)
+{
+    static const double near[4] = { 1e-3, 1e-6, 1e-12, 1e-30 };
+    test_cage c;
+    char context[64];
+    build_hill(&c, loop, n);
+    ready r = get_ready(&c.mesh, NULL);
+    sample at[64];
+    for (int f = 0; f < n; f++) {
+        double u, v;
+        near_vertex(&c.mesh, f, 0, 0, &u, &v);
+        at[f] = evaluate(&r, f, 0, u, v);
+        // Every face has the same vertex.
+        CHECK_NEAR(distance(at[f].p, at[0].p), 0, 1e-6);
+        CHECK_NEAR(distance(at[f].normal, at[0].normal), 0, 1e-5);
+        CHECK_NEAR(length(at[f].normal), 1, 1e-6);
+        CHECK(at[f].normal[2] > 0.5f);
+        CHECK_NEAR(at[f].duu[0], 0, 0);
+    }
+    for (int i = 0; i < 4; i++)
+        for (int f = 0; f < n; f++) {
+            double u, v, far = near[i] * (n > 12 ? 30 : 3);
+            snprintf(context, sizeof context, "%s %d, %g", loop ? "Loop" : "quads", n, near[i]);
+            test_context = context;
+            near_vertex(&c.mesh, f, near[i], near[i] / 3, &u, &v);
+            if (u > 0.9 || v > 0.9) continue;              // floats do not get near there
+            sample s = evaluate(&r, f, 0, u, v);
+            CHECK_NEAR(distance(s.p, at[0].p), 0, 2 * pow(far, 0.6) + 1e-6);
+            // In the worst case the normal turns as (second / first eigenvalue)^levels.
+            CHECK_NEAR(distance(s.normal, at[0].normal), 0, 3 * pow(far, n < 8 ? 0.1 : 0.01));
+            // Beside the next face: the same point and normal.
+            near_vertex(&c.mesh, f, near[i], 0, &u, &v);
+            s = evaluate(&r, f, 0, u, v);
+            near_vertex(&c.mesh, (f + n - 1) % n, 0, near[i], &u, &v);
+            if (u > 0.9 || v > 0.9) continue;
+            sample t = evaluate(&r, (f + n - 1) % n, 0, u, v);
+            CHECK_NEAR(distance(s.p, t.p), 0, 1e-6);
+            CHECK_NEAR(distance(s.normal, t.normal), 0, 1e-4);
+        }
+    put_away(&r);
+    test_context = "";
+}
+
+static void test_vertices(void)
+{
+    static const int valences[] = { 3, 4, 5, 6, 7, 8, 11, 16, 31, 50 };
+    for (int i = 0; i < 10; i++) {
+        check_vertex(0, valences[i]);
+        check_vertex(1, valences[i]);
+    }
+}
+
+// On a regular fan the first derivative along an edge changes by twice the eigenvalue from one
+// level to the next, and du at the vertex is what it tends to.
+static void check_eigenvalue(int loop, int n)
+{
+    test_cage c;
+    char context[64];
+    build_fan(&c, loop ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK, n, 1);
+    ready r = get_ready(&c.mesh, NULL);
+    double expected = 2 * eigenvalue(n, loop), before = 0;
+    snprintf(context, sizeof context, "%s %d", loop ? "Loop" : "quads", n);
+    test_context = context;
+    int f = 0;
+    while (face_vertices(&c.mesh, f)[0] != 0) f++;
+    for (int level = 60; level < 100; level++) {
+        sample s = evaluate(&r, f, 0, ldexp(1, -level), 0);
+        double now = length(s.du);
+        if (before > 0) CHECK_NEAR(now / before, expected, 1e-4 * expected);
+        before = now;
+    }
+    sample s = evaluate(&r, f, 0, 0, 0), beside = evaluate(&r, f, 0, ldexp(1, -60), 0);
+    CHECK(length(s.du) > 0);
+    for (int k = 0; k < 3 && n < 8; k++)           // with higher valence it tends too slowly
+        CHECK_NEAR((double)s.du[k] / length(s.du), (double)beside.du[k] / length(beside.du), 1e-5);
+    put_away(&r);
+    test_context = "";
+}
+
+static void test_eigenvalues(void)
+{
+    for (int n = 3; n <= 50; n += n < 8 ? 1 : 7) {
+        check_eigenvalue(0, n);
+        check_eigenvalue(1, n);
+    }
+}
+
+// ------------------------------------------------------------------------------------- continuity
+
+// Everywhere, with sharpness of any size: one point of the refined mesh is one point of the
+// surface, from whichever face it is seen; what is beside a vertex is beside its point.
+static void check_continuous(random_cage *c, const subdiv_options *opt)
+{
+    const subdiv_mesh *m = &c->mesh;
+    ready r = get_ready(m, opt);
+    order grid, *o = &grid;
+    CHECK(order_make(o, m, 3, NULL));
+    sample *seen = (sample *)calloc((size_t)o->point_count, sizeof *seen);
+    unsigned char *known = (unsigned char *)calloc((size_t)o->point_count, 1);
+    double size = extent(m);
+    for (int f = 0; f < m->face_count; f++) {
+        if (r.surface->exact->absent && r.surface->exact->absent[f]) continue;
+        order_place p = { f, 0, 0, 0, 0 };
+        do {
+            double n = order_grid(o, f);
+            int at = place_point(o, p);
+            sample s = evaluate(&r, f, p.quad, p.column / n, p.row / n);
+            if (known[at]) CHECK_NEAR(distance(s.p, seen[at].p), 0, 1e-6 * size);
+            known[at] = 1;
+            seen[at] = s;
+            double u = p.column ? p.column / n - 1e-7 : 1e-9, v = p.row ? p.row / n - 1e-7 : 1e-9;
+            sample t = evaluate(&r, f, p.quad, u, v);
+            CHECK_NEAR(distance(s.p, t.p), 0, 3e-4 * size);     // at worst (1e-7)^0.6
+        } while (place_next_point(o, &p));
+    }
+    free(seen);
+    free(known);
+    order_free(o);
+    put_away(&r);
+}
+
+static void test_continuous(void)
+{
+    char context[64];
+    for (unsigned seed = 1; seed <= 60; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_options opt;
+        memset(&opt, 0, sizeof opt);
+        opt.linear = seed % 13 == 0;
+        snprintf(context, sizeof context, "seed %u", seed);
+        test_context = context;
+        check_continuous(c, &opt);
+        random_cage_free(c);
+    }
+}
+
+// -------------------------------------------------------------------------------------- channels
+
+enum { MANY = 5000 };
+
+static void random_places(random_cage *c, subdiv_location *at)
+{
+    const subdiv_mesh *m = &c->mesh;
+    for (int i = 0; i < MANY; i++) {
+        int f = random_below(c, m->face_count), size = face_size(m, f);
+        at[i].face = f;
+        at[i].corner = m->scheme == SUBDIV_LOOP || size == 4 ? 0 : random_below(c, size);
+        at[i].u = random_real(c, 0, 1);
+        at[i].v = random_real(c, 0, 1);
+        if (m->scheme == SUBDIV_LOOP && at[i].u + at[i].v > 1) {
+            at[i].u = 1 - at[i].u;
+            at[i].v = 1 - at[i].v;
+        }
+    }
+}
+
+static void run_backwards(void *user, void (*job)(void *context, int i), void *context, int count)
+{
+    (void)user;
+    for (int i = count; i-- > 0; ) job(context, i);
+}
+
+// Any number of channels, strides and order of jobs: the bits of one channel after the other.
+static void check_channels(random_cage *c, int channels)
+{
+    static float in[8 * RANDOM_MAX_VERTICES], one[RANDOM_MAX_VERTICES];
+    static float out[6][11 * MANY], alone[6][MANY], dense[MANY * 8];
+    static subdiv_location at[MANY];
+    const subdiv_mesh *m = &c->mesh;
+    subdiv_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.run = run_backwards;
+    subdiv_surface *surface = NULL;
+    random_places(c, at);
+    CHECK_EQUAL(subdiv_prepare(&surface, m, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    char *scratch = (char *)malloc(subdiv_scratch_size(surface, channels) + 4);
+    for (int i = 0; i < channels * m->vertex_count; i++) in[i] = random_real(c, -1, 1);
+    subdiv_derivatives to = { out[0], out[1], out[2], out[3], out[4], out[5], NULL, 11 };
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, channels, in, 0, scratch + 4, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch + 4, MANY, at, &to, &opt), SUBDIV_OK);
+    subdiv_derivatives points = { dense, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+    CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch + 4, MANY, at, &points, NULL),
+                SUBDIV_OK);
+    for (int i = 0; i < MANY * channels; i++)
+        CHECK(memcmp(&dense[i], &out[0][i / channels * 11 + i % channels], sizeof(float)) == 0);
+    for (int k = 0; k < channels; k++) {
+        for (int v = 0; v < m->vertex_count; v++) one[v] = in[v * channels + k];
+        subdiv_derivatives some = { alone[0], alone[1], alone[2], alone[3], alone[4], alone[5],
+                                    NULL, 0 };
+        CHECK_EQUAL(subdiv_evaluate_begin(surface, 1, one, 0, scratch, NULL), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_evaluate_at(surface, 1, scratch, MANY, at, &some, NULL), SUBDIV_OK);
+        for (int d = 0; d < 6; d++)
+            for (int i = 0; i < MANY; i++)
+                CHECK(memcmp(&alone[d][i], &out[d][11 * i + k], sizeof(float)) == 0);
+    }
+    free(scratch);
+    subdiv_surface_free(surface);
+}
+
+static void test_channels(void)
+{
+    for (int i = 0; i < 8; i++) {
+        random_cage *c = random_cage_new((unsigned)(900 + i), RANDOM_ALL & ~RANDOM_HOLES);
+        c->mesh.boundary = SUBDIV_BOUNDARY_EDGE;
+        check_channels(c, 1 + i);
+        random_cage_free(c);
+    }
+}
+
+// ---------------------------------------------------------------------------------- face-varying
+
+// Values are a surface of their own: at the points of the refined one they have its values in the
+// limit, which boundaries and seams, corners of all rules, are refined towards.
+static void check_values(random_cage *c, subdiv_uv_rule rule)
+{
+    const subdiv_mesh *m = &c->mesh;
+    subdiv_surface *exact = NULL, *fine = NULL;
+    CHECK_EQUAL(subdiv_prepare_face_varying(&exact, m, m->uv_count, m->face_uvs, rule, SUBDIV_EXACT,
+                                            NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_prepare_face_varying(&fine, m, m->uv_count, m->face_uvs, rule, 7, NULL),
+                SUBDIV_OK);
+    int faces = subdiv_surface_face_count(fine), size = subdiv_surface_face_size(fine);
+    float *uvs = (float *)malloc(sizeof(float) * 2 * (size_t)(subdiv_surface_vertex_count(fine)));
+    int *corners = (int *)malloc(sizeof(int) * (size_t)size * (size_t)faces);
+    void *scratch = malloc(subdiv_scratch_size(exact, 2));
+    CHECK_EQUAL(subdiv_evaluate(fine, 2, m->uvs, 0, uvs, 0, NULL, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_surface_faces(fine, corners, NULL, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_begin(exact, 2, m->uvs, 0, scratch, NULL), SUBDIV_OK);
+    order grid, *o = &grid;
+    CHECK(order_make(o, m, 7, NULL));
+    for (int f = 0; f < m->face_count && m->hole_count == 0; f++) {
+        order_place p = { f, 0, 0, 0, 0 };
+        do {
+            int n = order_grid(o, f), *q = corners + (size_t)size * (size_t)order_face(o, p);
+            float uv[2] = { 7, 7 };
+            subdiv_location at = { f, p.quad, (float)p.column / (float)n, (float)p.row / (float)n };
+            subdiv_derivatives out = { uv, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+            if (p.turned || (p.row + 3 * p.column) % 13) continue;
+            CHECK_EQUAL(subdiv_evaluate_at(exact, 2, scratch, 1, &at, &out, NULL), SUBDIV_OK);
+            CHECK_NEAR(uv[0], q[0] < 0 ? 0 : uvs[2 * q[0]], 2e-3);      // 4^-7 of their bends
+            CHECK_NEAR(uv[1], q[0] < 0 ? 0 : uvs[2 * q[0] + 1], 2e-3);
+        } while (place_next_face(o, &p));
+    }
+    order_free(o);
+    free(scratch);
+    free(uvs);
+    free(corners);
+    subdiv_surface_free(exact);
+    subdiv_surface_free(fine);
+}
+
+static void test_values(void)
+{
+    char context[64];
+    int checked = 0;
+    for (unsigned seed = 1; checked < 24; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL & ~RANDOM_HOLES);
+        c->mesh.boundary = SUBDIV_BOUNDARY_EDGE;
+        for (int i = 0; i < c->mesh.crease_count; i++)
+            if (c->crease_sharpness[i] < SUBDIV_INFINITE)
+                c->crease_sharpness[i] = fminf(c->crease_sharpness[i], DEEP - 1.25f);
+        snprintf(context, sizeof context, "seed %u", seed);
+        test_context = context;
+        if (c->mesh.uv_count && c->mesh.face_count < 40)
+            check_values(c, (subdiv_uv_rule)(checked++ % 6));
+        random_cage_free(c);
+    }
+}
+
+// ----------------------------------------------------------------------------------------- errors
+
+// One location that is refused, behind a good one: code, message, and nothing written.
+static void check_refused(const subdiv_mesh *cage, subdiv_location bad, subdiv_result code,
+                          const char *text)
+{
+    subdiv_surface *surface = NULL;
+    subdiv_error error;
+    subdiv_options opt;
+    float p[6] = { 5, 5, 5, 5, 5, 5 };
+    subdiv_location at[2] = { { 0, 0, 0, 0 }, { 0, 0, 0, 0 } };
+    subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+    memset(&opt, 0, sizeof opt);
+    memset(&error, 0, sizeof error);
+    opt.error = &error;
+    at[1] = bad;
+    CHECK_EQUAL(subdiv_prepare(&surface, cage, SUBDIV_EXACT, &opt), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(surface, 3));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, 3, cage->positions, 0, scratch, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, 2, at, &out, &opt), code);
+    CHECK_TEXT(error.message, text);
+    for (int i = 0; i < 6; i++) CHECK(p[i] == 5);
+    free(scratch);
+    subdiv_surface_free(surface);
+}
+
+static void test_locations(void)
+{
+    test_cage c;
+    const float nan = (float)(HUGE_VAL - HUGE_VAL);
+    const subdiv_location none = { 8, 0, 0, 0 }, below = { -1, 0, 0, 0 }, corner = { 2, 1, 0, 0 };
+    const subdiv_location sixth = { 0, 6, 0, 0 }, beside = { 2, 0, 0.5f, 1.001f };
+    const subdiv_location unknown = { 2, 0, nan, 0 }, outside = { 0, 0, 0.6f, 0.6f };
+    build_prism(&c, 6);
+    check_refused(&c.mesh, none, SUBDIV_ERROR_INDEX,
+                  "location 1: face 8 does not exist (of 8)");
+    check_refused(&c.mesh, below, SUBDIV_ERROR_INDEX,
+                  "location 1: face -1 does not exist (of 8)");
+    check_refused(&c.mesh, corner, SUBDIV_ERROR_INDEX, "location 1: face 2 has no corner 1");
+    check_refused(&c.mesh, sixth, SUBDIV_ERROR_INDEX, "location 1: face 0 has no corner 6");
+    check_refused(&c.mesh, beside, SUBDIV_ERROR_ARGUMENT, "location 1: u, v are not on the face");
+    check_refused(&c.mesh, unknown, SUBDIV_ERROR_ARGUMENT, "location 1: u, v are not on the face");
+    build_tetrahedron(&c, SUBDIV_LOOP);
+    check_refused(&c.mesh, outside, SUBDIV_ERROR_ARGUMENT, "location 1: u, v are not on the face");
+}
+
+// What belongs to other surfaces is refused, too; without a surface there are zeros.
+static void test_refused(void)
+{
+    test_cage c;
+    float p[300];
+    subdiv_surface *exact = NULL, *other = NULL;
+    subdiv_mesh fine;
+    subdiv_location at = { 0, 0, 0.5f, 0.5f };
+    subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 }, wrong = out;
+    subdiv_limit limit = { p, NULL, NULL, 0 };
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 3);
+    c.mesh.boundary = SUBDIV_BOUNDARY_NONE;
+    CHECK_EQUAL(subdiv_prepare(&exact, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_prepare(&other, &c.mesh, -2, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_prepare(&other, &c.mesh, 1, NULL), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(exact, 3));
+    subdiv_evaluate_begin(exact, 3, c.positions, 0, scratch, NULL);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, &out, NULL), SUBDIV_OK);
+    for (int k = 0; k < 3; k++) CHECK(p[k] == 0);
+    at.face = 4;
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, &out, NULL), SUBDIV_OK);
+    CHECK_NEAR(p[0], 1.5, 1e-6);
+    CHECK_EQUAL(subdiv_evaluate_at(other, 3, scratch, 1, &at, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, -1, &at, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, NULL, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, NULL, 1, &at, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    wrong.stride = 2;
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 3, scratch, 1, &at, &wrong, NULL), SUBDIV_ERROR_ARGUMENT);
+    wrong = out;
+    wrong.normals = p + 9;
+    CHECK_EQUAL(subdiv_evaluate_at(exact, 2, scratch, 1, &at, &wrong, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate(exact, 3, c.positions, 0, p, 0, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_evaluate_limit(exact, c.positions, 0, &limit, NULL, NULL),
+                SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_surface_mesh(&fine, exact, c.positions, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_surface_faces(exact, (int *)p, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_surface_vertex_count(exact), 0);
+    CHECK_EQUAL(subdiv_surface_cage_face_count(exact), 9);
+    free(scratch);
+    subdiv_surface_free(exact);
+    subdiv_surface_free(other);
+}
+
+int main(void)
+{
+    RUN(test_bicubic);
+    RUN(test_limit_of_refined);
+    RUN(test_derivatives);
+    RUN(test_vertices);
+    RUN(test_eigenvalues);
+    RUN(test_continuous);
+    RUN(test_channels);
+    RUN(test_values);
+    RUN(test_locations);
+    RUN(test_refused);
+    return test_end("test_exact");
+}
