@@ -3,6 +3,7 @@
 // written here a second time, in doubles.
 //
 //     cc -I. tests/test_patches.c -o build/test_patches -lm && build/test_patches
+#define SDV_NET_FACES 1                // nets of every kind, however rare
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "cages.h"
@@ -448,6 +449,58 @@ static void test_sharpness_around_levels(void)
     for_random_cages(300, RANDOM_ALL & ~RANDOM_DEGENERATE, check_around_levels);
 }
 
+// Faces whose vertices have other valences than the regular one, and two of them such a valence:
+// nets, of which level 0 makes all points. Sharp: a corner, the end of a crease, a crease, three of
+// them, for a while or forever.
+static void sharpen_vertex(test_cage *c, int n, int set, double sharpness)
+{
+    if (set == 1) cage_corner(c, 0, sharpness);
+    for (int i = 0; i < set - 1 && i < 3; i++) {
+        edge_list e = edges_make(&c->mesh);
+        int found = 0;
+        for (int k = 0; k < e.count; k++)
+            if ((e.ends[2 * k] == 0 || e.ends[2 * k + 1] == 0) && found++ == i)
+                cage_crease(c, e.ends[2 * k], e.ends[2 * k + 1], sharpness + n % 2);
+        edges_free(&e);
+    }
+}
+
+static void check_nets(const subdiv_mesh *m, int chaikin, one_level step)
+{
+    subdiv_surface *surface = NULL;
+    subdiv_mesh cage = *m;
+    cage.creasing = chaikin ? SUBDIV_CREASING_CHAIKIN : SUBDIV_CREASING_UNIFORM;
+    CHECK_EQUAL(subdiv_prepare(&surface, &cage, 3, NULL), SUBDIV_OK);
+    if (!chaikin)
+        CHECK_EQUAL(surface->nets[0].count + surface->patches[0].count, cage.face_count);
+    subdiv_surface_free(surface);
+    check_steps(&cage, 3, step);
+}
+
+static void test_nets(void)
+{
+    static const double sharpness[] = { 0.5, 1, 2.5, SUBDIV_INFINITE };
+    static test_cage c;
+    static char context[64];
+    test_context = context;
+    for (int i = 0; i < 2 * 6 * 5 * 4; i++) {
+        int loop = i % 2, n = 3 + i / 2 % 6, set = i / 12 % 5;
+        double s = sharpness[i / 60];
+        subdiv_mesh quads = {0};
+        sprintf(context, "%s, valence %d, set %d, sharpness %g", loop ? "Loop" : "Catmull-Clark", n,
+                set, s);
+        if (loop) build_bipyramid(&c, SUBDIV_LOOP, n);
+        else build_prism(&c, n);
+        shake(&c, (unsigned)i);
+        sharpen_vertex(&c, n, set, loop ? s : s + 1);
+        if (!loop) CHECK_EQUAL(subdiv_refine(&quads, &c.mesh, 1, NULL), SUBDIV_OK);
+        one_level step = s >= SUBDIV_INFINITE && set != 2 ? level_of_masks : level_of_library;
+        for (int chaikin = 0; chaikin < 2; chaikin++)
+            check_nets(loop ? &c.mesh : &quads, chaikin, step);
+        subdiv_mesh_free(&quads);
+    }
+}
+
 int main(void)
 {
     RUN(test_sharp_sides);
@@ -456,6 +509,7 @@ int main(void)
     RUN(test_fading_lines);
     RUN(test_semi_sharp_lines);
     RUN(test_fin_on_a_fan);
+    RUN(test_nets);
     RUN(test_random_cages);
     RUN(test_forever_sharp);
     RUN(test_sharpness_around_levels);
