@@ -833,6 +833,15 @@ static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
 }
 #endif
 
+static void sdv_prefetch(const float *p)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(p);
+#else
+    (void)p;
+#endif
+}
+
 #define SDV_NEW(context, arena, type, count) \
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
 
@@ -7177,41 +7186,42 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
 }
 
-// The weights of the coefficients for a value and its derivatives at (x, y): first ones are scaled
-// by s, second ones by its square.
-static inline void sdv_quad_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+// The lanes of up to four channels' sums.
+static inline sdv_four sdv_lane_sums(const sdv_four *sum, int lanes)
 {
-    float xx = x * x, yy = y * y, ss = s * s;
-    sdv_four y1 = sdv_all(y), y2 = sdv_all(yy), y3 = sdv_all(y * yy), p = sdv_of(1, x, xx, x * xx);
-    w[0][0] = p;
-    w[0][1] = sdv_times(p, y1);
-    w[0][2] = sdv_times(p, y2);
-    w[0][3] = sdv_times(p, y3);
-    if (order == 0) return;
-    sdv_four along = sdv_of(0, s, 2 * s * x, 3 * s * xx);
-    sdv_four up = sdv_all(s), up2 = sdv_all(2 * s * y), up3 = sdv_all(3 * s * yy);
-    w[1][0] = along;
-    w[1][1] = sdv_times(along, y1);
-    w[1][2] = sdv_times(along, y2);
-    w[1][3] = sdv_times(along, y3);
-    w[2][0] = sdv_all(0);
-    w[2][1] = sdv_times(p, up);
-    w[2][2] = sdv_times(p, up2);
-    w[2][3] = sdv_times(p, up3);
-    if (order == 1) return;
-    sdv_four bend = sdv_of(0, 0, 2 * ss, 6 * ss * x);
-    w[3][0] = bend;
-    w[3][1] = sdv_times(bend, y1);
-    w[3][2] = sdv_times(bend, y2);
-    w[3][3] = sdv_times(bend, y3);
-    w[4][0] = w[5][0] = w[5][1] = sdv_all(0);
-    w[4][1] = sdv_times(along, up);
-    w[4][2] = sdv_times(along, up2);
-    w[4][3] = sdv_times(along, up3);
-    w[5][2] = sdv_times(p, sdv_all(2 * ss));
-    w[5][3] = sdv_times(p, sdv_all(6 * ss * y));
+    return sdv_sums(sum[0], sum[lanes > 1 ? 1 : 0], sum[lanes > 2 ? 2 : 0], sum[lanes > 3 ? 3 : 0]);
 }
 
+// Values at (x, y) and derivatives up to an order, in the order of subdiv_derivatives, of up to
+// four channels: a cubic in y whose coefficients are cubics in x. First derivatives are scaled by
+// s, second ones by its square.
+static inline void sdv_quad_values(const float *data, int lanes, float x, float y, float s,
+                                   int order, sdv_four *out)
+{
+    float xx = x * x, ss = s * s;
+    sdv_four p = sdv_of(1, x, xx, x * xx), dp = sdv_of(0, s, 2 * s * x, 3 * s * xx);
+    sdv_four ddp = sdv_of(0, 0, 2 * ss, 6 * ss * x), sum[6][4];
+    sdv_four y1 = sdv_all(y), s1 = sdv_all(s), sy2 = sdv_all(2 * s * y);
+    sdv_four syy3 = sdv_all(3 * s * (y * y)), ss2 = sdv_all(2 * ss), ssy6 = sdv_all(6 * ss * y);
+    for (int l = 0; l < lanes; l++, data += SDV_SLOTS) {
+        sdv_four a = sdv_load(data), b = sdv_load(data + 4);
+        sdv_four c = sdv_load(data + 8), d = sdv_load(data + 12);
+        sdv_four row = sdv_plus(c, sdv_times(d, y1));
+        row = sdv_plus(a, sdv_times(sdv_plus(b, sdv_times(row, y1)), y1));
+        sum[0][l] = sdv_times(row, p);
+        if (order == 0) continue;
+        sdv_four up = sdv_plus(sdv_times(b, s1), sdv_plus(sdv_times(c, sy2), sdv_times(d, syy3)));
+        sum[1][l] = sdv_times(row, dp);
+        sum[2][l] = sdv_times(up, p);
+        if (order == 1) continue;
+        sum[3][l] = sdv_times(row, ddp);
+        sum[4][l] = sdv_times(up, dp);
+        sum[5][l] = sdv_times(sdv_plus(sdv_times(c, ss2), sdv_times(d, ssy6)), p);
+    }
+    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++) out[k] = sdv_lane_sums(sum[k], lanes);
+}
+
+// The weights of the coefficients of a triangle for the same.
 static inline void sdv_triangle_weights(float x, float y, float s, int order, sdv_four (*w)[4])
 {
     float xx = x * x, yy = y * y, ss = s * s;
@@ -7239,57 +7249,55 @@ static inline void sdv_triangle_weights(float x, float y, float s, int order, sd
     w[5][3] = sdv_of(12 * ss * yy, 0, 0, 0);
 }
 
-// The sums of up to four channels.
-static inline sdv_four sdv_exact_sums(const float *data, int lanes, const sdv_four *w)
+static inline void sdv_triangle_values(const float *data, int lanes, float x, float y, float s,
+                                       int order, sdv_four *out)
 {
-    sdv_four sum[4];
-    for (int i = 0; i < 4; i++) {
-        const float *p = data + SDV_SLOTS * (i < lanes ? i : 0);
-        if (i > 0 && i >= lanes) sum[i] = sum[0];
-        else sum[i] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[0]),
-                                        sdv_times(sdv_load(p + 4), w[1])),
-                               sdv_plus(sdv_times(sdv_load(p + 8), w[2]),
-                                        sdv_times(sdv_load(p + 12), w[3])));
-    }
-    return sdv_sums(sum[0], sum[1], sum[2], sum[3]);
-}
-
-// What is asked for of a patch, at location i, from the weights of values and derivatives.
-static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data,
-                             const sdv_four (*w)[4], size_t i)
-{
-    for (int k = 0; k < 6; k++)
-        for (int c = 0; c < e->channels && e->out[k]; c += 4) {
-            int lanes = e->channels - c < 4 ? e->channels - c : 4;
-            sdv_store_some(e->out[k] + e->stride * i + c,
-                           sdv_exact_sums(data + SDV_SLOTS * c, lanes, w[k]), lanes);
+    sdv_four w[6][4], sum[4];
+    sdv_triangle_weights(x, y, s, order, w);
+    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++) {
+        for (int l = 0; l < lanes; l++) {
+            const float *p = data + SDV_SLOTS * l;
+            sum[l] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[k][0]),
+                                       sdv_times(sdv_load(p + 4), w[k][1])),
+                              sdv_plus(sdv_times(sdv_load(p + 8), w[k][2]),
+                                       sdv_times(sdv_load(p + 12), w[k][3])));
         }
+        out[k] = sdv_lane_sums(sum, lanes);
+    }
 }
 
-static void sdv_put_normal(const sdv_exact_evaluation *e, const float *data,
-                           const sdv_four (*w)[4], size_t i)
+// What is asked for of a patch, at location i, of channels from c on.
+static inline void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
+                                 int lanes, int order, float x, float y, float s, int c, size_t i)
 {
-    float t[8];
-    sdv_store(t, sdv_exact_sums(data, 3, w[1]));
-    sdv_store(t + 4, sdv_exact_sums(data, 3, w[2]));
-    sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+    sdv_four values[6];
+    data += SDV_SLOTS * c;
+    if (loop) sdv_triangle_values(data, lanes, x, y, s, order, values);
+    else sdv_quad_values(data, lanes, x, y, s, order, values);
+    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++)
+        if (e->out[k]) sdv_store_some(e->out[k] + e->stride * i + c, values[k], lanes);
+    if (order > 0 && e->normals && c == 0) {
+        float t[8];
+        sdv_store(t, values[1]);
+        sdv_store(t + 4, values[2]);
+        sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+    }
+}
+
+static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, int loop,
+                             float x, float y, float s, size_t i)
+{
+    for (int c = 0; c < e->channels; c += 4)
+        sdv_put_lanes(e, data, loop, e->channels - c < 4 ? e->channels - c : 4, e->order, x, y, s,
+                      c, i);
 }
 
 static inline void sdv_put_patch(const sdv_exact_evaluation *e, const float *data, int loop,
                                  float x, float y, float s, size_t i)
 {
-    sdv_four w[6][4];
-    size_t at = e->stride * i;
-    if (loop) sdv_triangle_weights(x, y, s, e->order, w);
-    else sdv_quad_weights(x, y, s, e->order, w);
-    if (e->channels != 3 || e->order == 2) {
-        sdv_put_channels(e, data, (const sdv_four (*)[4])w, i);
-    } else {
-        if (e->out[0]) sdv_store_three(e->out[0] + at, sdv_exact_sums(data, 3, w[0]));
-        if (e->out[1]) sdv_store_three(e->out[1] + at, sdv_exact_sums(data, 3, w[1]));
-        if (e->out[2]) sdv_store_three(e->out[2] + at, sdv_exact_sums(data, 3, w[2]));
-    }
-    if (e->normals) sdv_put_normal(e, data, (const sdv_four (*)[4])w, i);
+    if (e->channels != 3 || e->order == 2) sdv_put_channels(e, data, loop, x, y, s, i);
+    else if (e->order == 0) sdv_put_lanes(e, data, loop, 3, 0, x, y, s, 0, i);
+    else sdv_put_lanes(e, data, loop, 3, 1, x, y, s, 0, i);
 }
 
 // Which child of a face, and where on it; a middle triangle is turned by half.
@@ -7533,45 +7541,93 @@ static inline double sdv_on_face(float u)
     return u < 0 ? 0 : u > 1 ? 1 : (double)u;
 }
 
-static inline int sdv_put_location(const sdv_exact_evaluation *e, const int *nodes, int loop,
-                                   size_t i)
+// Where a location is in the tree.
+typedef struct sdv_spot {
+    int    leaf;                        // 0: its face has no surface
+    float  scale;                       // of the leaf's coordinates
+    double x, y;
+} sdv_spot;
+
+// From the cell of the deepest level a location is in.
+static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_spot *spot)
+{
+    const int cells = 1 << SDV_EXACT_LEVELS;
+    int x = (int)(u * cells), y = (int)(v * cells), level = SDV_EXACT_LEVELS;
+    if (x == cells) x--;
+    if (y == cells) y--;
+    for (int turn = x ^ y; node >= 0; ) {
+        level--;
+        node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
+    }
+    int scale = cells >> level;
+    spot->leaf = node;
+    spot->scale = (float)scale;
+    spot->x = u * scale - (x >> level);
+    spot->y = v * scale - (y >> level);
+}
+
+static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
+                                       sdv_spot *spot)
+{
+    double scale = 1;
+    if (x + y > 1) y = 1 - x;
+    for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
+    spot->leaf = node;
+    spot->scale = (float)scale;
+    spot->x = x;
+    spot->y = y;
+}
+
+static inline void sdv_locate(const sdv_exact_evaluation *e, int loop, size_t i, sdv_spot *spot)
 {
     const subdiv_surface *surface = e->surface;
     const subdiv_location *at = &e->locations[i];
-    double x = sdv_on_face(at->u), y = sdv_on_face(at->v), scale = 1;
+    double x = sdv_on_face(at->u), y = sdv_on_face(at->v);
     int f = at->face;
-    if (surface->exact->absent && surface->exact->absent[f]) {
-        sdv_put_zeros(e, i);
-        return 1;
-    }
+    spot->leaf = 0;
+    if (surface->exact->absent && surface->exact->absent[f]) return;
     if (surface->own_face) f = surface->own_face[f];
-    int node = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop && x + y > 1) y = 1 - x;
-    for (; node >= 0; scale *= 2)
-        node = nodes[node + (loop ? sdv_descend_triangle(&x, &y, &scale)
-                                  : sdv_descend_quad(&x, &y))];
-    if (~node & 1) return sdv_put_nest(e, ~node >> 1, x, y, scale, i);
-    sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * (size_t)(~node >> 1),
-                  loop, (float)x, (float)y, (float)scale, i);
-    return 1;
+    int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
+    if (loop) sdv_locate_triangle(surface->exact->nodes, node, x, y, spot);
+    else sdv_locate_quad(surface->exact->nodes, node, x, y, spot);
+}
+
+// All are located before the first is evaluated: what they need of memory comes at the same time.
+static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
+{
+    enum { block = 32 };
+    sdv_spot spots[block];
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    while (i < end) {
+        int count = end - i < block ? (int)(end - i) : block;
+        for (int k = 0; k < count; k++) {
+            sdv_locate(e, loop, i + (size_t)k, &spots[k]);
+            if (~spots[k].leaf & 1) continue;
+            const float *data = e->memory.patches + width * (size_t)(~spots[k].leaf >> 1);
+            for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
+        }
+        for (const sdv_spot *spot = spots; spot < spots + count; spot++, i++) {
+            if (spot->leaf == 0)
+                sdv_put_zeros(e, i);
+            else if (~spot->leaf & 1)
+                e->failed[job] |= !sdv_put_nest(e, ~spot->leaf >> 1, spot->x, spot->y,
+                                                (double)spot->scale, i);
+            else
+                sdv_put_patch(e, e->memory.patches + width * (size_t)(~spot->leaf >> 1), loop,
+                              (float)spot->x, (float)spot->y, spot->scale, i);
+        }
+    }
 }
 
 static void sdv_quads_job(void *context, int job)
 {
-    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    for (; i < end; i++)
-        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 0, i);
+    sdv_put_locations((sdv_exact_evaluation *)context, 0, job);
 }
 
 static void sdv_triangles_job(void *context, int job)
 {
-    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    for (; i < end; i++)
-        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 1, i);
+    sdv_put_locations((sdv_exact_evaluation *)context, 1, job);
 }
 
 // Is a location there?
