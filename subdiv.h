@@ -6446,12 +6446,6 @@ static const unsigned char sdv_powers[2][SDV_SLOTS][2] = {
     { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
       {0,2}, {1,2}, {0,3}, {1,3}, {0,4}, {4,0}, {0,0}, {0,0} } };
 
-// The coefficients of a patch from its control points. Patches with the same sharp edges share it.
-typedef struct sdv_matrix {
-    uint32_t key;
-    double weights[SDV_SLOTS][16];
-} sdv_matrix;
-
 // Points of a nest: the vertex; then of each face, counter-clockwise, as far as two faces away,
 //
 //     Catmull-Clark   5   4        Loop      .        the vertex v, and what continues the last
@@ -6466,7 +6460,6 @@ typedef struct sdv_nest_kind {
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
     sdv_patches patches;
-    int     *matrices;                  // [patches.count]
     double  *limit;                     // [3 * points] weights of the limit and of two tangents,
                                         // of a smooth ring and a crease; NULL: none
 } sdv_nest_kind;
@@ -6488,14 +6481,13 @@ typedef struct sdv_exact {
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
-    sdv_matrix *matrices;
 } sdv_exact;
 
 // While it is made.
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
-    sdv_array nodes, kinds, nests, nest_points, nest_faces, matrices;
+    sdv_array nodes, kinds, nests, nest_points, nest_faces;
     int      *slots;                    // [face_count of the level] their nodes
 } sdv_exact_maker;
 
@@ -6538,36 +6530,6 @@ static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
     for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
     if (patch->sharp) sdv_mirror_quad(patch, p);
     sdv_quad_polynomial(p, 0, 0, rules->linear, q);
-}
-
-// What a patch makes of unit vectors, four at a time. All weights are multiples of 1/36, so that
-// rounding gives them back.
-static int sdv_find_matrix(sdv_exact_maker *maker, const sdv_patch *patch)
-{
-    const sdv_rules *rules = &maker->surface->rules;
-    sdv_matrix *known = (sdv_matrix *)sdv_items(&maker->matrices);
-    uint32_t key = patch->sharp;
-    for (int i = 0; i < 3; i++) key = key << 4 | patch->fan[i];
-    for (size_t i = 0; i < maker->matrices.count; i++) if (known[i].key == key) return (int)i;
-    sdv_matrix *matrix = (sdv_matrix *)sdv_append(maker->writer->context, &maker->matrices, 1,
-                                                  sizeof *matrix);
-    if (!matrix) return 0;
-    matrix->key = key;
-    for (int first = 0; first < sdv_control_points(rules); first += 4) {
-        float unit[64] = { 0 }, lanes[4];
-        sdv_polynomial q;
-        sdv_four slots[SDV_SLOTS];
-        for (int i = 0; i < 4; i++) unit[4 * (first + i) + i] = 1;
-        sdv_limit_polynomial(rules, patch, unit, &q);
-        q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
-        sdv_pack(&q, slots);
-        for (int k = 0; k < SDV_SLOTS; k++) {
-            sdv_store(lanes, slots[k]);
-            for (int i = 0; i < 4; i++)
-                matrix->weights[k][first + i] = floor(36 * (double)lanes[i] + 0.5) / 36;
-        }
-    }
-    return (int)maker->matrices.count - 1;
 }
 
 // The points of a nest whose first face is that of h, a face-vertex at its vertex.
@@ -6656,14 +6618,11 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
     int loop = maker->surface->rules.loop, count = 0;
     int *patch = SDV_NEW(context, scratch, int, next->face_count);
     kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
-    kind->matrices = SDV_NEW(context, &maker->surface->arena, int, kind->patches.count);
     if (context->result) return;
     for (int f = 0; f < next->face_count; f++)
         patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
     for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
         kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
-    for (int i = 0; i < kind->patches.count && !context->result; i++)
-        kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
 }
 
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
@@ -6968,8 +6927,6 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
                                                         sizeof(sdv_nest_face));
-    exact->matrices = (sdv_matrix *)sdv_keep_array(context, arena, &maker->matrices,
-                                                   sizeof(sdv_matrix));
 }
 
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
@@ -7372,23 +7329,15 @@ static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
     double scale = 2;
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
     int patch = s->kind->children[4 * s->face + child];
-    const sdv_matrix *matrix = &s->surface->exact->matrices[s->kind->matrices[patch]];
     const int *points = s->kind->patches.points + count * patch;
-    double px[5] = { 1, x, x * x, x * x * x, x * x * x * x };
-    double py[5] = { 1, y, y * y, y * y * y, y * y * y * y };
-    memset(s->values, 0, sizeof s->values);
-    for (int k = 0; k < SDV_SLOTS; k++) {
-        int i = sdv_powers[loop][k][0], j = sdv_powers[loop][k][1];
-        double c[4] = { 0, 0, 0, 0 };
-        for (int p = 0; p < count; p++)
-            for (int l = 0; l < 4; l++) c[l] += matrix->weights[k][p] * s->w[4 * points[p] + l];
-        double dx = i ? i * px[i - 1] : 0, dy = j ? j * py[j - 1] : 0;
-        double dxx = i > 1 ? i * (i - 1) * px[i - 2] : 0;
-        double dyy = j > 1 ? j * (j - 1) * py[j - 2] : 0;
-        double w[6] = { px[i] * py[j], scale * dx * py[j], scale * px[i] * dy, 4 * dxx * py[j],
-                        4 * dx * dy, 4 * px[i] * dyy };
-        for (int d = 0; d < 6; d++)
-            for (int l = 0; l < 4; l++) s->values[d][l] += w[d] * c[l];
+    float data[4 * SDV_SLOTS], lanes[4];
+    sdv_four values[6];
+    sdv_exact_patch(&s->surface->rules, &s->kind->patches.items[patch], points, s->w, 4, data);
+    if (loop) sdv_triangle_values(data, 4, (float)x, (float)y, (float)scale, 2, values);
+    else sdv_quad_values(data, 4, (float)x, (float)y, (float)scale, 2, values);
+    for (int k = 0; k < 6; k++) {
+        sdv_store(lanes, values[k]);
+        for (int l = 0; l < 4; l++) s->values[k][l] = (double)lanes[l];
     }
     for (int l = 0; l < 4; l++) {
         s->values[0][l] = s->base[l] + s->shrink * s->values[0][l];
