@@ -6457,6 +6457,7 @@ typedef struct sdv_nest_kind {
     int      points;
     int      work_count;                // the points, and those of the next level
     sdv_step step;                      // which its rows make
+    const int **rows;                   // [work_count] its rows, by point; first ones have none
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
     sdv_patches patches;
@@ -6625,6 +6626,24 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
         kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
 }
 
+// Where the row of each point is.
+static void sdv_nest_rows(sdv_exact_maker *maker, sdv_nest_kind *kind)
+{
+    const sdv_weights *masks = (const sdv_weights *)sdv_items(&maker->writer->masks);
+    const sdv_rows *rows[3] = { &kind->step.faces, &kind->step.vertices, &kind->step.edges };
+    kind->rows = SDV_NEW(maker->writer->context, &maker->surface->arena, const int *,
+                         kind->work_count);
+    if (!kind->rows) return;
+    memset(kind->rows, 0, (size_t)kind->work_count * sizeof *kind->rows);
+    for (int i = 0; i < 3; i++) {
+        const int *row = rows[i]->items;
+        for (int k = 0; k < rows[i]->count; k++) {
+            kind->rows[rows[i]->first + k] = row;
+            row += 1 + masks[row[0]].count;
+        }
+    }
+}
+
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
 // not one that both and their neighbours share as in the cage of a mesh.
 static void sdv_part_triangles(sdv_level *level, int dart)
@@ -6691,6 +6710,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     if (!context->result) {
         sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
         sdv_nest_children(maker, kind, &split, &next, &scratch);
+        sdv_nest_rows(maker, kind);
     }
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
         sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
@@ -7000,7 +7020,22 @@ static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int chann
     return memory;
 }
 
-// Rows as sdv_apply, in doubles.
+// Rows as sdv_apply, in doubles. Returns the next row.
+static inline const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
+                                       double *out)
+{
+    const sdv_weights *mask = &masks->items[row[0]];
+    const double *p0 = work + 4 * (size_t)row[1];
+    double sum[4] = { 0, 0, 0, 0 };
+    for (int j = 1; j < mask->count; j++) {
+        const double *p = work + 4 * (size_t)row[1 + j];
+        double w = mask->first < 0 ? (double)mask->even : (double)masks->weights[mask->first + j];
+        for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
+    }
+    for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
+    return row + 1 + mask->count;
+}
+
 static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
                            double *work)
 {
@@ -7009,19 +7044,7 @@ static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int blo
     const int *row = rows->items + rows->starts[block];
     double *out = work + 4 * (size_t)(rows->first + first);
     if (last > rows->count) last = rows->count;
-    for (int i = first; i < last; i++, out += 4) {
-        const sdv_weights *mask = &masks->items[row[0]];
-        const double *p0 = work + 4 * (size_t)row[1];
-        double sum[4] = { 0, 0, 0, 0 };
-        for (int j = 1; j < mask->count; j++) {
-            const double *p = work + 4 * (size_t)row[1 + j];
-            double w = mask->first < 0 ? (double)mask->even
-                                       : (double)masks->weights[mask->first + j];
-            for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
-        }
-        for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
-        row += 1 + mask->count;
-    }
+    for (int i = first; i < last; i++, out += 4) row = sdv_exact_row(masks, row, work, out);
 }
 
 // Jobs of an evaluation.
@@ -7284,10 +7307,18 @@ typedef struct sdv_nest_sample {
     int     face;
     double  x, y;                       // as seen from the vertex
     double *w;                          // [4 * work_count] points: (p - base) / shrink
+    unsigned char *done;                // [work_count] is it there?
     double  base[4], shrink;
     double  values[6][4];               // what comes out; derivatives are those in x and y
     double  normal[2][4];               // tangents for the normal
 } sdv_nest_sample;
+
+// Its points are there, none of the next level.
+static void sdv_nest_start(sdv_nest_sample *s)
+{
+    memset(s->done, 1, (size_t)s->kind->points);
+    memset(s->done + s->kind->points, 0, (size_t)(s->kind->work_count - s->kind->points));
+}
 
 static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
 {
@@ -7297,29 +7328,33 @@ static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double
         for (int c = 0; c < 4; c++)
             s->w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
     s->shrink = 1;
+    sdv_nest_start(s);
 }
 
-// The points of the next level.
-static void sdv_nest_refine(sdv_nest_sample *s)
+// A point of the next level, after those its row needs.
+static void sdv_nest_point(sdv_nest_sample *s, int point)
 {
     const sdv_masks *masks = &s->surface->masks;
-    const sdv_step *step = &s->kind->step;
-    const sdv_rows *rows[3] = { &step->faces, &step->vertices, &step->edges };
-    for (int i = 0; i < 3; i++)
-        sdv_exact_rows(masks, rows[i], 0, (int)sdv_row_blocks(rows[i]->count), s->w);
+    const int *row = s->kind->rows[point];
+    if (s->done[point]) return;
+    for (int i = 0; i < masks->items[row[0]].count; i++)
+        if (!s->done[row[1 + i]]) sdv_nest_point(s, row[1 + i]);
+    sdv_exact_row(masks, row, s->w, s->w + 4 * point);
+    s->done[point] = 1;
 }
 
 static void sdv_nest_go_down(sdv_nest_sample *s)
 {
     const sdv_nest_kind *kind = s->kind;
-    sdv_nest_refine(s);
     double vertex[4];
+    for (int i = 0; i < kind->points; i++) sdv_nest_point(s, kind->below[i]);
     for (int c = 0; c < 4; c++) vertex[c] = s->w[4 * kind->below[0] + c];
     for (int c = 0; c < 4; c++) s->base[c] += s->shrink * vertex[c];
     for (int i = 0; i < kind->points; i++)
         for (int c = 0; c < 4; c++)
             s->w[4 * i + c] = 2 * (s->w[4 * kind->below[i] + c] - vertex[c]);
     s->shrink /= 2;
+    sdv_nest_start(s);
 }
 
 // From the patch of a child, where (x, y) is not in the next nest.
@@ -7332,6 +7367,7 @@ static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
     const int *points = s->kind->patches.points + count * patch;
     float data[4 * SDV_SLOTS], lanes[4];
     sdv_four values[6];
+    for (int i = 0; i < count; i++) sdv_nest_point(s, points[i]);
     sdv_exact_patch(&s->surface->rules, &s->kind->patches.items[patch], points, s->w, 4, data);
     if (loop) sdv_triangle_values(data, 4, (float)x, (float)y, (float)scale, 2, values);
     else sdv_quad_values(data, 4, (float)x, (float)y, (float)scale, 2, values);
@@ -7375,7 +7411,6 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
         sdv_nest_masks(s);
     } else {
         for (int i = 0; i < 100; i++) sdv_nest_go_down(s);
-        sdv_nest_refine(s);
         for (int i = 0; i < 3; i++) {
             sdv_nest_patch(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
             if (i < 2) memcpy(along[i], s->values[1 + i], sizeof along[i]);
@@ -7400,7 +7435,6 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_nest *nest, const do
     frexp(size, &down);
     down = down > 0 ? 0 : -down;
     for (int i = 0; i < down; i++) sdv_nest_go_down(s);
-    sdv_nest_refine(s);
     sdv_nest_patch(s, ldexp(s->x, down), ldexp(s->y, down));
 }
 
@@ -7449,7 +7483,7 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, doub
     const sdv_nest_face *face = &exact->nest_faces[index];
     const sdv_nest *nest = &exact->nests[face->nest];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
-    double small[4 * SDV_NEST_STACK], z = 1 - x - y;
+    double small[5 * SDV_NEST_STACK], z = 1 - x - y;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
@@ -7466,7 +7500,8 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, doub
     if (s.y < 0) s.y = 0;
     if (s.x < 0) s.x = 0;
     s.w = s.kind->work_count <= SDV_NEST_STACK ? small
-        : SDV_NEW(&context, &arena, double, 4 * (size_t)s.kind->work_count);
+        : SDV_NEW(&context, &arena, double, 5 * (size_t)s.kind->work_count);
+    if (s.w) s.done = (unsigned char *)(s.w + 4 * (size_t)s.kind->work_count);
     for (int c = 0; c < e->channels && s.w; c += 4) {
         sdv_nest_evaluate(&s, nest, e->memory.work + (size_t)c * (size_t)surface->work_count);
         sdv_nest_turn(&s, t, scale);
