@@ -7103,7 +7103,7 @@ static void sdv_exact_points_job(void *context, int job)
 static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, const int *points,
                             const double *work, int lanes, float *out)
 {
-    float relative[64], lane[4];
+    float relative[64], packed[4 * SDV_SLOTS];
     sdv_polynomial q;
     sdv_four slots[SDV_SLOTS];
     const double *origin = work + 4 * (size_t)points[rules->loop ? 4 : 5];
@@ -7112,12 +7112,11 @@ static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, cons
             relative[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
     sdv_limit_polynomial(rules, patch, relative, &q);
     sdv_pack(&q, slots);
-    for (int k = 0; k < SDV_SLOTS; k++) {
-        sdv_store(lane, slots[k]);
-        for (int c = 0; c < lanes; c++) out[SDV_SLOTS * c + k] = lane[c];
+    for (int k = 0; k < SDV_SLOTS; k++) sdv_store(packed + 4 * k, slots[k]);
+    for (int c = 0; c < lanes; c++, out += SDV_SLOTS) {
+        for (int k = 1; k < SDV_SLOTS; k++) out[k] = packed[4 * k + c];
+        out[0] = (float)(origin[c] + (double)packed[c]);
     }
-    for (int c = 0; c < lanes; c++)
-        out[SDV_SLOTS * c] = (float)(origin[c] + (double)out[SDV_SLOTS * c]);
 }
 
 static void sdv_exact_patches_job(void *context, int job)
