@@ -12,10 +12,10 @@ WARN    = -Wall -Wextra -Wpedantic
 FLAGS   = -std=c99 $(CFLAGS) $(WARN) -ffp-contract=off -I.
 THREADS = -pthread
 
-TESTS    = masks order invariants patches evaluate limit exact recorded creases check obj errors \
-           uv memory
+TESTS    = masks order invariants patches evaluate limit exact stencils recorded creases check obj \
+           errors uv tessellate exact_oracle memory
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
-           07_threads make_cages
+           07_threads 08_tessellate 09_stencils make_cages
 
 all: build/subdiv
 

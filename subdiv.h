@@ -52,6 +52,8 @@
              >>limit     points and normals of the    >>creases    from angles, groups, seams
                          limit surface                >>inspect    what a cage is made of, what
              >>exact     the same at any (face, u, v)              is odd about it
+             >>tessellation  meshes of it, in any     >>stencils  points as weights of the
+                         pieces                       cage's vertices; points explained
              >>obj       reading and writing OBJ
    Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
              >>level     a mesh with its edges and sharpness: the state of refinement
@@ -67,8 +69,10 @@
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
              >>exact-surface  and anywhere between the points
+             >>tiles     grids and strips of triangles, see >>tessellation
+             >>stencils  all of them as weights
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
-             >>numbers  >>obj-read  >>obj-write  >>cleanup
+             >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
@@ -149,7 +153,8 @@
 
    VERSION LOG
    -----------
-   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, OBJ. */
+   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, exact
+        evaluation, tessellation, stencils, OBJ. */
 
 #ifndef SUBDIV_H
 #define SUBDIV_H
@@ -501,6 +506,128 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
                                             const subdiv_location *locations,
                                             const subdiv_derivatives *out,
                                             const subdiv_options *opt);
+
+// ------------------------------------------------------------------------------ >>stencils
+// The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
+//
+//     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
+//
+// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6. Weights that are
+// no more than rounding of the others are left out. Stencils of a surface of face-varying values
+// have numbers of values as indices.
+typedef struct subdiv_stencils {
+    int     count;
+    size_t *offsets;                  // [count + 1]
+    int    *indices;                  // [offsets[count]]  rising in each stencil
+    float  *weights;                  // [offsets[count]]  of the point,
+    float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
+    void   *memory;                   // the library's own, one block
+} subdiv_stencils;
+
+// Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
+// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. The work
+// is that of the points asked for and a look at the cage's faces; scratch memory of up to 250
+// bytes a point, so take large results in pieces. Errors: ARGUMENT, INDEX, MEMORY.
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt);
+
+// Of so many locations on a surface prepared with SUBDIV_EXACT: those of subdiv_evaluate_at, with
+// du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt);
+
+// Frees what the library made and zeroes the struct.
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
+
+// Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
+// it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
+// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
+// bytes are enough but for large faces and valences. Errors, which leave text empty: as
+// subdiv_refine, INDEX if there is no such point, TOO_LARGE if the text does not fit.
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt);
+
+// --------------------------------------------------------------------------- >>tessellation
+// A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
+// cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
+// the rates.
+//
+//     subdiv_tessellation how = {0};
+//     how.rate = 5;
+//     subdiv_tessellate(&fine, &cage, &how, &opt);
+
+// The rate of an edge, or 0: as if not asked. a, middle, b: points [3] of the edge on the limit, a
+// that of its lower-numbered vertex. Called once for each edge that has a surface, in order, by the
+// caller's thread.
+typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
+                                const float *b);
+
+// Zero it, fill what you want. What is 0 or NULL says nothing, and the next below decides:
+//     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
+//     a face     face_rates, the rates of its edges
+typedef struct subdiv_tessellation {
+    int  rate;                        // of everything
+    const int *edge_rates;            // [edge count] edges are numbered as in THE ORDER OF THE
+                                      // RESULT: subdiv_surface_edges lists them
+    const int *face_rates;            // [face_count of the cage]
+    subdiv_edge_rate edge_rate;
+    void *user;                       // handed to edge_rate
+    int   triangles;                  // cut quads, from their first vertex to their third
+} subdiv_tessellation;
+
+// fine: a mesh with limit positions, normals, cage_faces, UVs (seams respected) and colours, both
+// on their limit, and the statements; holes are left out, or with opt->keep_holes listed. It has
+// no creases and corners: it is no cage for more of the same.
+//
+// Its points are in THE ORDER OF THE RESULT, each edge with rate - 1 points inside. The inside of a
+// face is a grid: of a quad c x r pieces, c the larger rate of edges 0-1 and 2-3, r that of the
+// two others; of a triangle under Loop r pieces a side, r the largest rate of its edges; of any
+// other polygon half of that, rounded up, a side of each of its quads. Or face_rates says r, and c.
+// The grid's points are those that are not on the edges, row by row as there.
+//
+// If the edges are all cut as the grid is, the faces are those of the grid, as there: so one rate
+// 2^k gives the points and faces of subdiv_refine by k levels with opt->limit. (A polygon that is
+// no quad needs even rates for that; at rate 1 it becomes a fan around its centre.) Otherwise the
+// grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones; behind what is
+// left stand, side by side from edge 0-1 on, triangles, and quads where two pieces are opposite:
+//
+//     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
+//     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
+//     o---+---+---+---o       triangle
+//     |   |   |   |   |
+//     o---+---+---+---o
+//     |   |   |   |   |
+//     o---+---+---+---o
+//     | / \ /   \ / \ |
+//     o----o-----o----o
+//
+// Points of vertices and edges are computed once, on the first face that has them and is no hole:
+// a normal on a crease is that of the surface on that side. Where there is no surface, by boundary
+// "none", there are neither points nor faces, but for the vertices.
+//
+// fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
+// Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
+// faces.
+SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
+                                           const subdiv_tessellation *how,
+                                           const subdiv_options *opt);
+
+// The same from a surface prepared for SUBDIV_EXACT levels, as often as you like, for positions
+// [3 * cage vertex_count]. Error ARGUMENT: it was prepared for something else.
+SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
+                                                   const subdiv_surface *surface,
+                                                   const float *positions,
+                                                   const subdiv_tessellation *how,
+                                                   const subdiv_options *opt);
+
+// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
+// a surface of 0 levels. Under opt->triangulate, of the triangles.)
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
@@ -4681,6 +4808,7 @@ static void sdv_count_fine_faces(subdiv_surface *surface, int keep_holes)
 static void sdv_no_result(subdiv_surface *surface)
 {
     surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
+    surface->first_face = NULL;
 }
 
 // Level 0: everything as it is.
@@ -4936,11 +5064,11 @@ static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
-    if (cage->uv_count > 0 && !made->exact) made->uv = sdv_new_surface(&context, levels);
+    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
     made->rules.limit = opt && opt->limit && !made->exact;
     made->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
-    if (!context.result && !made->exact) sdv_keep_data(&context, made, cage);
+    if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
         context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, opt);
     if (context.result) subdiv_surface_free(made);
@@ -5847,10 +5975,12 @@ static int sdv_share(int count, int i, int jobs)
     return (int)((int64_t)count * i / jobs);
 }
 
+#define SDV_MOST_JOBS 256
+
 static int sdv_jobs(int64_t work, int64_t least)
 {
     int64_t jobs = work / least;
-    return jobs > 256 ? 256 : jobs < 1 ? 1 : (int)jobs;
+    return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
 static void sdv_input_job(void *context, int job)
@@ -6446,6 +6576,12 @@ static const unsigned char sdv_powers[2][SDV_SLOTS][2] = {
     { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
       {0,2}, {1,2}, {0,3}, {1,3}, {0,4}, {4,0}, {0,0}, {0,0} } };
 
+// The coefficients of a patch from its control points. Patches with the same sharp edges share it.
+typedef struct sdv_matrix {
+    uint32_t key;
+    double weights[SDV_SLOTS][16];
+} sdv_matrix;
+
 // Points of a nest: the vertex; then of each face, counter-clockwise, as far as two faces away,
 //
 //     Catmull-Clark   5   4        Loop      .        the vertex v, and what continues the last
@@ -6461,6 +6597,7 @@ typedef struct sdv_nest_kind {
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
     sdv_patches patches;
+    int     *matrices;                  // [patches.count]
     double  *limit;                     // [3 * points] weights of the limit and of two tangents,
                                         // of a smooth ring and a crease; NULL: none
 } sdv_nest_kind;
@@ -6479,16 +6616,18 @@ typedef struct sdv_exact {
                                         // ~(2 patch) or ~(2 face of a nest + 1)
     unsigned char *absent;              // [face_count] without surface; NULL: none
     sdv_nest_kind *kinds;
+    int kind_count;
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
+    sdv_matrix *matrices;
 } sdv_exact;
 
 // While it is made.
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
-    sdv_array nodes, kinds, nests, nest_points, nest_faces;
+    sdv_array nodes, kinds, nests, nest_points, nest_faces, matrices;
     int      *slots;                    // [face_count of the level] their nodes
 } sdv_exact_maker;
 
@@ -6531,6 +6670,36 @@ static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
     for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
     if (patch->sharp) sdv_mirror_quad(patch, p);
     sdv_quad_polynomial(p, 0, 0, rules->linear, q);
+}
+
+// What a patch makes of unit vectors, four at a time. All weights are multiples of 1/36, so that
+// rounding gives them back.
+static int sdv_find_matrix(sdv_exact_maker *maker, const sdv_patch *patch)
+{
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_matrix *known = (sdv_matrix *)sdv_items(&maker->matrices);
+    uint32_t key = patch->sharp;
+    for (int i = 0; i < 3; i++) key = key << 4 | patch->fan[i];
+    for (size_t i = 0; i < maker->matrices.count; i++) if (known[i].key == key) return (int)i;
+    sdv_matrix *matrix = (sdv_matrix *)sdv_append(maker->writer->context, &maker->matrices, 1,
+                                                  sizeof *matrix);
+    if (!matrix) return 0;
+    matrix->key = key;
+    for (int first = 0; first < sdv_control_points(rules); first += 4) {
+        float unit[64] = { 0 }, lanes[4];
+        sdv_polynomial q;
+        sdv_four slots[SDV_SLOTS];
+        for (int i = 0; i < 4; i++) unit[4 * (first + i) + i] = 1;
+        sdv_limit_polynomial(rules, patch, unit, &q);
+        q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
+        sdv_pack(&q, slots);
+        for (int k = 0; k < SDV_SLOTS; k++) {
+            sdv_store(lanes, slots[k]);
+            for (int i = 0; i < 4; i++)
+                matrix->weights[k][first + i] = floor(36 * (double)lanes[i] + 0.5) / 36;
+        }
+    }
+    return (int)maker->matrices.count - 1;
 }
 
 // The points of a nest whose first face is that of h, a face-vertex at its vertex.
@@ -6619,11 +6788,14 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
     int loop = maker->surface->rules.loop, count = 0;
     int *patch = SDV_NEW(context, scratch, int, next->face_count);
     kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
+    kind->matrices = SDV_NEW(context, &maker->surface->arena, int, kind->patches.count);
     if (context->result) return;
     for (int f = 0; f < next->face_count; f++)
         patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
     for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
         kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
+    for (int i = 0; i < kind->patches.count && !context->result; i++)
+        kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
 }
 
 // Where the row of each point is.
@@ -6778,9 +6950,11 @@ static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, in
 }
 
 // The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
-// number, or -2, at all its faces, and face_at where they stand in it.
-static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h, int *at,
-                          int *face_at)
+// number, or -2, at all its faces, and face_at where they stand in it. At a vertex that is not
+// manifold a crease may run apart from these faces: then they have none before the last level,
+// where the vertex has all but arrived.
+static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int depth, int h,
+                          int *at, int *face_at)
 {
     const sdv_rules *rules = &maker->surface->rules;
     sdv_context *context = maker->writer->context;
@@ -6791,10 +6965,11 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h,
     int last = first;
     for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
     sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
-    int dart = rule == SDV_DART && !ring &&
-               sdv_same_edge(level, first, sdv_previous(level, last));
-    if (sdv_is_nest(level, rules, first, faces, ring)) {
-        if (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE)) rule = SDV_CORNER;
+    int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
+    int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
+    if ((!apart || depth + 1 == SDV_EXACT_LEVELS) &&
+        sdv_is_nest(level, rules, first, faces, ring)) {
+        if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
         number = (int)maker->nests.count;
         int kind = sdv_find_nest_kind(maker, faces, ring || dart, rule);
         sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
@@ -6813,7 +6988,7 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int h,
 }
 
 // Turns the rough faces of nests into leaves.
-static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level)
+static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
 {
     sdv_context *context = maker->writer->context;
     sdv_arena scratch = sdv_scratch();
@@ -6824,7 +6999,7 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level)
         int start = sdv_face_start(level, f), end = sdv_face_end(level, f), found = -1;
         for (int h = start; h < end && level->rough[f] && !context->result; h++) {
             if (sdv_fan_at(level, &maker->surface->rules, h) != SDV_FAN_ROUGH) continue;
-            if (at[h] == -1) sdv_find_nest(maker, level, h, at, face_at);
+            if (at[h] == -1) sdv_find_nest(maker, level, depth, h, at, face_at);
             found = h;
         }
         if (found < 0 || context->result || at[found] < 0) continue;
@@ -6891,7 +7066,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
         if (level->core[f] && !level->rough[f])
             ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
                 ~(2 * surface->exact->patch_count++);
-    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level);
+    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level, depth);
     surface->work_count = level->first_point + level->vertex_count;
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
@@ -6943,10 +7118,13 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
     exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
                                                    sizeof(sdv_nest_kind));
+    exact->kind_count = (int)maker->kinds.count;
     exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
                                                         sizeof(sdv_nest_face));
+    exact->matrices = (sdv_matrix *)sdv_keep_array(context, arena, &maker->matrices,
+                                                   sizeof(sdv_matrix));
 }
 
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
@@ -7363,16 +7541,24 @@ static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
     double scale = 2;
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
     int patch = s->kind->children[4 * s->face + child];
+    const sdv_matrix *matrix = &s->surface->exact->matrices[s->kind->matrices[patch]];
     const int *points = s->kind->patches.points + count * patch;
-    float data[4 * SDV_SLOTS], lanes[4];
-    sdv_four values[6];
+    double px[5] = { 1, x, x * x, x * x * x, x * x * x * x };
+    double py[5] = { 1, y, y * y, y * y * y, y * y * y * y };
+    memset(s->values, 0, sizeof s->values);
     for (int i = 0; i < count; i++) sdv_nest_point(s, points[i]);
-    sdv_exact_patch(&s->surface->rules, &s->kind->patches.items[patch], points, s->w, 4, data);
-    if (loop) sdv_triangle_values(data, 4, (float)x, (float)y, (float)scale, 2, values);
-    else sdv_quad_values(data, 4, (float)x, (float)y, (float)scale, 2, values);
-    for (int k = 0; k < 6; k++) {
-        sdv_store(lanes, values[k]);
-        for (int l = 0; l < 4; l++) s->values[k][l] = (double)lanes[l];
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        int i = sdv_powers[loop][k][0], j = sdv_powers[loop][k][1];
+        double c[4] = { 0, 0, 0, 0 };
+        for (int p = 0; p < count; p++)
+            for (int l = 0; l < 4; l++) c[l] += matrix->weights[k][p] * s->w[4 * points[p] + l];
+        double dx = i ? i * px[i - 1] : 0, dy = j ? j * py[j - 1] : 0;
+        double dxx = i > 1 ? i * (i - 1) * px[i - 2] : 0;
+        double dyy = j > 1 ? j * (j - 1) * py[j - 2] : 0;
+        double w[6] = { px[i] * py[j], scale * dx * py[j], scale * px[i] * dy, 4 * dxx * py[j],
+                        4 * dx * dy, 4 * px[i] * dyy };
+        for (int d = 0; d < 6; d++)
+            for (int l = 0; l < 4; l++) s->values[d][l] += w[d] * c[l];
     }
     for (int l = 0; l < 4; l++) {
         s->values[0][l] = s->base[l] + s->shrink * s->values[0][l];
@@ -7561,10 +7747,9 @@ static inline void sdv_locate_triangle(const int *nodes, int node, double x, dou
     spot->y = y;
 }
 
-static inline void sdv_locate(const sdv_exact_evaluation *e, int loop, size_t i, sdv_spot *spot)
+static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
+                              sdv_spot *spot)
 {
-    const subdiv_surface *surface = e->surface;
-    const subdiv_location *at = &e->locations[i];
     double x = sdv_on_face(at->u), y = sdv_on_face(at->v);
     int f = at->face;
     spot->leaf = 0;
@@ -7585,7 +7770,7 @@ static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
     while (i < end) {
         int count = end - i < block ? (int)(end - i) : block;
         for (int k = 0; k < count; k++) {
-            sdv_locate(e, loop, i + (size_t)k, &spots[k]);
+            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], &spots[k]);
             if (~spots[k].leaf & 1) continue;
             const float *data = e->memory.patches + width * (size_t)(~spots[k].leaf >> 1);
             for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
@@ -7701,6 +7886,1436 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
+}
+
+// ------------------------------------------------------------------------------ >>stencils
+// No rule is here a second time: rows have weights, and what a patch does to its control points
+// shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
+// of work points, and each of these, through its row, a sum of others, down to the cage's.
+
+typedef struct sdv_entry {
+    double weight;
+    int    vertex;                      // of the cage, or a value's number
+} sdv_entry;
+
+typedef struct sdv_stencil_maker {
+    sdv_context *context;
+    const subdiv_surface *surface;
+    sdv_arena  arena;
+
+    sdv_array  known;                   // sdv_entry: of all work points that are known,
+    size_t    *starts;                  // [work_count] where each one's start, and
+    int       *sizes;                   // [work_count] how many there are; 0: not known yet
+
+    int        parts;                   // 3 with tangents, else 1
+    int        size;                    // the sum that is being made: so many
+    int       *vertices;                // [cage_vertex_count] vertices, with
+    double    *sums;                    // [cage_vertex_count * parts] weights, and where
+    int       *places;                  // [cage_vertex_count] each vertex stands, or -1
+
+    size_t    *offsets;                 // [points + 1] what is made
+    sdv_array  indices, weights;        // ints, floats [parts] each
+} sdv_stencil_maker;
+
+static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
+                                  const subdiv_surface *surface, int points, int parts)
+{
+    size_t vertices = (size_t)surface->cage_vertex_count, work = (size_t)surface->work_count;
+    memset(make, 0, sizeof *make);
+    make->context = context;
+    make->surface = surface;
+    make->parts = parts;
+    make->arena = sdv_scratch();
+    make->starts = SDV_NEW(context, &make->arena, size_t, work);
+    make->sizes = SDV_NEW(context, &make->arena, int, work);
+    make->vertices = SDV_NEW(context, &make->arena, int, vertices);
+    make->sums = SDV_NEW(context, &make->arena, double, vertices * (size_t)parts);
+    make->places = SDV_NEW(context, &make->arena, int, vertices);
+    make->offsets = SDV_NEW(context, &make->arena, size_t, (size_t)points + 1);
+    if (context->result) return;
+    memset(make->sizes, 0, work * sizeof(int));
+    for (size_t v = 0; v < vertices; v++) make->places[v] = -1;
+    make->offsets[0] = 0;
+}
+
+static void sdv_stencil_maker_free(sdv_stencil_maker *make)
+{
+    sdv_array_free(&make->known);
+    sdv_array_free(&make->indices);
+    sdv_array_free(&make->weights);
+    sdv_arena_free(&make->arena);
+}
+
+static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, const double *w)
+{
+    int *place = &make->places[vertex], parts = make->parts;
+    double *sum = make->sums + (size_t)parts * (size_t)(*place < 0 ? make->size : *place);
+    if (*place < 0) {
+        make->vertices[*place = make->size++] = vertex;
+        for (int i = 0; i < parts; i++) sum[i] = 0;
+    }
+    for (int i = 0; i < parts; i++) sum[i] += factor * w[i];
+}
+
+// Adds a work point that is known, w [parts] times.
+static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count) {
+        sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
+        return;
+    }
+    const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
+    for (int i = 0; i < make->sizes[point]; i++)
+        sdv_add_to_sum(make, entry[i].vertex, entry[i].weight, w);
+}
+
+static void sdv_end_sum(sdv_stencil_maker *make)
+{
+    for (int i = 0; i < make->size; i++) make->places[make->vertices[i]] = -1;
+    make->size = 0;
+}
+
+// The row that makes a work point.
+static const int *sdv_find_row(const subdiv_surface *surface, int point)
+{
+    const int *row = NULL;
+    for (int i = 0; i < surface->levels && !row; i++) {
+        const sdv_step *step = &surface->steps[i];
+        const sdv_rows *three[3] = { &step->faces, &step->vertices, &step->edges };
+        for (int k = 0; k < 3; k++) {
+            int at = point - three[k]->first;
+            if (at < 0 || at >= three[k]->count) continue;
+            row = three[k]->items + three[k]->starts[at / SDV_ROW_BLOCK];
+            for (at %= SDV_ROW_BLOCK; at > 0; at--) row += 1 + surface->masks.items[row[0]].count;
+        }
+    }
+    return row;
+}
+
+// Makes a work point known, after those that it is made from.
+static void sdv_compose(sdv_stencil_maker *make, int point);
+
+static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int count)
+{
+    for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
+}
+
+// The weight of point i of a row with this mask: what the others leave of 1 is the first one's.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i)
+{
+    double left = 1;
+    if (i > 0) return (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    for (int j = 1; j < mask->count; j++) left -= sdv_row_weight(weights, mask, j);
+    return left;
+}
+
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
+{
+    double w[3] = { 0, 0, 0 };
+    for (int i = 0; i < mask->count; i++) {
+        w[0] = sdv_row_weight(make->surface->masks.weights, mask, i);
+        sdv_add_work_point(make, points[i], w);
+    }
+}
+
+static void sdv_compose(sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
+    const int *row = sdv_find_row(surface, point);
+    const sdv_weights *mask = &surface->masks.items[row[0]];
+    sdv_compose_all(make, row + 1, mask->count);
+    if (make->context->result) return;
+    sdv_add_row(make, mask, row + 1);
+    sdv_entry *entry = (sdv_entry *)sdv_array_room(make->context, &make->known,
+                                                   (size_t)make->size, sizeof *entry);
+    for (int i = 0; i < make->size && entry; i++) {
+        entry[i].vertex = make->vertices[i];
+        entry[i].weight = make->sums[make->parts * i];
+    }
+    make->starts[point] = make->known.count;
+    make->sizes[point] = make->size;
+    if (entry) make->known.count += (size_t)make->size;
+    sdv_end_sum(make);
+}
+
+// Gives what is missing from the total to the largest of count weights.
+static void sdv_balance(double *weights, int count, int stride, double total)
+{
+    double *largest = weights;
+    for (int i = 0; i < count; i++, weights += stride) {
+        if (fabs(*weights) > fabs(*largest)) largest = weights;
+        total -= *weights;
+    }
+    *largest += total;
+}
+
+// What is no more than rounding of the largest weight becomes 0.
+static void sdv_clean_part(sdv_stencil_maker *make, int part)
+{
+    double *sums = make->sums + part, largest = 0;
+    int parts = make->parts;
+    if (make->size == 0) return;                    // a face without a surface
+    for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
+    for (int i = 0; i < make->size; i++) {
+        double *w = &sums[parts * i];
+        *w = fabs(*w) <= (double)FLT_EPSILON * largest ? 0 : (double)(float)*w;
+    }
+    sdv_balance(sums, make->size, parts, part == 0 ? 1 : 0);
+}
+
+static void sdv_sort(int *numbers, int count)
+{
+    int gap = 1;
+    while (gap < count / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) {
+        for (int i = gap; i < count; i++) {
+            int number = numbers[i], at = i;
+            for (; at >= gap && numbers[at - gap] > number; at -= gap)
+                numbers[at] = numbers[at - gap];
+            numbers[at] = number;
+        }
+    }
+}
+
+// Makes the sum stencil i.
+static void sdv_write_stencil(sdv_stencil_maker *make, int i)
+{
+    size_t parts = (size_t)make->parts, size = (size_t)make->size;
+    int *index = (int *)sdv_array_room(make->context, &make->indices, size, sizeof(int));
+    float *weight = (float *)sdv_array_room(make->context, &make->weights, parts * size,
+                                            sizeof(float));
+    if (!index || !weight) return;
+    for (int k = 0; k < make->parts; k++) sdv_clean_part(make, k);
+    sdv_sort(make->vertices, make->size);
+    for (int j = 0; j < make->size; j++) {
+        int vertex = make->vertices[j], any = 0;
+        const double *sum = make->sums + parts * (size_t)make->places[vertex];
+        for (size_t k = 0; k < parts; k++) any |= fabs(weight[k] = (float)sum[k]) > 0;
+        weight += any ? parts : 0;
+        if (any) *index++ = vertex;
+        make->indices.count += (size_t)any;
+    }
+    make->weights.count = parts * make->indices.count;
+    make->offsets[i + 1] = make->indices.count;
+    sdv_end_sum(make);
+}
+
+static size_t sdv_carve_stencils(subdiv_stencils *stencils, size_t entries, int parts, char *base)
+{
+    size_t size = 0, tangents = parts > 1 ? entries : 0;
+    stencils->offsets = (size_t *)sdv_carve(base, &size, (size_t)stencils->count + 1,
+                                            sizeof(size_t));
+    stencils->indices = (int *)sdv_carve(base, &size, entries, sizeof(int));
+    stencils->weights = (float *)sdv_carve(base, &size, entries, sizeof(float));
+    stencils->du = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    stencils->dv = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    return size;
+}
+
+// All that was made, in one block of its own.
+static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
+{
+    subdiv_stencils made;
+    size_t entries = make->indices.count, parts = (size_t)make->parts;
+    const float *weights = (const float *)sdv_items(&make->weights);
+    if (make->context->result) return;
+    memset(&made, 0, sizeof made);
+    made.count = count;
+    sdv_block *block = sdv_allocate(make->context,
+                                    sdv_carve_stencils(&made, entries, make->parts, NULL));
+    if (!block) return;
+    made.memory = block;
+    sdv_carve_stencils(&made, entries, make->parts, (char *)(block + 1));
+    sdv_copy(made.offsets, make->offsets, (size_t)count + 1, sizeof(size_t));
+    sdv_copy(made.indices, sdv_items(&make->indices), entries, sizeof(int));
+    for (size_t i = 0; i < entries; i++) {
+        made.weights[i] = weights[parts * i];
+        if (parts == 1) continue;
+        made.du[i] = weights[parts * i + 1];
+        made.dv[i] = weights[parts * i + 2];
+    }
+    *stencils = made;
+}
+
+// Who makes the points of a refined surface: a row, a patch, or else it is one of the cage's, where
+// it stays. A patch evaluates unit vectors for all its points at once, into the points' records:
+// which patch it is, then the weights of its control points, some lanes after the other.
+typedef struct sdv_makers {
+    const subdiv_surface *surface;
+    int    first, end;                  // points
+    int    width, lanes;                // control points of a patch, unit vectors at once
+    size_t record, group;               // floats of a record and of the lanes in it
+    float *records;                     // [record * points]
+    const int **rows;                   // [points] or NULL
+    int    points[16];                  // 0, 1, 2, ...
+    float  units[6 * 64];               // the unit vectors: 16 control points, 4 lanes a pass
+} sdv_makers;
+
+enum { SDV_RECORD_NAME = 4 };           // floats: a patch's level + 1, and number in two halves
+
+static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                           int first, int count, sdv_makers *makers)
+{
+    int limit = surface->rules.limit;
+    memset(makers, 0, sizeof *makers);
+    makers->surface = surface;
+    makers->first = first;
+    makers->end = first + count;
+    makers->width = sdv_control_points(&surface->rules);
+    makers->lanes = limit ? 3 : 4;
+    makers->group = limit ? 9 : 4;
+    int passes = (makers->width + makers->lanes - 1) / makers->lanes;
+    makers->record = SDV_RECORD_NAME + makers->group * (size_t)passes;
+    for (int i = 0; i < 16; i++) {
+        int pass = i / makers->lanes, lane = i % makers->lanes;
+        makers->points[i] = i;
+        makers->units[64 * pass + 4 * i + lane] = 1;
+    }
+    makers->records = SDV_NEW(context, arena, float, makers->record * (size_t)count);
+    makers->rows = SDV_NEW(context, arena, const int *, count);
+    for (int i = 0; i < count && !context->result; i++) {
+        makers->records[makers->record * (size_t)i] = 0;
+        makers->rows[i] = NULL;
+    }
+}
+
+// One patch, whose control points have these values, writes into its points' records at this place.
+static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
+                           const float *values, size_t at, int tangents)
+{
+    float *out = makers->records + at;
+    if (makers->surface->rules.limit) {
+        sdv_limit_window window = { out, NULL, tangents ? out + 3 : NULL, makers->record,
+                                    makers->record, makers->first, makers->end };
+        sdv_limit_patches(makers->surface, patch, values, face, face + 1, &window);
+    } else {
+        sdv_window window = { out, makers->record, makers->lanes, makers->first,
+                              makers->end - makers->first };
+        sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
+    }
+}
+
+// Each patch of a face: first its name, as a constant goes through unchanged.
+static void sdv_push_patches(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int level = 0; level < surface->levels; level++) {
+        const sdv_patches *patches = &surface->patches[level];
+        int last = sdv_first_patch(&surface->order, patches, face + 1);
+        for (int i = sdv_first_patch(&surface->order, patches, face); i < last; i++) {
+            float names[16 * 4];
+            sdv_patches one = *patches;
+            one.count = 1;
+            one.items += i;
+            one.points = makers->points;
+            for (int k = 0; k < 16; k++) {
+                names[4 * k] = (float)(level + 1);
+                names[4 * k + 1] = (float)(i >> 16);
+                names[4 * k + 2] = (float)(i & 65535);
+                names[4 * k + 3] = 0;
+            }
+            sdv_push_units(makers, &one, face, names, 0, 0);
+            for (int k = 0; k * makers->lanes < makers->width; k++)
+                sdv_push_units(makers, &one, face, makers->units + 64 * k,
+                               SDV_RECORD_NAME + makers->group * (size_t)k, 1);
+        }
+    }
+}
+
+static void sdv_note_rows(sdv_makers *makers, int face)
+{
+    const subdiv_surface *surface = makers->surface;
+    int limit = surface->rules.limit;
+    const sdv_rows *rows = limit ? &surface->limit.rows : &surface->last;
+    if (rows->count == 0) return;
+    const int *row = rows->items + rows->starts[face], *end = rows->items + rows->starts[face + 1];
+    while (row < end) {
+        if (row[1] >= makers->first && row[1] < makers->end)
+            makers->rows[row[1] - makers->first] = row;
+        row += 2 + (limit ? surface->limit.masks[row[0]].count
+                          : surface->masks.items[row[0]].count);
+    }
+}
+
+// Has a cage face points from first to end - 1, inside, on an edge or at a vertex?
+static int sdv_face_has(const sdv_order *order, int f, int first, int end)
+{
+    const sdv_level *cage = &order->cage;
+    int has = sdv_first_inside(order, f) < end && sdv_first_inside(order, f + 1) > first;
+    for (int h = sdv_face_start(cage, f); h < sdv_face_end(cage, f) && !has; h++) {
+        int v = cage->face_vertices[h], on = cage->face_edges[h] * (order->n - 1);
+        int edge = order->first_edge_point + on;
+        has = (v >= first && v < end) || (edge < end && edge + order->n - 1 > first);
+    }
+    return has;
+}
+
+static void sdv_find_makers(sdv_makers *makers)
+{
+    const subdiv_surface *surface = makers->surface;
+    for (int f = 0; f < surface->cage_face_count && surface->levels > 0; f++) {
+        if (!sdv_face_has(&surface->order, f, makers->first, makers->end)) continue;
+        sdv_push_patches(makers, f);
+        sdv_note_rows(makers, f);
+    }
+}
+
+// Adds the points of a limit row, as sdv_limit_sums does: the first one's weight is what is left.
+static void sdv_add_limit_row(sdv_stencil_maker *make, const int *row)
+{
+    const sdv_limit_rows *limit = &make->surface->limit;
+    const sdv_limit_weights *mask = &limit->masks[row[0]];
+    double left[3] = { 1, 0, 0 }, w[3];
+    sdv_compose_all(make, row + 2, mask->count);
+    for (int i = mask->count - 1; i >= 0 && !make->context->result; i--) {
+        for (int k = 0; k < 3; k++) {
+            w[k] = i ? (double)limit->weights[mask->first + (size_t)(k * mask->count + i)]
+                     : left[k];
+            left[k] -= w[k];
+        }
+        sdv_add_work_point(make, row[2 + i], w);
+    }
+}
+
+// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
+// they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
+{
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
+    sdv_compose_all(make, points, count);
+    for (int i = 0; i < count && !make->context->result; i++)
+        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
+}
+
+// Adds the control points of a patch.
+static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
+{
+    const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
+    size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
+    const int *points = patches->points + i * (size_t)makers->width;
+    double weights[3 * 16];
+    for (int j = 0; j < makers->width; j++) {
+        size_t group = makers->group * (size_t)(j / makers->lanes);
+        const float *w = record + SDV_RECORD_NAME + group + j % makers->lanes;
+        for (int k = 0; k < 3; k++)
+            weights[3 * j + k] = k < make->parts ? (double)w[makers->lanes * k] : 0;
+    }
+    sdv_add_rounded(make, points, makers->width, weights);
+}
+
+static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
+{
+    const subdiv_surface *surface = make->surface;
+    const int *row = makers->rows[i];
+    const float *record = makers->records + makers->record * (size_t)i;
+    const double one[3] = { 1, 0, 0 };
+    if (row && surface->rules.limit) {
+        sdv_add_limit_row(make, row);
+    } else if (row) {
+        const sdv_weights *mask = &surface->masks.items[row[0]];
+        sdv_compose_all(make, row + 2, mask->count);
+        if (!make->context->result) sdv_add_row(make, mask, row + 2);
+    } else if (record[0] > 0) {
+        sdv_add_patch(make, makers, record);
+    } else {
+        sdv_add_work_point(make, makers->first + i, one);
+    }
+    if (!make->context->result) sdv_write_stencil(make, i);
+}
+
+static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
+                                 const subdiv_surface *surface, int first, int count)
+{
+    sdv_stencil_maker make;
+    sdv_makers makers;
+    sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
+    sdv_makers_new(context, &make.arena, surface, first, count, &makers);
+    if (!context->result) sdv_find_makers(&makers);
+    for (int i = 0; i < count && !context->result; i++) sdv_make_refined_stencil(&make, &makers, i);
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
+                                                 const subdiv_surface *surface,
+                                                 int first_point, int point_count,
+                                                 const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    if (surface) sdv_check_result(&context, surface);
+    if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
+    if (!context.result)
+        sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    return context.result;
+}
+
+// Evaluates unit vectors at locations: those of the work points that a location's leaf looks at,
+// four at a time, in scratch memory that is 0 everywhere else.
+typedef struct sdv_probe {
+    const subdiv_surface *surface;
+    void            *scratch;
+    sdv_exact_memory memory;            // parts of it
+    subdiv_options   opt;
+    unsigned char   *seen;              // [work_count] work points
+    int             *points;            // [most points of a leaf] those of this one, each once
+    double          *weights;           // [3 * most]
+} sdv_probe;
+
+static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                          sdv_probe *probe)
+{
+    const sdv_exact *exact = surface->exact;
+    size_t size = subdiv_scratch_size(surface, 4), work = (size_t)surface->work_count, most = 16;
+    for (int i = 0; i < exact->kind_count; i++)
+        if ((size_t)exact->kinds[i].points > most) most = (size_t)exact->kinds[i].points;
+    memset(probe, 0, sizeof *probe);
+    probe->surface = surface;
+    probe->opt.user = context->user;
+    probe->scratch = sdv_new(context, arena, size, 1);
+    probe->seen = SDV_NEW(context, arena, unsigned char, work);
+    probe->points = SDV_NEW(context, arena, int, most);
+    probe->weights = SDV_NEW(context, arena, double, 3 * most);
+    if (context->result) return;
+    probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
+    memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
+    memset(probe->seen, 0, work);
+}
+
+// The work points that a leaf looks at. Of a patch also its level and its number there.
+static int sdv_probe_points(sdv_probe *probe, int slot, int *level, int *patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    const sdv_exact *exact = surface->exact;
+    int leaf = ~slot >> 1, count, distinct = 0;
+    const int *points;
+    *level = -1;
+    if (~slot & 1) {
+        const sdv_nest *nest = &exact->nests[exact->nest_faces[leaf].nest];
+        points = exact->nest_points + nest->first;
+        count = exact->kinds[nest->kind].points;
+    } else {
+        for (*level = 0; leaf >= surface->patches[*level].count; (*level)++)
+            leaf -= surface->patches[*level].count;
+        *patch = leaf;
+        count = sdv_control_points(&surface->rules);
+        points = surface->patches[*level].points + (size_t)count * (size_t)leaf;
+    }
+    for (int i = 0; i < count; i++) {
+        if (probe->seen[points[i]]) continue;
+        probe->seen[points[i]] = 1;
+        probe->points[distinct++] = points[i];
+    }
+    for (int i = 0; i < distinct; i++) probe->seen[probe->points[i]] = 0;
+    return distinct;
+}
+
+// Their weights: of the point, du and dv.
+static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const subdiv_location *at,
+                               int slot, int count, int level, int patch)
+{
+    const subdiv_surface *surface = probe->surface;
+    float lanes[3][4];
+    subdiv_derivatives out = { lanes[0], lanes[1], lanes[2], NULL, NULL, NULL, NULL, 0 };
+    for (int first = 0; first < count; first += 4) {
+        int some = count - first < 4 ? count - first : 4;
+        const int *points = probe->points + first;
+        for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
+        if (level >= 0) {
+            const sdv_patches *patches = &surface->patches[level];
+            size_t width = (size_t)sdv_control_points(&surface->rules);
+            sdv_exact_patch(&surface->rules, &patches->items[patch],
+                            patches->points + width * (size_t)patch, probe->memory.work, 4,
+                            probe->memory.patches + 4 * SDV_SLOTS * (size_t)(~slot >> 1));
+        }
+        subdiv_result result = subdiv_evaluate_at(surface, 4, probe->scratch, 1, at, &out,
+                                                  &probe->opt);
+        if (result) sdv_fail(context, result, "out of memory");
+        for (int i = 0; i < some; i++) {
+            probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
+            for (int k = 0; k < 3 && !context->result; k++)
+                probe->weights[3 * (size_t)(first + i) + (size_t)k] = (double)lanes[k][i];
+        }
+    }
+}
+
+static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
+                            const subdiv_surface *surface, int count,
+                            const subdiv_location *locations)
+{
+    sdv_stencil_maker make;
+    sdv_probe probe;
+    sdv_stencil_maker_new(context, &make, surface, count, 3);
+    sdv_probe_new(context, &make.arena, surface, &probe);
+    for (int i = 0; i < count && !context->result; i++) {
+        const subdiv_location *at = &locations[i];
+        sdv_spot spot;
+        sdv_locate(surface, surface->rules.loop, at, &spot);
+        if (spot.leaf) {
+            int level, patch = 0, points = sdv_probe_points(&probe, spot.leaf, &level, &patch);
+            sdv_probe_location(context, &probe, at, spot.leaf, points, level, patch);
+            if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
+        }
+        if (!context->result) sdv_write_stencil(&make, i);
+    }
+    sdv_copy_stencils(&make, count, stencils);
+    sdv_stencil_maker_free(&make);
+}
+
+SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
+                                            const subdiv_surface *surface, int count,
+                                            const subdiv_location *locations,
+                                            const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_derivatives none;
+    memset(&none, 0, sizeof none);
+    if (stencils) memset(stencils, 0, sizeof *stencils);
+    if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_exact(&context, surface, 4, count, locations, &none);
+    if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
+    return context.result;
+}
+
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!stencils) return;
+    owned.blocks = (sdv_block *)stencils->memory;
+    sdv_arena_free(&owned);
+    memset(stencils, 0, sizeof *stencils);
+}
+
+// ---------------------------------------------------------------------------------- >>tiles
+// THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
+// its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
+// other polygon one quad of columns x columns pieces for each of its vertices. Where the edges cut
+// their face as its grid does, the face is that grid. Elsewhere the grid loses its outermost
+// pieces, and a strip joins what is left of it, the ring, with each edge:
+//
+//     +--o-----o--+                ring: what is left, here 2 pieces
+//     | /|\   /|\ |                and corners, which are joined with those of the face
+//     |/ | \ / | \|
+//     o--+--o--+--o                edge: here 3 pieces
+
+typedef struct sdv_inside {
+    int columns, rows;
+    int margin;                         // 0: the grid reaches the edges; 1: strips do
+} sdv_inside;
+
+typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
+    const sdv_level *cage;
+    int         loop;
+    int        *edge_rates;             // [edge_count]
+    sdv_inside *insides;                // [face_count]
+    int        *starts;                 // [edge_count + face_count + 1] the first point inside each
+    int        *home;                   // [vertex_count + edge_count] where each is evaluated: a
+                                        // face-vertex, or -1
+    int        *number;                 // [face_count] of a face for subdiv_evaluate_at; NULL: same
+    const unsigned char *hole;          // [faces so numbered]
+} sdv_tiling;
+
+// One face of it.
+typedef struct sdv_tile {
+    const sdv_tiling *tiling;
+    int first, sides;                   // its face-vertices
+    int inside;                         // its first point
+    int loop, ngon;
+    sdv_inside grid;
+} sdv_tile;
+
+static sdv_tile sdv_tile_at(const sdv_tiling *tiling, int f)
+{
+    const sdv_level *cage = tiling->cage;
+    sdv_tile tile;
+    tile.tiling = tiling;
+    tile.first = sdv_face_start(cage, f);
+    tile.sides = sdv_face_end(cage, f) - tile.first;
+    tile.inside = tiling->starts[cage->edge_count + f];
+    tile.loop = tiling->loop;
+    tile.ngon = !tile.loop && tile.sides != 4;
+    tile.grid = tiling->insides[f];
+    return tile;
+}
+
+static int sdv_edge_rate(const sdv_tile *tile, int side)
+{
+    return tile->tiling->edge_rates[tile->tiling->cage->face_edges[tile->first + side]];
+}
+
+// Pieces of the grid along a side.
+static int sdv_side_rate(const sdv_tile *tile, int side)
+{
+    if (tile->ngon) return 2 * tile->grid.columns;
+    return tile->loop || side % 2 == 0 ? tile->grid.columns : tile->grid.rows;
+}
+
+static int sdv_is_regular(const sdv_tile *tile)
+{
+    for (int i = 0; i < tile->sides; i++)
+        if (sdv_edge_rate(tile, i) != sdv_side_rate(tile, i)) return 0;
+    return 1;
+}
+
+// The grid of a face of such a rate; 0: that of its edges. Between a strip and the next there has
+// to be a point.
+static sdv_inside sdv_find_inside(sdv_tile tile, int rate)
+{
+    int most[2] = { 1, 1 };             // of the even sides, of the odd ones
+    for (int i = 0; i < tile.sides; i++) {
+        int *m = &most[tile.loop || tile.ngon ? 0 : i % 2], edge = sdv_edge_rate(&tile, i);
+        if (edge > *m) *m = edge;
+    }
+    tile.grid.columns = rate ? rate : most[0];
+    tile.grid.rows = rate ? rate : most[1];
+    if (tile.ngon && tile.grid.columns == INT_MAX) tile.grid.columns--;     // too large either way
+    if (tile.ngon) tile.grid.columns = (tile.grid.columns + 1) / 2;
+    int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
+    if (tile.grid.columns < least) tile.grid.columns = least;
+    if (tile.grid.rows < least) tile.grid.rows = least;
+    if (tile.loop || tile.ngon) tile.grid.rows = tile.grid.columns;
+    tile.grid.margin = !sdv_is_regular(&tile);
+    return tile.grid;
+}
+
+// How many points are inside a face.
+static uint64_t sdv_count_inside(const sdv_tile *tile)
+{
+    uint64_t columns = (uint64_t)tile->grid.columns, rows = (uint64_t)tile->grid.rows;
+    if (tile->loop) return (columns - 1) * (columns - 2) / 2;
+    if (!tile->ngon) return (columns - 1) * (rows - 1);
+    if (columns > 65536) return INT_MAX;                    // or the product would wrap
+    return 1 + (uint64_t)tile->sides * columns * (columns - 1);
+}
+
+// Point k on a side, from its first vertex: 0 that vertex, edge rate the next one.
+static int sdv_side_point(const sdv_tile *tile, int side, int k)
+{
+    const sdv_tiling *tiling = tile->tiling;
+    const int *vertices = tiling->cage->face_vertices + tile->first;
+    int a = vertices[side], b = vertices[side + 1 < tile->sides ? side + 1 : 0];
+    int e = tiling->cage->face_edges[tile->first + side], rate = tiling->edge_rates[e];
+    if (k == 0) return a;
+    if (k == rate) return b;
+    return tiling->starts[e] - 1 + (a > b ? rate - k : k);
+}
+
+// A point of the quad at vertex i of an n-gon: its last column is the spoke to edge i, backwards,
+// its last row that to the edge before.
+static int sdv_ngon_point(const sdv_tile *tile, int i, int row, int column)
+{
+    int m = tile->grid.columns, before = i ? i - 1 : tile->sides - 1, spokes = tile->inside + m;
+    if (row == 0) return sdv_side_point(tile, i, column);
+    if (column == 0) return sdv_side_point(tile, before, 2 * m - row);
+    if (row == m && column == m) return tile->inside;
+    if (column == m) return spokes + i * (m - 1) - row;
+    if (row == m) return spokes + before * (m - 1) - column;
+    return tile->inside + 1 + (tile->sides + i * (m - 1) + row - 1) * (m - 1) + column - 1;
+}
+
+// A point of the grid (of an n-gon: of its quad at vertex i). Row 0 and column 0, and what is
+// opposite, are the edges: not to be asked for if the grid has a margin.
+static int sdv_tile_point(const sdv_tile *tile, int i, int row, int column)
+{
+    int columns = tile->grid.columns, rows = tile->grid.rows;
+    if (tile->ngon) return sdv_ngon_point(tile, i, row, column);
+    if (row == 0) return sdv_side_point(tile, 0, column);
+    if (column == 0) return sdv_side_point(tile, tile->sides - 1, rows - row);
+    if (column == columns - (tile->loop ? row : 0)) return sdv_side_point(tile, 1, row);
+    if (!tile->loop && row == rows) return sdv_side_point(tile, 2, columns - column);
+    int cut = tile->loop ? row * (row - 1) / 2 : 0;
+    return tile->inside + (row - 1) * (columns - 1) - cut + column - 1;
+}
+
+// Point j of the ring along a side: from the corner of the ring at vertex 0 of that side on.
+static int sdv_ring_point(const sdv_tile *tile, int side, int j)
+{
+    int columns = tile->grid.columns, rows = tile->grid.rows, next = side + 1;
+    if (tile->ngon) {
+        if (j < columns) return sdv_ngon_point(tile, side, 1, j + 1);
+        return sdv_ngon_point(tile, next < tile->sides ? next : 0, 2 * columns - 1 - j, 1);
+    }
+    if (side == 0) return sdv_tile_point(tile, 0, 1, j + 1);
+    if (side == 1) return sdv_tile_point(tile, 0, j + 1, columns - 1 - (tile->loop ? j + 1 : 0));
+    if (tile->loop) return sdv_tile_point(tile, 0, rows - 2 - j, 1);
+    if (side == 2) return sdv_tile_point(tile, 0, rows - 1, columns - 1 - j);
+    return sdv_tile_point(tile, 0, rows - 1 - j, 1);
+}
+
+typedef struct sdv_faces_at {           // where faces are written, or if NULL, counted
+    int  triangles;                     // quads are cut
+    int *vertices;
+    int *sizes;                         // or NULL: all the same
+    size_t faces, face_vertices;
+} sdv_faces_at;
+
+static void sdv_put_face(sdv_faces_at *out, int size, const int *v)
+{
+    for (int i = 0; i < size && out->vertices; i++)
+        out->vertices[out->face_vertices + (size_t)i] = v[i];
+    if (out->sizes) out->sizes[out->faces] = size;
+    out->faces++;
+    out->face_vertices += (size_t)size;
+}
+
+static void sdv_put_triangle(sdv_faces_at *out, int a, int b, int c)
+{
+    int v[3] = { a, b, c };
+    sdv_put_face(out, 3, v);
+}
+
+static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
+{
+    int v[4] = { a, b, c, d };
+    if (!out->triangles) {
+        sdv_put_face(out, 4, v);
+        return;
+    }
+    sdv_put_triangle(out, a, b, c);
+    sdv_put_triangle(out, a, c, d);
+}
+
+// A row of faces between columns first and last of its lower points:
+//
+//     d c        quads a b c d; or triangles a b d, and c d b turned by half, with none at the end
+//     a b
+static void sdv_put_row(const sdv_tile *tile, int i, int row, int first, int last,
+                        sdv_faces_at *out)
+{
+    int a = sdv_tile_point(tile, i, row, first), d = sdv_tile_point(tile, i, row + 1, first);
+    for (int column = first + 1; column <= last; column++) {
+        int b = sdv_tile_point(tile, i, row, column), c = -1;
+        if (!tile->loop || column < last) c = sdv_tile_point(tile, i, row + 1, column);
+        if (!tile->loop) sdv_put_quad(out, a, b, c, d);
+        if (tile->loop) sdv_put_triangle(out, a, b, d);
+        if (tile->loop && c >= 0) sdv_put_triangle(out, c, d, b);
+        a = b;
+        d = c;
+    }
+}
+
+static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
+{
+    int first = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
+    int far = tile->ngon ? 0 : first, last = tile->grid.columns - far;
+    for (int i = 0; i < grids; i++)
+        for (int row = first; row < tile->grid.rows - far; row++)
+            sdv_put_row(tile, i, row, first, tile->loop ? last - row : last, out);
+}
+
+// The same without their vertices.
+static void sdv_count_inside_faces(const sdv_tile *tile, sdv_faces_at *out)
+{
+    size_t columns = (size_t)tile->grid.columns, rows = (size_t)tile->grid.rows;
+    size_t margin = (size_t)tile->grid.margin, quads;
+    if (tile->ngon) quads = (size_t)tile->sides * (columns - margin) * (columns - margin);
+    else quads = (columns - 2 * margin) * (rows - 2 * margin);
+    if (tile->loop) quads = (columns - 3 * margin) * (columns - 3 * margin);
+    size_t faces = out->triangles && !tile->loop ? 2 * quads : quads, size = out->triangles ? 3 : 4;
+    for (size_t i = 0; i < faces && out->sizes; i++) out->sizes[out->faces + i] = (int)size;
+    out->faces += faces;
+    out->face_vertices += size * faces;
+}
+
+// The strip between the ring, above, and a side: whichever piece has its middle first is joined to
+// the point reached on the other line, and two at once are a quad. In halves of a piece, middle i
+// of n is 2i + 1 along the side, and those of the ring are 2 behind (in a triangle's, which is
+// narrower, 3).
+static void sdv_put_strip(const sdv_tile *tile, int side, sdv_faces_at *out)
+{
+    int pieces = sdv_edge_rate(tile, side), rate = sdv_side_rate(tile, side);
+    int ring = rate - 2 - tile->loop, a = sdv_side_point(tile, side, 0);
+    int d = sdv_ring_point(tile, side, 0);
+    for (int i = 0, j = 0; i < pieces || j < ring;) {
+        int64_t here = (2 * (int64_t)i + 1) * rate;
+        int64_t there = (2 * (int64_t)j + 3 + tile->loop) * pieces;
+        int on = i < pieces && (j == ring || here <= there);
+        int up = j < ring && (i == pieces || there <= here);
+        int b = on ? sdv_side_point(tile, side, i + 1) : a;
+        int c = up ? sdv_ring_point(tile, side, j + 1) : d;
+        if (on && up) sdv_put_quad(out, a, b, c, d);
+        else if (on) sdv_put_triangle(out, a, b, d);
+        else sdv_put_triangle(out, a, c, d);
+        a = b;
+        d = c;
+        i += on;
+        j += up;
+    }
+}
+
+static void sdv_put_strips(const sdv_tile *tile, sdv_faces_at *out)
+{
+    for (int i = 0; i < tile->sides && tile->grid.margin; i++) sdv_put_strip(tile, i, out);
+}
+
+// Where on its face a point k of rate on a side is.
+static subdiv_location sdv_side_location(const sdv_tile *tile, int side, int k, int rate)
+{
+    subdiv_location at = { 0, 0, 0, 0 };
+    float t = (float)k / (float)rate, back = (float)(rate - k) / (float)rate;
+    if (tile->ngon) {
+        int behind = k > rate - k, next = side + 1 < tile->sides ? side + 1 : 0;
+        at.corner = behind ? next : side;
+        if (behind) at.v = 2 * back;
+        else at.u = 2 * t;
+    } else if (tile->loop) {
+        at.u = side == 0 ? t : side == 1 ? back : 0;
+        at.v = side == 0 ? 0 : side == 1 ? t : back;
+    } else {
+        at.u = side == 0 ? t : side == 1 ? 1 : side == 2 ? back : 0;
+        at.v = side == 0 ? 0 : side == 1 ? t : side == 2 ? 1 : back;
+    }
+    return at;
+}
+
+// Where point k inside an n-gon is: its centre, the spokes, or the inside of its quads.
+static subdiv_location sdv_ngon_location(const sdv_tile *tile, int k)
+{
+    subdiv_location at = { 0, 0, 1, 1 };
+    int m = tile->grid.columns, line = (k - 1) / (m - 1 ? m - 1 : 1), left = k - 1 - line * (m - 1);
+    if (k == 0) return at;
+    if (line < tile->sides) {
+        at.corner = line;
+        at.v = (float)(m - 1 - left) / (float)m;
+        return at;
+    }
+    line -= tile->sides;
+    at.corner = line / (m - 1);
+    at.u = (float)(left + 1) / (float)m;
+    at.v = (float)(line % (m - 1) + 1) / (float)m;
+    return at;
+}
+
+// Where point k inside a face is. The rows of a triangle are counted from its last, of one point.
+static subdiv_location sdv_inside_location(const sdv_tile *tile, int k)
+{
+    subdiv_location at = { 0, 0, 0, 0 };
+    int columns = tile->grid.columns, rows = tile->grid.rows, row, column;
+    if (tile->ngon) return sdv_ngon_location(tile, k);
+    if (tile->loop) {
+        int64_t behind = (int64_t)(columns - 1) * (columns - 2) / 2 - 1 - k;
+        int from_last = (int)((sqrt(8 * (double)behind + 1) - 1) / 2);
+        row = columns - 2 - from_last;
+        column = columns - row - 1 - (int)(behind - (int64_t)from_last * (from_last + 1) / 2);
+    } else {
+        row = k / (columns - 1) + 1;
+        column = k % (columns - 1) + 1;
+    }
+    at.u = (float)column / (float)columns;
+    at.v = (float)row / (float)rows;
+    return at;
+}
+
+// The edge or, behind them all, the face with point p inside.
+static int sdv_find_item(const sdv_tiling *tiling, int p)
+{
+    int low = 0, high = tiling->cage->edge_count + tiling->cage->face_count;
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        if (tiling->starts[middle] <= p) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+// Where the points are, one after the other: in a vertex, an edge or, behind them all, a face.
+typedef struct sdv_cursor {
+    int item;                           // edge or face
+    int vertex;                         // or vertex; -1: none
+    int h, rate;                        // of the edge or vertex, where it is evaluated
+    sdv_tile tile;                      // the face there
+    int number;                         // of it, for subdiv_evaluate_at
+} sdv_cursor;
+
+// Takes the cursor to what point p is in. There is no face at a vertex without one: h is -1.
+static void sdv_move_cursor(const sdv_tiling *tiling, sdv_cursor *at, int p)
+{
+    const sdv_level *cage = tiling->cage;
+    int f = at->item - cage->edge_count;
+    at->vertex = p < cage->vertex_count ? p : -1;
+    while (at->vertex < 0 && tiling->starts[at->item + 1] <= p) f = ++at->item - cage->edge_count;
+    if (at->vertex >= 0 || f < 0) {
+        at->h = tiling->home[at->vertex >= 0 ? p : cage->vertex_count + at->item];
+        at->rate = at->vertex >= 0 ? 1 : tiling->edge_rates[at->item];
+        if (at->h < 0) return;
+        f = sdv_face_of(cage, at->h);
+    }
+    at->tile = sdv_tile_at(tiling, f);
+    at->number = tiling->number ? tiling->number[f] : f;
+}
+
+static subdiv_location sdv_cursor_location(const sdv_tiling *tiling, const sdv_cursor *at, int p)
+{
+    const sdv_level *cage = tiling->cage;
+    subdiv_location location;
+    int k = p - tiling->starts[at->item] + 1, side = at->h - at->tile.first;
+    if (at->vertex >= 0) {
+        location = sdv_side_location(&at->tile, side, 0, 1);
+    } else if (at->item < cage->edge_count) {
+        int from = cage->face_vertices[at->h], to = cage->face_vertices[sdv_next(cage, at->h)];
+        location = sdv_side_location(&at->tile, side, from > to ? at->rate - k : k, at->rate);
+    } else {
+        location = sdv_inside_location(&at->tile, k - 1);
+    }
+    location.face = at->number;
+    return location;
+}
+
+// The locations of points p and on, at most count, up to a vertex without faces; returns how many.
+static int sdv_find_locations(const sdv_tiling *tiling, sdv_cursor *at, int p, int count,
+                              subdiv_location *out)
+{
+    for (int i = 0; i < count; i++, p++) {
+        if (p < tiling->cage->vertex_count || at->vertex >= 0 || tiling->starts[at->item + 1] <= p)
+            sdv_move_cursor(tiling, at, p);
+        if (at->vertex >= 0 && at->h < 0) return i;
+        out[i] = sdv_cursor_location(tiling, at, p);
+    }
+    return count;
+}
+
+// Values that are evaluated: what subdiv_evaluate_at needs.
+typedef struct sdv_source {
+    const subdiv_surface *surface;
+    int          channels;
+    const float *in;
+    void        *work;
+} sdv_source;
+
+// What a tessellation works on.
+typedef struct sdv_tessellator {
+    const subdiv_surface *surface;
+    const subdiv_tessellation *how;
+    const subdiv_options *opt;
+    sdv_arena  arena;
+    sdv_tiling points, uvs;
+    sdv_source positions;
+    int        triangles;
+    size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
+    size_t    *first_face_vertex;       // [face_count + 1] face_vertices
+    subdiv_mesh mesh;                   // the result
+    int        jobs;
+} sdv_tessellator;
+
+static int sdv_user_face(const subdiv_surface *surface, int f)
+{
+    return surface->cage_face ? surface->cage_face[f] : f;
+}
+
+static void sdv_new_tiling(sdv_context *context, sdv_arena *arena, sdv_tiling *tiling,
+                           const sdv_level *cage, int loop)
+{
+    size_t edges = (size_t)cage->edge_count, faces = (size_t)cage->face_count;
+    size_t homes = (size_t)cage->vertex_count + edges;
+    tiling->cage = cage;
+    tiling->loop = loop;
+    tiling->edge_rates = SDV_NEW(context, arena, int, edges);
+    tiling->insides = SDV_NEW(context, arena, sdv_inside, faces);
+    tiling->starts = SDV_NEW(context, arena, int, edges + faces + 1);
+    tiling->home = SDV_NEW(context, arena, int, homes);
+    if (context->result) return;
+    memset(tiling->starts, 0, (edges + faces + 1) * sizeof(int));
+    memset(tiling->insides, 0, faces * sizeof(sdv_inside));
+    for (size_t i = 0; i < homes; i++) tiling->home[i] = -1;
+}
+
+// Vertices and edges are evaluated on the first face that has them and is no hole, or else on the
+// first hole.
+static void sdv_find_homes(sdv_tiling *tiling, const unsigned char *hole)
+{
+    const sdv_level *cage = tiling->cage;
+    tiling->hole = hole;
+    for (int kind = 1; kind >= 0; kind--) {
+        for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
+            int f = sdv_face_of(cage, h);
+            if (hole[tiling->number ? tiling->number[f] : f] != kind) continue;
+            tiling->home[cage->face_vertices[h]] = h;
+            tiling->home[cage->vertex_count + cage->face_edges[h]] = h;
+        }
+    }
+}
+
+// Where the points stand: those inside each edge, then those inside each face; none where there is
+// no surface. Returns how many there are.
+static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
+{
+    const sdv_level *cage = tiling->cage;
+    uint64_t count = (uint64_t)cage->vertex_count;
+    for (int i = 0; i < cage->edge_count + cage->face_count && count <= INT_MAX; i++) {
+        int f = i - cage->edge_count;
+        tiling->starts[i] = (int)count;
+        if (f < 0 && tiling->home[cage->vertex_count + i] >= 0)
+            count += (uint64_t)tiling->edge_rates[i] - 1;
+        if (f >= 0 && tiling->hole[tiling->number ? tiling->number[f] : f] != SDV_DROPPED) {
+            sdv_tile tile = sdv_tile_at(tiling, f);
+            count += sdv_count_inside(&tile);
+        }
+    }
+    if (count > INT_MAX) {
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                 "these rates make more than %d vertices", INT_MAX);
+        return 0;
+    }
+    tiling->starts[cage->edge_count + cage->face_count] = (int)count;
+    return (int)count;
+}
+
+static sdv_source sdv_begin_source(sdv_context *context, sdv_tessellator *t,
+                                   const subdiv_surface *surface, int channels, const float *in)
+{
+    sdv_source source = { surface, channels, in, NULL };
+    source.work = sdv_new(context, &t->arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, channels, in, 0, source.work, t->opt);
+    return source;
+}
+
+// The first count points of a tiling and, unless NULL, their normals.
+typedef struct sdv_samples {
+    const sdv_tiling *tiling;
+    const sdv_source *source;
+    float *points, *normals;
+    int    count, jobs;
+    subdiv_options alone;               // those of a job
+    subdiv_result  results[SDV_MOST_JOBS];
+} sdv_samples;
+
+#define SDV_SAMPLES 128                 // at once
+
+static void sdv_sample_job(void *context, int job)
+{
+    sdv_samples *s = (sdv_samples *)context;
+    const subdiv_surface *surface = s->source->surface;
+    subdiv_location at[SDV_SAMPLES];
+    int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
+    int channels = s->source->channels;
+    size_t width = (size_t)channels;
+    sdv_cursor cursor;
+    memset(&cursor, 0, sizeof cursor);
+    cursor.item = sdv_find_item(s->tiling, p);
+    cursor.vertex = p;                  // to be moved
+    for (int n; p < end && !s->results[job]; p += n) {
+        subdiv_derivatives out;
+        memset(&out, 0, sizeof out);
+        out.points = s->points + width * (size_t)p;
+        if (s->normals) out.normals = s->normals + width * (size_t)p;
+        n = end - p < SDV_SAMPLES ? end - p : SDV_SAMPLES;
+        n = sdv_find_locations(s->tiling, &cursor, p, n, at);
+        if (n) {
+            s->results[job] = subdiv_evaluate_at(surface, channels, s->source->work, n, at, &out,
+                                                 &s->alone);
+            continue;
+        }
+        int from = surface->source ? surface->source[p] : p;    // a vertex without faces
+        memcpy(out.points, s->source->in + width * (size_t)from, width * sizeof(float));
+        if (out.normals) memset(out.normals, 0, width * sizeof(float));
+        n = 1;
+    }
+}
+
+static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sdv_tiling *tiling,
+                       const sdv_source *source, float *points, float *normals, int count)
+{
+    sdv_samples s;
+    memset(&s, 0, sizeof s);
+    s.tiling = tiling;
+    s.source = source;
+    s.points = points;
+    s.normals = normals;
+    s.count = count;
+    s.jobs = sdv_jobs(count, 1024);
+    s.alone.user = context->user;
+    if (!context->result) sdv_run(opt, sdv_sample_job, &s, s.jobs);
+    for (int i = 0; i < s.jobs; i++)
+        if (s.results[i]) sdv_fail(context, s.results[i], subdiv_result_string(s.results[i]));
+}
+
+// Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
+static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float factor)
+{
+    sdv_tiling halves = t->points;
+    const sdv_level *cage = halves.cage;
+    halves.edge_rates = SDV_NEW(context, &t->arena, int, cage->edge_count);
+    for (int e = 0; e < cage->edge_count && !context->result; e++) halves.edge_rates[e] = 2;
+    for (int f = 0; f < cage->face_count; f++)
+        halves.insides[f].columns = halves.insides[f].rows = 1;
+    if (!context->result) sdv_place_points(context, &halves);
+    if (context->result) return;
+    int count = halves.starts[cage->edge_count];
+    float *points = SDV_NEW(context, &t->arena, float, 3 * (size_t)count);
+    sdv_sample(context, t->opt, &halves, &t->positions, points, NULL, count);
+    if (!context->result) sdv_multiply(points, 3 * (size_t)count, factor);
+    for (int e = 0; e < cage->edge_count && !context->result; e++) {
+        int h = halves.home[cage->vertex_count + e];
+        if (h < 0) continue;
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        int low = a < b ? a : b, high = a + b - low;
+        int rate = t->how->edge_rate(t->how->user, e, points + 3 * (size_t)low,
+                                     points + 3 * (size_t)halves.starts[e],
+                                     points + 3 * (size_t)high);
+        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+        if (rate) t->points.edge_rates[e] = rate;
+    }
+}
+
+// The rates of edges as they are given: one by one, or by the faces that have them, or for all.
+static void sdv_set_edge_rates(sdv_context *context, sdv_tessellator *t)
+{
+    const sdv_level *cage = t->points.cage;
+    const subdiv_tessellation *how = t->how;
+    int *rates = t->points.edge_rates, e, f;
+    for (e = 0; e < cage->edge_count; e++) rates[e] = 0;
+    for (int h = 0; h < cage->face_vertex_count && how->face_rates; h++) {
+        f = sdv_user_face(t->surface, sdv_face_of(cage, h));
+        int rate = how->face_rates[f], *edge = &rates[cage->face_edges[h]];
+        if (rate > *edge) *edge = rate;
+        if (rate < 0)
+            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
+                          "face %d: the rate is %d", f, rate);
+    }
+    for (e = 0; e < cage->edge_count; e++) {
+        int rate = how->edge_rates ? how->edge_rates[e] : 0;
+        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+        if (rate) rates[e] = rate;
+        if (!rates[e]) rates[e] = how->rate ? how->rate : 1;
+    }
+}
+
+static void sdv_set_insides(sdv_tessellator *t)
+{
+    const int *rates = t->how->face_rates;
+    for (int f = 0; f < t->points.cage->face_count; f++) {
+        int rate = rates ? rates[sdv_user_face(t->surface, f)] : 0;
+        t->points.insides[f] = sdv_find_inside(sdv_tile_at(&t->points, f), rate);
+    }
+}
+
+// UVs have the rates of the faces and edges that they are on.
+static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_surface *uv = t->surface->uv;
+    const sdv_level *from = t->points.cage, *to = &uv->order.cage;
+    sdv_new_tiling(context, &t->arena, &t->uvs, to, t->points.loop);
+    t->uvs.number = SDV_NEW(context, &t->arena, int, to->face_count);
+    if (context->result) return;
+    for (int f = 0; f < from->face_count; f++) {
+        int own = uv->own_face[f], start = sdv_face_start(from, f);
+        if (own < 0) continue;
+        t->uvs.number[own] = f;
+        t->uvs.insides[own] = t->points.insides[f];
+        for (int h = sdv_face_start(to, own), i = 0; h < sdv_face_end(to, own); h++, i++)
+            t->uvs.edge_rates[to->face_edges[h]] =
+                t->points.edge_rates[from->face_edges[start + i]];
+    }
+    sdv_find_homes(&t->uvs, t->surface->hole);
+    t->mesh.uv_count = sdv_place_points(context, &t->uvs);
+}
+
+// Is the face left out of the result?
+static int sdv_is_left_out(const sdv_tessellator *t, int f)
+{
+    int hole = t->surface->hole[f];
+    return hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes));
+}
+
+// How many faces each face of the cage gets and, if they are of several sizes, which.
+static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
+{
+    int faces = t->points.cage->face_count;
+    sdv_faces_at out = { t->triangles, NULL, t->mesh.face_sizes, 0, 0 };
+    t->mesh.hole_count = 0;
+    for (int f = 0; f < faces; f++) {
+        t->first_face[f] = out.faces;
+        t->first_face_vertex[f] = out.face_vertices;
+        if (sdv_is_left_out(t, f)) continue;
+        sdv_tile tile = sdv_tile_at(&t->points, f);
+        sdv_count_inside_faces(&tile, &out);
+        sdv_put_strips(&tile, &out);
+        if (out.faces > INT_MAX) {
+            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                     "these rates make more than %d faces", INT_MAX);
+            return;
+        }
+        if (t->surface->hole[f]) t->mesh.hole_count += (int)(out.faces - t->first_face[f]);
+    }
+    t->first_face[faces] = out.faces;
+    t->first_face_vertex[faces] = out.face_vertices;
+    t->mesh.face_count = (int)out.faces;
+}
+
+// What the result will be like, all but its numbers.
+static void sdv_plan_tiles(sdv_context *context, sdv_tessellator *t)
+{
+    size_t faces = (size_t)t->points.cage->face_count;
+    t->first_face = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    t->first_face_vertex = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    t->mesh.face_sizes = NULL;
+    if (!context->result) sdv_count_tiles(context, t);
+    if (context->result) return;
+    size_t count = t->first_face[faces], face_vertices = t->first_face_vertex[faces];
+    t->mesh.face_size = t->triangles ? 3 : face_vertices == 4 * count ? 4 : 0;
+    if (t->mesh.face_size) return;
+    t->mesh.face_sizes = SDV_NEW(context, &t->arena, int, count);
+    if (!context->result) sdv_count_tiles(context, t);
+}
+
+static void sdv_tile_job(void *context, int job)
+{
+    const sdv_tessellator *t = (const sdv_tessellator *)context;
+    const subdiv_surface *uv = t->surface->uv;
+    int faces = t->points.cage->face_count, end = sdv_share(faces, job + 1, t->jobs);
+    for (int f = sdv_share(faces, job, t->jobs); f < end; f++) {
+        if (sdv_is_left_out(t, f)) continue;
+        size_t first = t->first_face[f], at = t->first_face_vertex[f];
+        sdv_faces_at out = { t->triangles, t->mesh.face_vertices, NULL, first, at };
+        sdv_tile tile = sdv_tile_at(&t->points, f);
+        sdv_put_inside(&tile, &out);
+        sdv_put_strips(&tile, &out);
+        for (size_t i = first; i < t->first_face[f + 1]; i++)
+            t->mesh.cage_faces[i] = sdv_user_face(t->surface, f);
+        if (!uv) continue;
+        sdv_faces_at seams = { t->triangles, t->mesh.face_uvs, NULL, first, at };
+        for (size_t i = at; uv->own_face[f] < 0 && i < t->first_face_vertex[f + 1]; i++)
+            t->mesh.face_uvs[i] = -1;
+        if (uv->own_face[f] < 0) continue;
+        tile = sdv_tile_at(&t->uvs, uv->own_face[f]);
+        sdv_put_inside(&tile, &seams);
+        sdv_put_strips(&tile, &seams);
+    }
+}
+
+static void sdv_make_tiles(sdv_tessellator *t)
+{
+    int *hole = t->mesh.holes, faces = t->points.cage->face_count;
+    t->jobs = sdv_jobs(faces, 1);
+    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
+    for (int f = 0; f < faces && t->mesh.hole_count; f++)
+        for (size_t i = t->first_face[f]; i < t->first_face[f + 1] && t->surface->hole[f]; i++)
+            *hole++ = (int)i;
+}
+
+// The points of the result, its UVs and colours.
+static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_surface *surface = t->surface, *uv = surface->uv;
+    subdiv_mesh *mesh = &t->mesh;
+    sdv_sample(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
+               mesh->vertex_count);
+    if (surface->colors) {
+        sdv_source colors = sdv_begin_source(context, t, surface, 3, surface->colors);
+        sdv_sample(context, t->opt, &t->points, &colors, mesh->colors, NULL, mesh->vertex_count);
+    }
+    if (uv) {
+        sdv_source uvs = sdv_begin_source(context, t, uv, 2, surface->uvs);
+        sdv_sample(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
+    }
+}
+
+// Statements stand before the first face of their face, or of the next one that has any.
+static void sdv_move_statements(sdv_context *context, sdv_tessellator *t)
+{
+    const subdiv_mesh *from = &t->surface->fine;
+    int *faces = SDV_NEW(context, &t->arena, int, from->statement_count);
+    for (int i = 0; i < from->statement_count && !context->result; i++)
+        faces[i] = (int)t->first_face[from->statement_faces[i]];
+    t->mesh.statement_faces = faces;
+}
+
+static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float *positions,
+                           float factor)
+{
+    const subdiv_surface *surface = t->surface;
+    sdv_new_tiling(context, &t->arena, &t->points, &surface->order.cage, surface->rules.loop);
+    t->positions = sdv_begin_source(context, t, surface, 3, positions);
+    if (context->result) return;
+    sdv_find_homes(&t->points, surface->hole);
+    sdv_set_edge_rates(context, t);
+    if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
+    if (context->result) return;
+    sdv_set_insides(t);
+    subdiv_mesh made, *mesh = &t->mesh;
+    *mesh = surface->fine;
+    mesh->crease_count = mesh->corner_count = 0;
+    mesh->vertex_count = sdv_place_points(context, &t->points);
+    if (surface->uv && !context->result) sdv_tile_uvs(context, t);
+    if (!context->result) sdv_plan_tiles(context, t);
+    if (!context->result) sdv_move_statements(context, t);
+    if (!context->result) sdv_new_mesh(context, &made, mesh, SDV_LIMIT);
+    if (context->result) return;
+    *mesh = made;
+    sdv_make_tiles(t);
+    sdv_make_samples(context, t);
+    sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
+    if (context->result) subdiv_mesh_free(mesh);
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
+                                                   const subdiv_surface *surface,
+                                                   const float *positions,
+                                                   const subdiv_tessellation *how,
+                                                   const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_tessellation plain;
+    sdv_tessellator t;
+    memset(&plain, 0, sizeof plain);
+    memset(&t, 0, sizeof t);
+    if (!how) how = &plain;
+    if (fine) memset(fine, 0, sizeof *fine);
+    if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (surface->is_values)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
+    else if (!surface->exact)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared for SUBDIV_EXACT");
+    if (how->rate < 0) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the rate is %d", how->rate);
+    if (context.result) return context.result;
+
+    t.surface = surface;
+    t.how = how;
+    t.opt = opt;
+    t.arena = sdv_scratch();
+    t.triangles = how->triangles || surface->rules.loop;
+    float factor = sdv_tame(&context, &t.arena, surface, &positions);
+    if (!context.result) sdv_tessellate(&context, &t, positions, factor);
+    if (!context.result) *fine = t.mesh;
+    sdv_arena_free(&t.arena);
+    return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
+                                           const subdiv_tessellation *how,
+                                           const subdiv_options *opt)
+{
+    subdiv_mesh out;
+    subdiv_surface *surface = NULL;
+    memset(&out, 0, sizeof out);
+    sdv_context context = sdv_begin(opt);
+    if (!fine || fine == cage)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    if (!context.result) context.result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (!context.result)
+        context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
+    subdiv_surface_free(surface);
+    if (fine && fine != cage) *fine = out;
+    return context.result;
+}
+
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
+{
+    return surface->order.cage.edge_count;
+}
+
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
+{
+    const sdv_level *cage = &surface->order.cage;
+    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        ends[2 * cage->face_edges[h]] = a < b ? a : b;
+        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
+    }
 }
 
 // ---------------------------------------------------------------------------- >>generators
@@ -10303,10 +11918,576 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 #endif // SUBDIV_NO_STDIO
 
+// -------------------------------------------------------------------------------- >>explain
+// The words for what >>sharpness and >>masks decide, and the row that they write for a point.
+
+enum { SDV_GROUPS = 4 };
+
+typedef struct sdv_explainer {
+    sdv_context *context;
+    sdv_arena    arena;
+    sdv_text     out;
+    sdv_cage     cage;
+    sdv_rules    rules;
+    unsigned     papers;                // a bit for each that was named
+    double      *weights;               // [vertices, faces] the mask
+    int         *order;                 // [vertices] those that have a weight, heavy ones first
+    int          count;
+    int          group_sizes[SDV_GROUPS];   // how many of them weigh the same; 0: no more
+} sdv_explainer;
+
+static const struct { const char *tag, *title; } sdv_papers[] = {
+    { "[CC78]", "Catmull, Clark: Recursively generated B-spline surfaces on arbitrary\n"
+                "       topological meshes, 1978" },
+    { "[Loop87]", "Loop: Smooth subdivision surfaces based on triangles, 1987" },
+    { "[HDD94]", "Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction, 1994" },
+    { "[DKT98]", "DeRose, Kass, Truong: Subdivision surfaces in character animation, 1998" },
+    { "[OSD]", "OpenSubdiv 3.5: the rules where the papers are silent" }
+};
+
+enum { SDV_CC78, SDV_LOOP87, SDV_HDD94, SDV_DKT98, SDV_OSD, SDV_PAPERS };
+
+static void sdv_say(sdv_explainer *x, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    sdv_format(&x->out, format, args);
+    va_end(args);
+}
+
+static void sdv_cite(sdv_explainer *x, int paper)
+{
+    x->papers |= 1u << paper;
+    sdv_say(x, "  %s\n", sdv_papers[paper].tag);
+}
+
+// A number as a fraction, if it is a simple one as far as floats can tell; else as a float.
+static const char *sdv_number_text(double number, char *text)
+{
+    sdv_text out = { text, 0, 32 };
+    for (int q = 1; q <= 400; q++) {
+        int p = (int)(number * q + 0.5);
+        if (p == 0 || fabs(number * q - p) > (double)FLT_EPSILON * p) continue;
+        sdv_put_int(&out, p);
+        if (q > 1) sdv_put(&out, "/", 1);
+        if (q > 1) sdv_put_int(&out, q);
+        return text;
+    }
+    *sdv_write_exactly(text, (float)number) = 0;
+    return text;
+}
+
+static const char *sdv_float_text(float number, char *text)
+{
+    *sdv_write_exactly(text, number) = 0;
+    return text;
+}
+
+// ---- the mask
+
+// The row of a point goes to the weights of vertices and face points, factor times.
+static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int *row,
+                           double factor)
+{
+    const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
+    const float *weights = (const float *)sdv_items(&writer->weights);
+    for (int i = 0; i < mask->count; i++)
+        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i);
+}
+
+// How many vertices from place i of the order on weigh the same.
+static int sdv_group_size(const sdv_explainer *x, int i)
+{
+    double weight = x->weights[x->order[i]];
+    int size = 1;
+    while (i + size < x->count &&
+           x->weights[x->order[i + size]] > weight - 1e-6 * fabs(weight)) size++;
+    return size;
+}
+
+// Puts the vertices with a weight in order.
+static void sdv_find_order(sdv_explainer *x)
+{
+    const double *w = x->weights;
+    int groups = 0;
+    for (int v = 0; v < x->cage.level.vertex_count; v++) {
+        int at = x->count;
+        if (!(fabs(w[v]) > 0)) continue;
+        for (; at > 0 && w[x->order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
+            x->order[at] = x->order[at - 1];
+        x->order[at] = v;
+        x->count++;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size = sdv_group_size(x, i);
+        if (groups < SDV_GROUPS) x->group_sizes[groups++] = size;
+    }
+}
+
+// The mask of vertex v, of the edge that leads on from h, or of face f, whichever is not -1, on the
+// vertices of the cage: its row, then those of the face points in it.
+static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
+{
+    sdv_level *level = &x->cage.level;
+    size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
+    size_t size = (size_t)level->face_vertex_count + 1;         // of any face's row
+    sdv_writer writer;
+    sdv_rows rows;
+    if (v >= 0) size += sdv_vertex_row_size(level, v, x->rules.loop);
+    if (h >= 0) size += sdv_edge_row_size(level, h);
+    sdv_writer_new(x->context, &writer);
+    x->weights = SDV_NEW(x->context, &x->arena, double, points);
+    x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
+    sdv_begin_rows(&writer, &x->arena, &rows, size, 1, 0);
+    for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
+    for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
+    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
+    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
+    if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
+    if (!x->context->result) sdv_spread_row(x, &writer, rows.items, 1);
+    for (int i = 0; i < level->face_count && !x->context->result; i++) {
+        double weight = x->weights[level->vertex_count + i];
+        if (!(fabs(weight) > 0)) continue;
+        writer.row = rows.items;
+        rows.count = 0;
+        sdv_face_row(level, i, &writer);
+        if (!x->context->result) sdv_spread_row(x, &writer, rows.items, weight);
+    }
+    if (!x->context->result) sdv_find_order(x);
+    sdv_writer_free(&writer);
+}
+
+static void sdv_say_blanks(sdv_explainer *x, size_t count)
+{
+    while (count--) sdv_put(&x->out, " ", 1);
+}
+
+// One line a weight, with all the vertices that have it.
+static void sdv_say_table(sdv_explainer *x)
+{
+    char text[32];
+    size_t width = 6;                               // of the weights
+    for (int i = 0; i < x->count; i += sdv_group_size(x, i)) {
+        size_t size = strlen(sdv_number_text(x->weights[x->order[i]], text));
+        if (size > width) width = size;
+    }
+    for (int i = 0, size; i < x->count; i += size) {
+        size_t start = x->out.size;
+        size = sdv_group_size(x, i);
+        sdv_number_text(x->weights[x->order[i]], text);
+        sdv_say(x, "    %s", text);
+        sdv_say_blanks(x, width + 2 - strlen(text));
+        sdv_say(x, size == 1 ? "vertex" : "vertices");
+        for (int j = i; j < i + size; j++) {
+            if (x->out.size > start + 68) {
+                sdv_say(x, "\n");
+                start = x->out.size;
+                sdv_say_blanks(x, width + 14);
+            }
+            sdv_say(x, " %d", x->order[j]);
+        }
+        sdv_say(x, "\n");
+    }
+}
+
+// Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
+// weights, heavy ones first, in six places each.
+typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+
+static const struct { sdv_point_kind kind; int sizes[SDV_GROUPS]; const char *text; }
+sdv_pictures[] = {
+    { SDV_FACE_POINT, { 4, 0, 0, 0 },
+      "  aaaaaa --- aaaaaa\n"
+      "     |          |\n"
+      "     |    F     |\n"
+      "     |          |\n"
+      "  aaaaaa --- aaaaaa\n" },
+    { SDV_FACE_POINT, { 3, 0, 0, 0 },
+      "       aaaaaa\n"
+      "         / \\\n"
+      "        / F \\\n"
+      "       /     \\\n"
+      "  aaaaaa -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 0, 0, 0 },
+      "  aaaaaa -- E -- aaaaaa\n" },
+    { SDV_EDGE_POINT, { 2, 4, 0, 0 },
+      "  bbbbbb ------- bbbbbb\n"
+      "     |              |\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "     |              |\n"
+      "  bbbbbb ------- bbbbbb\n" },
+    { SDV_EDGE_POINT, { 2, 2, 0, 0 },
+      "         bbbbbb\n"
+      "        /      \\\n"
+      "       /        \\\n"
+      "  aaaaaa -- E -- aaaaaa\n"
+      "       \\        /\n"
+      "        \\      /\n"
+      "         bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
+      "  bbbbbb --- aaaaaa --- bbbbbb\n" },
+    { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
+      "  cccccc --- bbbbbb --- cccccc\n"
+      "     |          |          |\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     |          |          |\n"
+      "  cccccc --- bbbbbb --- cccccc\n" },
+    { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
+      "       bbbbbb --- bbbbbb\n"
+      "        /    \\     /    \\\n"
+      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "        \\    /     \\    /\n"
+      "       bbbbbb --- bbbbbb\n" }
+};
+
+// The picture with its weights, if they fit.
+static void sdv_draw(sdv_explainer *x, const char *picture)
+{
+    char texts[SDV_GROUPS][32];
+    for (int i = 0, g = 0; i < x->count; i += x->group_sizes[g++]) {
+        sdv_number_text(x->weights[x->order[i]], texts[g]);
+        if (strlen(texts[g]) > 6) return;
+    }
+    size_t start = x->out.size;
+    for (const char *p = picture; *p; p++) {
+        if (*p < 'a' || *p > 'c') {
+            while (*p == '\n' && x->out.text[x->out.size - 1] == ' ') x->out.size--;
+            sdv_put(&x->out, p, 1);
+            continue;
+        }
+        const char *text = texts[*p - 'a'];
+        size_t size = strlen(text), left = (7 - size) / 2;
+        sdv_put(&x->out, "   ", left);
+        sdv_put(&x->out, text, size);
+        sdv_put(&x->out, "   ", 6 - left - size);
+        p += 5;
+    }
+    char *line = x->out.text + start;               // lines reach all weights but for a blank
+    size_t end = x->out.size - start;
+    for (size_t i = 0; i + 2 < end; i++)
+        if (line[i] == '-' && line[i + 1] == ' ' && line[i + 2] == ' ') line[i + 1] = '-';
+    for (size_t i = end; i > 2; i--)
+        if (line[i - 1] == '-' && line[i - 2] == ' ' && line[i - 3] == ' ') line[i - 2] = '-';
+    sdv_say(x, "\n");
+}
+
+static void sdv_say_mask(sdv_explainer *x, sdv_point_kind kind)
+{
+    sdv_say(x, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
+    for (size_t i = 0; i < sizeof sdv_pictures / sizeof *sdv_pictures; i++)
+        if (sdv_pictures[i].kind == kind &&
+            memcmp(sdv_pictures[i].sizes, x->group_sizes, sizeof x->group_sizes) == 0)
+            sdv_draw(x, sdv_pictures[i].text);
+    sdv_say_table(x);
+    if (x->papers) sdv_say(x, "\n");
+    for (int i = 0; i < SDV_PAPERS; i++)
+        if (x->papers >> i & 1)
+            sdv_say(x, "%s %s\n", sdv_papers[i].tag, sdv_papers[i].title);
+}
+
+// ---- vertices
+
+// What a rule makes of a vertex, behind "V = ".
+static void sdv_say_rule(sdv_explainer *x, sdv_rule rule, int n)
+{
+    char text[32];
+    if (rule == SDV_CORNER || x->rules.linear) {
+        sdv_say(x, "v\n");
+    } else if (rule == SDV_CREASE) {
+        sdv_say(x, "(a + 6 v + b) / 8");
+        sdv_cite(x, SDV_HDD94);
+    } else if (x->rules.loop) {
+        sdv_say(x, "(1 - n b) v + b (e1 + ... + en)");
+        sdv_cite(x, SDV_LOOP87);
+        sdv_say(x, "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
+                sdv_number_text(sdv_loop_vertex(n).edge, text), n);
+    } else {
+        sdv_say(x, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d", n);
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
+{
+    int crease = rule == SDV_CREASE || next == SDV_CREASE;
+    int smooth = rule < SDV_CREASE || next < SDV_CREASE;
+    sdv_say(x, "\nHere v is the vertex");
+    if (crease) sdv_say(x, " and a, b are its neighbours along the crease");
+    if (smooth && crease) sdv_say(x, ";\nthe e are all its neighbours");
+    else if (smooth) sdv_say(x, ", the e are its neighbours");
+    if (smooth && !x->rules.loop) sdv_say(x, ", the f the face points there");
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
+{
+    char text[32];
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, ", sharp forever");
+    else sdv_say(x, ", of sharpness %s", sdv_float_text(sharpness, text));
+}
+
+// The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
+static void sdv_say_edge(sdv_explainer *x, int h, int v)
+{
+    const sdv_level *level = &x->cage.level;
+    int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
+    int from = a == v || b == v ? v : a < b ? a : b;
+    sdv_say(x, "%d-%d", from, a + b - from);
+}
+
+// Lists the sharp edges at a vertex, if they are few; how many they are, and how many boundaries.
+static sdv_edges_at sdv_say_sharp_edges(sdv_explainer *x, int v, int say)
+{
+    const sdv_level *level = &x->cage.level;
+    sdv_edges_at sharp = { 0, 0, 0 };
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            if (say && sharp.count) sdv_say(x, " and ");
+            if (say) sdv_say_edge(x, two[i], v);
+            sharp.boundary += sdv_is_boundary(level, two[i]);
+            sharp.count++;
+        }
+    }
+    return sharp;
+}
+
+static void sdv_say_corner(sdv_explainer *x, int v)
+{
+    float sharpness = x->cage.level.vertex_sharpness[v];
+    if (x->cage.level.vertex_faces[v] == 0) {
+        sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
+        return;
+    }
+    sdv_say(x, "Vertex %d is a corner", v);
+    if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
+        sdv_say(x, ": the surface is non-manifold there");
+    else if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x, ": it has one face, and the rule is \"edge and corner\"");
+    else if (sharpness > 0)
+        sdv_say_sharpness(x, sharpness);
+    else
+        sdv_say(x, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
+    sdv_say(x, ".\n");
+}
+
+static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
+{
+    int boundary = sdv_say_sharp_edges(x, v, 0).boundary == 2;
+    if (x->rules.linear) {
+        sdv_say(x, "Refinement is linear: vertex %d stays where it is.\n", v);
+    } else if (rule == SDV_CORNER) {
+        sdv_say_corner(x, v);
+    } else if (rule == SDV_SMOOTH) {
+        sdv_say(x, "Vertex %d is interior, of valence %d, and smooth.\n", v,
+                x->cage.level.vertex_faces[v]);
+    } else {
+        sdv_say(x, rule == SDV_DART ? "Vertex %d is a dart: the crease " :
+                boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
+                "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
+        sdv_say_sharp_edges(x, v, 1);
+        sdv_say(x, rule == SDV_DART ? " ends there.\nIt moves as if it were smooth.\n" :
+                ", a cubic B-spline.\n");
+    }
+}
+
+static void sdv_explain_vertex(sdv_explainer *x, int v)
+{
+    static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
+    static const char letters[] = "SSCK";
+    sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
+    sdv_rule rule = fading.rule, next = fading.next;
+    int n = x->cage.level.vertex_faces[v];
+    char more[32], less[32];
+    int blend = rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear;
+    sdv_say_vertex_rule(x, v, rule);
+    if (!blend) {
+        sdv_say(x, "\n    V = ");
+        sdv_say_rule(x, rule, n);
+    } else {
+        sdv_say(x, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
+                "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
+                sdv_number_text(fading.weight, more), more, letters + rule, 1,
+                sdv_number_text(1 - fading.weight, less), letters + next, 1);
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    %t = ", letters + rule, 1);
+        sdv_say_rule(x, rule, n);
+        sdv_say(x, "    %t = ", letters + next, 1);
+        sdv_say_rule(x, next, n);
+    }
+    if (!blend) next = rule;
+    if (!x->rules.linear && (rule != SDV_CORNER || blend)) sdv_say_letters(x, rule, next);
+}
+
+// ---- edges and faces
+
+// The smooth point of an edge, behind "E = ".
+static void sdv_say_smooth_edge(sdv_explainer *x, int h)
+{
+    const sdv_level *level = &x->cage.level;
+    int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
+    char ends[32], faces[32];
+    if (x->rules.loop) {
+        sdv_say(x, "(3 a + 3 b + c + d) / 8");
+        sdv_cite(x, SDV_LOOP87);
+    } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
+        sdv_mask mask = sdv_smooth_triangle_edge(triangles);
+        sdv_say(x, "%s (a + b) + %s (f + g)", sdv_number_text(mask.self, ends),
+                sdv_number_text(mask.face, faces));
+        sdv_cite(x, SDV_OSD);
+    } else {
+        sdv_say(x, "(a + b + f + g) / 4");
+        sdv_cite(x, SDV_CC78);
+    }
+}
+
+static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    sdv_say(x, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge " :
+            "Edge ");
+    sdv_say_edge(x, h, -1);
+    if (x->rules.linear) {
+        sdv_say(x, ".\n");
+    } else if (x->cage.edge_nonmanifold[e]) {
+        sdv_say(x, " is non-manifold, and so a crease.\n");
+    } else if (sdv_is_boundary(level, h)) {
+        sdv_say(x, " is on the boundary, which is a crease.\n");
+    } else if (sharpness <= 0) {
+        sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
+                sdv_face_of(level, level->across[h]));
+    } else {
+        sdv_say(x, " is a crease");
+        sdv_say_sharpness(x, sharpness);
+        sdv_say(x, stays_sharp ? ".\n" : ".\nIt ends before the next level");
+        if (!stays_sharp) sdv_say(x, sharpness < 1 ? ", and so much of the point is still sharp:\n"
+                                                   : ".\n");
+    }
+}
+
+static void sdv_explain_edge(sdv_explainer *x, int e)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[e];
+    float sharpness = level->sharpness[h];
+    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
+    int smooth = !crease && sharpness <= 0;
+    char more[32], less[32];
+    sdv_say_edge_rule(x, e, stays_sharp);
+    if (!crease && !smooth) {
+        sdv_say(x, "\n    E = %s C + %s S",
+                sdv_number_text((double)sharpness, more),
+                sdv_number_text(1 - (double)sharpness, less));
+        sdv_cite(x, SDV_DKT98);
+        sdv_say(x, "    C = (a + b) / 2\n    S = ");
+    } else {
+        sdv_say(x, "\n    E = %s", crease ? "(a + b) / 2\n" : "");
+    }
+    if (!crease) sdv_say_smooth_edge(x, h);
+    sdv_say(x, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
+            x->rules.loop ? ", and c and d the vertices opposite" :
+            ", and f and g the face points beside it");
+}
+
+static void sdv_explain_face(sdv_explainer *x, int f)
+{
+    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
+    sdv_say(x, "Face %d has %d vertices; its face point is their mean.\n\n"
+            "    F = (v1 + ... + vn) / n, n = %d", f, n, n);
+    sdv_cite(x, SDV_CC78);
+}
+
+// The first line, the words, the mask.
+static void sdv_explain_point(sdv_explainer *x, int point)
+{
+    const sdv_level *level = &x->cage.level;
+    int e = point - level->vertex_count, f = e - level->edge_count;
+    int h = e >= 0 && f < 0 ? level->edge_first[e] : -1;
+    sdv_find_mask(x, e < 0 ? point : -1, h, f >= 0 ? f : -1);
+    if (x->context->result) return;
+    sdv_say(x, "Point %d of the mesh refined once is the ", point);
+    if (e < 0) {
+        sdv_say(x, "vertex point of vertex %d.\n", point);
+        sdv_explain_vertex(x, point);
+    } else if (f < 0) {
+        sdv_say(x, "edge point of edge ");
+        sdv_say_edge(x, h, -1);
+        sdv_say(x, ".\n");
+        sdv_explain_edge(x, e);
+    } else {
+        sdv_say(x, "face point of face %d.\n", f);
+        sdv_explain_face(x, f);
+    }
+    sdv_say_mask(x, e < 0 ? SDV_VERTEX_POINT : f < 0 ? SDV_EDGE_POINT : SDV_FACE_POINT);
+}
+
+static void sdv_check_point(sdv_context *context, const sdv_level *level, int loop, int point)
+{
+    char message[256];
+    sdv_text out = { message, 0, sizeof message };
+    const char *const names[3] = { "vertices", "edges", "faces" };
+    int counts[3] = { level->vertex_count, level->edge_count, loop ? 0 : level->face_count };
+    int first = 0;
+    message[0] = 0;
+    for (int i = 0; i < 3; first += counts[i++]) {
+        if (!counts[i]) continue;
+        sdv_put(&out, i ? ", " : "", i ? 2 : 0);
+        sdv_put_int(&out, first);
+        sdv_put(&out, " to ", 4);
+        sdv_put_int(&out, first + counts[i] - 1);
+        sdv_put(&out, " of ", 4);
+        sdv_put(&out, names[i], strlen(names[i]));
+    }
+    if (point < 0 || point >= first)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+                 point, message);
+}
+
+SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
+                                        int point, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_surface *cut = NULL;
+    sdv_explainer x;
+    memset(&x, 0, sizeof x);
+    if (text && capacity) text[0] = 0;
+    else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
+    if (!context.result) sdv_check_request(&context, &cut, cage, 1, opt);
+    if (context.result) return context.result;
+
+    subdiv_mesh work = *cage;
+    cut = sdv_new_surface(&context, 1);
+    x.context = &context;
+    x.arena = sdv_scratch();
+    x.out.text = text;
+    x.out.capacity = capacity;
+    x.rules.loop = cage->scheme == SUBDIV_LOOP;
+    x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
+    x.rules.triangles = cage->triangles;
+    if (cut) sdv_copy_faces(&context, cut, &work, cage);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
+    if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
+    if (!context.result) sdv_level_fade(&x.cage.level);
+    if (!context.result) sdv_explain_point(&x, point);
+    if (!context.result && x.out.size + 1 == capacity)
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    if (context.result) text[0] = 0;
+    sdv_arena_free(&x.arena);
+    subdiv_surface_free(cut);
+    return context.result;
+}
+
 // ------------------------------------------------------------------------------- >>cleanup
 #undef SDV_NEW
 #undef SDV_IMPLIED
 #undef SDV_CHECKED
+#undef SDV_MOST_JOBS
+#undef SDV_SAMPLES
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS

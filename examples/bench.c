@@ -43,17 +43,23 @@
 #endif
 
 enum { TORUS_SIDE = 1024, MOST_VERTICES = 3000000 };
+enum { SAMPLE_COUNT = 1 << 17, TESSELLATION_RATE = 8 };
 enum { MIN_RUNS = 3, MAX_RUNS = 15 };
 static const double stage_seconds = 2;    // a stage ends after this time, or after its MAX_RUNS
 
 // The rows and columns of the table. PEAK is in bytes, all others in seconds.
-enum { COLD, WARM, PREPARE, FACES, CHAINED, STENCILS, FLOAT4, THREADED, PEAK, ROW_COUNT };
+enum {
+    COLD, WARM, PREPARE, FACES, CHAINED, STENCILS, FLOAT4, THREADED, NORMALS, NORMALS_CHAINED,
+    SURFACES, SAMPLE, SAMPLE_DERIVATIVES, TESSELLATE, TESSELLATE_DERIVATIVES, PEAK, ROW_COUNT
+};
 enum { OURS, THEIRS, LIMIT, COLUMN_COUNT };
 
 static const char *row_names[ROW_COUNT] = {
     "one-shot, fresh memory", "one-shot, re-used memory", "prepare", "faces",
     "evaluate xyz | chained", "evaluate xyz | stencils", "evaluate xyzw | stencils",
-    "evaluate xyz, 2 threads", "peak memory, bytes"
+    "evaluate xyz, 2 threads", "limit + normals | Limit", "limit + normals | chained",
+    "surfaces ready", "sample P", "sample P, du, dv", "tessellate P", "tessellate P, du, dv",
+    "peak memory, bytes"
 };
 
 #ifdef BENCH_PEER
@@ -72,6 +78,7 @@ typedef struct bench {
     subdiv_mesh cage;
     int         levels;
     int         vertex_count, face_count, face_size;    // of the result
+    int         tessellated_count;                      // points of all faces of the cage
     peer       *rival;                                  // NULL: none is linked in
     int         warming_up;                             // runs do not count yet
     table       table;
@@ -247,6 +254,32 @@ static void free_cage(subdiv_mesh *cage)
     subdiv_mesh_free(cage);
 }
 
+static int cage_face_size(const subdiv_mesh *cage, int f)
+{
+    return cage->face_size ? cage->face_size : cage->face_sizes[f];
+}
+
+// The grid on face f, on each quad of an n-gon; at may be NULL. Returns how many points.
+static int tessellate_face(const bench *b, int f, subdiv_location *at)
+{
+    int size = cage_face_size(&b->cage, f), ngon = b->face_size == 4 && size != 4, count = 0;
+    int steps = ngon ? TESSELLATION_RATE / 2 : TESSELLATION_RATE;
+    for (int corner = 0; corner < (ngon ? size : 1); corner++) {
+        for (int row = 0; row <= steps; row++) {
+            for (int column = 0; column <= (b->face_size == 3 ? steps - row : steps); column++) {
+                subdiv_location here = {0};
+                here.face = f;
+                here.corner = corner;
+                here.u = (float)column / (float)steps;
+                here.v = (float)row / (float)steps;
+                if (at) at[count] = here;
+                count++;
+            }
+        }
+    }
+    return count;
+}
+
 // Takes so many levels, and counts what the result has. Returns 0 when it is more than the most.
 static int take_levels(bench *b, int levels, int most)
 {
@@ -256,7 +289,7 @@ static int take_levels(bench *b, int levels, int most)
     long long vertices = info.vertex_count, edges = info.edge_count, faces = info.face_count;
     long long face_vertices = 0;
     for (int f = 0; f < b->cage.face_count; f++)
-        face_vertices += b->cage.face_size ? b->cage.face_size : b->cage.face_sizes[f];
+        face_vertices += cage_face_size(&b->cage, f);
     for (int l = 0; l < levels; l++) {
         vertices += loop ? edges : edges + faces;
         edges = 2 * edges + (loop ? 3 * faces : face_vertices);
@@ -268,6 +301,9 @@ static int take_levels(bench *b, int levels, int most)
     b->vertex_count = (int)vertices;
     b->face_count = (int)faces;
     b->face_size = loop ? 3 : 4;
+    b->tessellated_count = 0;
+    for (int f = 0; f < b->cage.face_count; f++)
+        b->tessellated_count += tessellate_face(b, f, NULL);
     return 1;
 }
 
@@ -402,7 +438,7 @@ static void cold_ours(bench *b)
 static void cold_theirs(bench *b)
 {
     double before = peak_bytes(), start = now();
-    if (!library->prepare(b->rival)) return;
+    if (!library->prepare(b->rival, 0)) return;
     int vertex_count = library->result(b->rival);
     add_sample(b, COLD, THEIRS, now() - start);
     add_sample(b, PEAK, THEIRS, peak_bytes() - before);
@@ -454,7 +490,7 @@ static void warm_refine(bench *b)
         subdiv_surface_free(surface);
 
         start = now();
-        if (b->rival && library->prepare(b->rival)) {
+        if (b->rival && library->prepare(b->rival, 0)) {
             add_sample(b, PREPARE, THEIRS, now() - start);
             library->result(b->rival);
             add_sample(b, WARM, THEIRS, now() - start);
@@ -498,6 +534,18 @@ static void evaluate_theirs(bench *b, const animation *a)
     add_sample(b, FLOAT4, THEIRS, end - stencils);
 }
 
+// Theirs starts from the points of the last level, or from the cage as ours.
+static void normals_theirs(bench *b)
+{
+    double start = now();
+    library->chained(b->rival, b->cage.positions);
+    double chained = now();
+    library->normals(b->rival);
+    double end = now();
+    add_sample(b, NORMALS, THEIRS, end - chained);
+    add_sample(b, NORMALS_CHAINED, THEIRS, end - start);
+}
+
 static void open_animation(bench *b, animation *a, pool *threads)
 {
     subdiv_options none = {0};
@@ -531,7 +579,7 @@ static void evaluate(bench *b)
     keep_memory();
     pool_open(&threads);
     open_animation(b, &a, &threads);
-    int compare = b->rival && library->prepare(b->rival);
+    int compare = b->rival && library->prepare(b->rival, 0);
     if (compare) library->tables(b->rival);
     double begin = wall();
     for (int round = -1; go_on(round, begin); round++) {
@@ -550,6 +598,183 @@ static void evaluate(bench *b)
     if (compare) library->discard(b->rival);
     close_animation(&a);
     pool_close(&threads);
+}
+
+static void limit_normals(bench *b)
+{
+    subdiv_options opt = {0};
+    subdiv_surface *surface;
+    subdiv_limit out = {0};
+    keep_memory();
+    opt.limit = 1;
+    expect(b, subdiv_prepare(&surface, &b->cage, b->levels, &opt));
+    void *scratch = allocate(subdiv_scratch_size(surface, 3));
+    out.positions = (float *)allocate(position_bytes(b, 6));
+    out.normals = out.positions + 3 * (size_t)b->vertex_count;
+    int compare = b->rival && library->prepare(b->rival, 1);
+    double begin = wall();
+    for (int round = -1; go_on(round, begin); round++) {
+        b->warming_up = round < 0;
+        double start = now();
+        expect(b, subdiv_evaluate_limit(surface, b->cage.positions, 0, &out, scratch, NULL));
+        double end = now();
+        add_sample(b, NORMALS, OURS, end - start);
+        add_sample(b, NORMALS_CHAINED, OURS, end - start);
+        warm_limit(b, NORMALS, out.positions, position_bytes(b, 6));
+        warm_limit(b, NORMALS_CHAINED, out.positions, position_bytes(b, 6));
+        if (compare) normals_theirs(b);
+    }
+    if (compare) library->discard(b->rival);
+    free(out.positions);
+    free(scratch);
+    subdiv_surface_free(surface);
+}
+
+// ---------------------------------------------------------------------------- the limit surface
+
+typedef struct places {
+    int    count;
+    subdiv_location *at;
+    float *out[3];                    // [3 * count] each: points, du, dv
+} places;
+
+static void make_places(places *p, int count)
+{
+    p->count = count;
+    p->at = (subdiv_location *)allocate(sizeof(subdiv_location) * (size_t)count);
+    for (int k = 0; k < 3; k++) p->out[k] = (float *)allocate(12 * (size_t)count);
+}
+
+static void free_places(places *p)
+{
+    for (int k = 0; k < 3; k++) free(p->out[k]);
+    free(p->at);
+}
+
+static unsigned next_random(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return *state >> 8;
+}
+
+// Random faces, and places in them, in an order that no memory likes.
+static void choose_places(const bench *b, places *p)
+{
+    unsigned state = 1;
+    for (int i = 0; i < p->count; i++) {
+        subdiv_location *at = &p->at[i];
+        at->face = (int)(next_random(&state) % (unsigned)b->cage.face_count);
+        int size = cage_face_size(&b->cage, at->face), ngon = b->face_size == 4 && size != 4;
+        at->corner = ngon ? (int)(next_random(&state) % (unsigned)size) : 0;
+        at->u = (float)next_random(&state) / 16777216.0f;
+        at->v = (float)next_random(&state) / 16777216.0f;
+        if (b->face_size == 3 && at->u + at->v > 1) {
+            at->u = 1 - at->u;
+            at->v = 1 - at->v;
+        }
+    }
+}
+
+static void evaluate_places(const bench *b, const subdiv_surface *surface, const void *scratch,
+                            const places *p, int derivatives)
+{
+    subdiv_derivatives out = {0};
+    out.points = p->out[0];
+    if (derivatives) out.du = p->out[1];
+    if (derivatives) out.dv = p->out[2];
+    expect(b, subdiv_evaluate_at(surface, 3, scratch, p->count, p->at, &out, NULL));
+}
+
+static void *open_surface(bench *b, subdiv_surface **surface)
+{
+    expect(b, subdiv_prepare(surface, &b->cage, SUBDIV_EXACT, NULL));
+    void *scratch = allocate(subdiv_scratch_size(*surface, 3));
+    expect(b, subdiv_evaluate_begin(*surface, 3, b->cage.positions, 0, scratch, NULL));
+    return scratch;
+}
+
+static void close_surface(subdiv_surface *surface, void *scratch)
+{
+    free(scratch);
+    subdiv_surface_free(surface);
+}
+
+static void sample_places(bench *b, const subdiv_surface *surface, const void *scratch,
+                          const places *p, int row, int compare)
+{
+    int derivatives = row == SAMPLE_DERIVATIVES;
+    double start = now();
+    evaluate_places(b, surface, scratch, p, derivatives);
+    double middle = now();
+    if (compare) library->sample(b->rival, p->out[0], derivatives ? p->out[1] : NULL, p->out[2]);
+    double end = now();
+    add_sample(b, row, OURS, middle - start);
+    if (compare) add_sample(b, row, THEIRS, end - middle);
+}
+
+static void sample_surfaces(bench *b)
+{
+    subdiv_surface *surface;
+    places p;
+    keep_memory();
+    make_places(&p, SAMPLE_COUNT);
+    choose_places(b, &p);
+    void *scratch = open_surface(b, &surface);
+    int compare = b->rival && library->surfaces(b->rival);
+    if (compare) library->locate(b->rival, p.count, p.at);
+    double begin = wall();
+    for (int round = -1; go_on(round, begin); round++) {
+        b->warming_up = round < 0;
+        sample_places(b, surface, scratch, &p, SAMPLE, compare);
+        sample_places(b, surface, scratch, &p, SAMPLE_DERIVATIVES, compare);
+    }
+    if (compare) library->discard(b->rival);
+    close_surface(surface, scratch);
+    free_places(&p);
+}
+
+static void tessellate_ours(bench *b, const places *p, int row)
+{
+    subdiv_surface *surface;
+    double start = now();
+    void *scratch = open_surface(b, &surface);
+    double ready = now();
+    for (int f = 0, count = 0; f < b->cage.face_count; f++)
+        count += tessellate_face(b, f, p->at + count);
+    evaluate_places(b, surface, scratch, p, row == TESSELLATE_DERIVATIVES);
+    add_sample(b, row, OURS, now() - start);
+    add_sample(b, SURFACES, OURS, ready - start);
+    close_surface(surface, scratch);
+}
+
+static void tessellate_theirs(bench *b, const places *p, int row)
+{
+    float *du = row == TESSELLATE_DERIVATIVES ? p->out[1] : NULL;
+    double start = now();
+    library->tessellate(b->rival, TESSELLATION_RATE, p->out[0], du, p->out[2]);
+    add_sample(b, row, THEIRS, now() - start);
+    library->discard(b->rival);
+}
+
+static void tessellate(bench *b)
+{
+    places p;
+    keep_memory();
+    make_places(&p, b->tessellated_count);
+    double begin = wall();
+    for (int round = -1; go_on(round, begin); round++) {
+        b->warming_up = round < 0;
+        for (int row = TESSELLATE; row <= TESSELLATE_DERIVATIVES; row++) {
+            tessellate_ours(b, &p, row);
+            if (b->rival) tessellate_theirs(b, &p, row);
+        }
+        double start = now();
+        if (b->rival && library->surfaces(b->rival)) {
+            add_sample(b, SURFACES, THEIRS, now() - start);
+            library->discard(b->rival);
+        }
+    }
+    free_places(&p);
 }
 
 // -------------------------------------------------------------------------------------- report
@@ -574,10 +799,16 @@ static void print_heading(void)
         "faces       the indices alone, into the caller's array\n"
         "evaluate    new positions (and a 4th channel), into the caller's array; theirs: chained\n"
         "            PrimvarRefiner::Interpolate, or StencilTable::UpdateValues\n"
+        "limit +     limit positions and unit normals from new positions of the cage; theirs:\n"
+        "  normals   PrimvarRefiner::Limit with two tangents and their product, from the refined\n"
+        "            points alone, or from the cage by chained Interpolate as well\n"
+        "sample      the limit surface at random places, per place, surfaces ready; theirs: Bfr\n"
+        "tessellate  the same on a grid of %d steps along each edge of the cage, per point, and with\n"
+        "            what makes the surfaces ready\n"
         "memory      rise of the resident set of a new process at its peak, the result included\n"
         "speed-up    theirs / ours\n"
         "limit       memset of the bytes that ours writes, in memory of the same kind\n"
-        "ratio       ours / limit\n\n");
+        "ratio       ours / limit\n\n", TESSELLATION_RATE);
 }
 
 // The samples of a cell in order; returns how many.
@@ -595,7 +826,10 @@ static double median(const bench *b, int row, int column)
 
 static void print_row(bench *b, int row)
 {
-    double scale = (row == PEAK ? 1 : 1e9) / b->vertex_count;
+    int tessellated = row == SURFACES || row == TESSELLATE || row == TESSELLATE_DERIVATIVES;
+    int sampled = row == SAMPLE || row == SAMPLE_DERIVATIVES;
+    double scale = (row == PEAK ? 1 : 1e9) / (sampled ? SAMPLE_COUNT : tessellated
+                                              ? b->tessellated_count : b->vertex_count);
     size_t length = strcspn(row_names[row], b->rival ? "" : "|");   // theirs is behind the bar
     printf("  %-25.*s", (int)length, row_names[row]);
     for (int column = OURS; column <= THEIRS; column++) {
@@ -622,7 +856,8 @@ static void print_bench(bench *b)
     printf("  %-25s%9s%9s%9s%9s%10s%9s%10s\n", "", "subdiv.h", "min", library ? "theirs" : "-",
            "min", "speed-up", "limit", "ratio");
     for (int row = 0; row < ROW_COUNT; row++)
-        if (sort_cell(b, row, OURS) > 0 && (b->rival || row != STENCILS)) print_row(b, row);
+        if (sort_cell(b, row, OURS) > 0
+            && (b->rival || (row != STENCILS && row != NORMALS_CHAINED))) print_row(b, row);
     putchar('\n');
 }
 
@@ -637,7 +872,8 @@ static int run_bench(char *text)
         if (ok && b.rival) in_child(&b, cold_theirs);
         if (ok) in_child(&b, cold_limit);
     }
-    ok = ok && in_child(&b, warm_refine) && in_child(&b, evaluate);
+    ok = ok && in_child(&b, warm_refine) && in_child(&b, evaluate) && in_child(&b, limit_normals)
+        && in_child(&b, sample_surfaces) && in_child(&b, tessellate);
     if (ok) print_bench(&b);
     else fprintf(stderr, "bench: %s was not measured\n", b.name);
     close_bench(&b);

@@ -18,10 +18,10 @@ typedef struct peer_library {
     peer *(*open)(const subdiv_mesh *cage, int levels);
     void  (*close)(peer *p);
 
-    // One refinement: prepare makes the topology of all levels, 0 when refused; result makes the
-    // positions and face-vertices of the last one, in plain arrays, and returns how many vertices;
-    // discard frees everything.
-    int   (*prepare)(peer *p);
+    // One refinement: prepare makes the topology of all levels, 0 when refused, with what normals
+    // needs of the last one if limit is not 0; result makes the positions and face-vertices of the
+    // last one, in plain arrays, and returns how many vertices; discard frees everything.
+    int   (*prepare)(peer *p, int limit);
     int   (*result)(peer *p);
     void  (*discard)(peer *p);
 
@@ -31,6 +31,18 @@ typedef struct peer_library {
     void         (*tables)(peer *p);
     const float *(*chained)(peer *p, const float *in);
     const float *(*stencils)(peer *p, int channels, const float *in);
+
+    // Limit positions and unit normals of what chained has made, after prepare with limit.
+    void (*normals)(peer *p);
+
+    // The limit surface anywhere, without prepare: surfaces makes all of them ready, 0 when
+    // refused. locate takes the places, and sample evaluates there. tessellate begins with the
+    // topology of the cage and goes through its faces, so many steps along each edge. Derivatives
+    // are left out where du and dv are NULL. discard frees everything.
+    int  (*surfaces)(peer *p);
+    void (*locate)(peer *p, int count, const subdiv_location *at);
+    void (*sample)(peer *p, float *points, float *du, float *dv);
+    void (*tessellate)(peer *p, int rate, float *points, float *du, float *dv);
 } peer_library;
 
 extern const peer_library opensubdiv;

@@ -33,9 +33,9 @@ enum { MAX_THREADS = 256 };
 // ------------------------------------------------------------------------------ command line
 
 enum {
-    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, THREADS,
+    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, TESSELLATE, THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
-    EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, TIME, HELP, VERSION, OPTION_COUNT
+    EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
 
 // A list of names stands in the order of the library's enum, so that the place of a name in the
@@ -57,6 +57,7 @@ static const option options[OPTION_COUNT] = {
     {'u', "uv", "corners-only|corners-plus1|corners-plus2|boundaries|all|none",
      "what happens to UVs at seams and boundaries"},
     {'L', "limit", NULL, "put the points on the limit surface, with normals"},
+    {0, "tessellate", "N", "instead of levels: cut every edge into N pieces, on the limit surface"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
     {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
     {0, "crease-smoothing-groups", NULL, "make the borders of smoothing groups sharp"},
@@ -69,6 +70,7 @@ static const option options[OPTION_COUNT] = {
     {0, "triangulate", NULL, "Loop: cut larger faces into triangles first"},
     {0, "keep-holes", NULL, "keep the faces of holes, tagged as holes"},
     {0, "info", NULL, "print what the cage is made of, and what is odd about it"},
+    {0, "explain", "N", "print the rule and the mask of point N of the cage refined once"},
     {0, "time", NULL, "print how long each step takes"},
     {'h', "help", NULL, "print this"},
     {0, "version", NULL, "print the version"},
@@ -150,7 +152,7 @@ static int set_option(command *cmd, int id, const char *value)
     }
     int number = strcmp(o->values, "N") == 0;
     int read = number ? read_number(value) : find_name(o->values, value);
-    if (number && (read < 0 || (id == THREADS && read < 1)))
+    if (number && (read < 0 || ((id == THREADS || id == TESSELLATE) && read < 1)))
         return misused("--%s needs a whole number, not '%s'", o->name, value);
     if (read < 0) return misused("--%s is one of %s, not '%s'", o->name, o->values, value);
     cmd->given[id] = read;
@@ -197,17 +199,23 @@ static int read_command(command *cmd, int argc, char **argv)
     if (cmd->given[HELP] == 1 || cmd->given[VERSION] == 1) return DONE;
     if (cmd->given[LIMIT] == 1 && cmd->given[STREAM] == 1)
         return misused("--stream writes no normals, so not with --limit");
+    if (cmd->given[TESSELLATE] > 0 && (cmd->given[LEVELS] >= 0 || cmd->given[STREAM] == 1))
+        return misused("--tessellate has no levels and is no stream");
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
     if (cmd->given[CREASE_SHARPNESS] == 1 && cmd->given[CREASE_ANGLE] < 0 &&
         cmd->given[CREASE_GROUPS] < 0 && cmd->given[CREASE_SEAMS] < 0)
         return misused("--crease-sharpness needs one of the other crease options");
     if (cmd->samples && (cmd->output || cmd->given[INFO] == 1 || cmd->given[LEVELS] >= 0 ||
-                         cmd->given[LIMIT] == 1 || cmd->given[STREAM] == 1))
-        return misused("--eval prints: no OUTPUT, --info, --levels, --limit or --stream beside it");
+                         cmd->given[LIMIT] == 1 || cmd->given[STREAM] == 1 ||
+                         cmd->given[TESSELLATE] > 0))
+        return misused("--eval prints: no OUTPUT, --info, --levels, --limit, --tessellate or "
+                       "--stream beside it");
     if (cmd->samples && strcmp(cmd->samples, "-") == 0 && strcmp(cmd->input, "-") == 0)
         return misused("--eval - and INPUT - would share standard input");
     if (cmd->given[INFO] == 1 && cmd->output && strcmp(cmd->output, "-") == 0)
         return misused("--info and OUTPUT - would share standard output");
+    if (cmd->given[EXPLAIN] >= 0 && cmd->output)
+        return misused("--explain writes to standard output alone");
     return DONE;
 }
 
@@ -540,6 +548,23 @@ static int inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
     return print_info(cage, &info, &odd);
 }
 
+// Prints the explanation of a point, however long it is.
+static int explain(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt)
+{
+    subdiv_result result = SUBDIV_ERROR_TOO_LARGE;
+    for (size_t size = 4096; result == SUBDIV_ERROR_TOO_LARGE && size < LARGE; size *= 2) {
+        char *text = (char *)malloc(size);
+        if (text == NULL) {
+            fputs("subdiv: out of memory\n", stderr);
+            return FAILED;
+        }
+        result = subdiv_explain(text, size, cage, cmd->given[EXPLAIN], opt);
+        fputs(text, stdout);
+        free(text);
+    }
+    return result ? report(cmd->input, opt) : flush_output();
+}
+
 static int writes_stdout(const command *cmd)
 {
     return cmd->output == NULL || strcmp(cmd->output, "-") == 0;
@@ -588,7 +613,11 @@ static void print_times(const work *w, int vertex_count)
 // Frees the cage and what was prepared as soon as they are no longer needed.
 static int refine_then_save(work *w, const command *cmd, const subdiv_options *opt)
 {
-    subdiv_result result = subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
+    subdiv_tessellation how = {0};
+    how.rate = cmd->given[TESSELLATE];
+    subdiv_result result = how.rate > 0
+        ? subdiv_surface_tessellate(&w->fine, w->surface, w->cage.positions, &how, opt)
+        : subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
     subdiv_surface_free(w->surface);
     w->surface = NULL;
     subdiv_mesh_free(&w->cage);
@@ -763,12 +792,14 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     if (load(&w->cage, cmd, opt)) return report(cmd->input, opt);
     if (add_creases(&w->cage, cmd, opt)) return FAILED;
     end_step(w, "load");
+    if (cmd->given[EXPLAIN] >= 0) return explain(&w->cage, cmd, opt);
     if (info && inspect(&w->cage, cmd, opt)) return FAILED;
     if (info && cmd->output == NULL) {
         if (timed) print_times(w, w->cage.vertex_count);
         return DONE;
     }
     int levels = cmd->given[LEVELS] >= 0 ? cmd->given[LEVELS] : 1;
+    if (cmd->given[TESSELLATE] > 0) levels = SUBDIV_EXACT;
     w->start = milliseconds();
     if (cmd->samples) {
         if (run_samples(w, cmd, opt)) return FAILED;
@@ -780,7 +811,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     int streams = cmd->given[STREAM] == 1 || (vertex_count > LARGE && !opt->limit);
     if (streams ? stream(w, cmd, opt) : refine_then_save(w, cmd, opt)) return FAILED;
-    if (timed) print_times(w, vertex_count);
+    if (timed) print_times(w, streams ? vertex_count : w->fine.vertex_count);
     return DONE;
 }
 

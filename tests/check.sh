@@ -1,9 +1,8 @@
 #!/bin/sh
 # make check: the header under every compiler and C and C++ standard that is installed, optimised and
 # not, with the strict warnings as errors; then the tests under the address and undefined-behaviour
-# sanitizers. The last line is "N passed, N failed".
+# sanitizers; the compilers side by side. The last line is "N passed, N failed".
 out=build/check
-mkdir -p $out
 strict="-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror"
 
 . tests/step.sh
@@ -12,8 +11,10 @@ build_and_run() {
     "$@" -o $out/program -lm && $out/program > $out/out
 }
 
-for compiler in gcc clang; do
-    command -v $compiler > /dev/null || { echo "$compiler is not installed: skipped"; continue; }
+check_with() {
+    compiler=$1
+    out=$out/$compiler
+    mkdir -p $out
     for level in -O0 -O3; do
         for standard in c99 c11; do
             step $compiler build_and_run $compiler -std=$standard $level $strict -I. tests/compile/c99.c
@@ -26,13 +27,23 @@ for compiler in gcc clang; do
         done
     done
     sanitize="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
-    for test in masks order invariants patches evaluate limit recorded creases check obj errors uv \
-                memory; do
+    for test in masks order invariants patches evaluate limit exact stencils recorded creases check \
+                obj errors uv tessellate memory; do
         step $compiler build_and_run $compiler -std=c99 $sanitize -pthread -I. tests/test_$test.c
     done
+    echo "$passed passed, $failed failed" > $out/counts
+}
+
+rm -rf $out
+for compiler in gcc clang; do
+    if command -v $compiler > /dev/null; then (check_with $compiler) &
+    else echo "$compiler is not installed: skipped"
+    fi
 done
+wait
 
+mkdir -p $out
 step simd sh tests/simd.sh
-
-echo "$passed passed, $failed failed"
-[ $failed = 0 ]
+cat $out/*/counts | awk -v passed=$passed -v failed=$failed '
+    { passed += $1; failed += $3 }
+    END { printf "%d passed, %d failed\n", passed, failed; exit failed > 0 }'

@@ -2,13 +2,14 @@
 // map to the cage, the sharpness that is left, the positions, UVs, and up to level 3 the limit.
 // Needs libosd (-losdCPU).
 //
-//     opensubdiv [--random N] [--seed S] [--levels a-b] [--scheme catmull-clark|loop|bilinear]
-//                [file.obj ...]
+//     opensubdiv [--continuity] [--random N] [--seed S] [--levels a-b]
+//                [--scheme catmull-clark|loop|bilinear] [file.obj ...]
 //     opensubdiv --record DIR
 //
 // A file's scheme is that of its name, loop_ or bilinear_ in front, unless --scheme says otherwise.
 // Each file is compared as it is and with every other boundary, creasing and triangle rule in turn.
-// --record writes what OpenSubdiv makes of the cages in DIR, for tests/test_recorded.c.
+// --continuity prints how smooth both are at extraordinary vertices. --record writes what OpenSubdiv
+// makes of the cages in DIR, for tests/test_recorded.c.
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/bfr/surface.h>
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
@@ -29,16 +32,19 @@
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 
+#include "exact_oracle.h"
 #include "order.h"
 #include "random_cage.h"
 #include "test.h"
 
+namespace Bfr = OpenSubdiv::Bfr;
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
 static const double position_tolerance = 1e-6;    // of the largest extent of the cage
 static const double normal_tolerance = 1e-5;      // and what rounded points can make of it
 static const double sharpness_tolerance = 1e-5;   // Chaikin adds up in the order of the edges
+static const double angle_tolerance = 0.01;       // degrees
 static const long long largest_result = 2000000;  // faces
 
 struct Point {                        // what OpenSubdiv interpolates
@@ -71,7 +77,8 @@ struct Reference {
 };
 
 struct Totals {
-    long long uvs = 0, vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0, put_right = 0;
+    long long cages = 0, uvs = 0, vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0;
+    long long put_right = 0;
     long long limit_points = 0, limit_normals = 0, odd_sides = 0, no_normals = 0;
     double largest_error = 0, largest_limit_error = 0;
     std::map<std::string, long> skips;
@@ -799,11 +806,198 @@ static void compare_cage(const subdiv_mesh &cage, int first, int last, const std
         totals.skips[reason]++;
         return;
     }
+    totals.cages++;
     totals.hidden += std::count(ref.hidden.begin(), ref.hidden.end(), 1);
     totals.put_right += ref.put_right;
     for (int l = first; l <= last && !test_bad; l++) compare_level(ref, cage, l, l % 2 == 0);
     if (test_bad) test_failed++;
     else test_passed++;
+}
+
+// --------------------------------------------------------------------------------- continuity
+//
+// Of the surface itself, along the edges at an extraordinary vertex: what OpenSubdiv's Bfr makes of
+// the faces there is Gregory patches, after as many levels as it is asked for: smooth, but not the
+// limit surface. exact_oracle.h knows that one.
+
+// Two rings of faces around vertex 0, uneven. In sector i, (a, b) lies a steps along edge i from
+// vertex 0 and b steps along edge i + 1; face first_face(i) has vertex 0, edge i, edge i + 1.
+struct Fan {
+    subdiv_mesh mesh = {};
+    int valence;
+    std::vector<float> positions;
+    std::vector<int> faces;
+
+    int at(int i, int a, int b) const
+    {
+        if (a == 0 && b == 0) return 0;
+        if (b == 0) return 1 + 6 * (i % valence) + a - 1;
+        if (a == 0) return 1 + 6 * ((i + 1) % valence) + b - 1;
+        return 1 + 6 * i + 2 + 2 * (a - 1) + b - 1;
+    }
+    int first_face(int i) const { return (i + valence) % valence * 4; }
+
+    Fan(subdiv_scheme scheme, int n) : valence(n)
+    {
+        unsigned state = 1;
+        positions.resize(3 * (size_t)(1 + 6 * n));
+        for (int i = 0; i < n; i++)
+            for (int a = 0; a < 3; a++)
+                for (int b = 0; b < 3; b++) {
+                    const double angle = 6.283185307179586 * (i + b / (a + b + 1e-9)) / n;
+                    float *p = &positions[3 * (size_t)at(i, a, b)];
+                    state = state * 1664525u + 1013904223u;
+                    p[0] = (float)((a + b) * std::cos(angle));
+                    p[1] = (float)((a + b) * std::sin(angle));
+                    p[2] = (float)(state >> 16) / 65536.0f;
+                }
+        const int quads[4][4][2] = { { {0, 0}, {1, 0}, {1, 1}, {0, 1} },
+                                     { {1, 0}, {2, 0}, {2, 1}, {1, 1} },
+                                     { {0, 1}, {1, 1}, {1, 2}, {0, 2} },
+                                     { {1, 1}, {2, 1}, {2, 2}, {1, 2} } };
+        const int triangles[4][3][2] = { { {0, 0}, {1, 0}, {0, 1} }, { {1, 0}, {2, 0}, {1, 1} },
+                                         { {1, 0}, {1, 1}, {0, 1} }, { {0, 1}, {1, 1}, {0, 2} } };
+        mesh.scheme = scheme;
+        mesh.face_size = scheme == SUBDIV_LOOP ? 3 : 4;
+        for (int i = 0; i < n; i++)
+            for (int f = 0; f < 4; f++)
+                for (int k = 0; k < mesh.face_size; k++) {
+                    const int *p = scheme == SUBDIV_LOOP ? triangles[f][k] : quads[f][k];
+                    faces.push_back(at(i, p[0], p[1]));
+                }
+        mesh.vertex_count = 1 + 6 * n;
+        mesh.positions = positions.data();
+        mesh.face_count = 4 * n;
+        mesh.face_vertices = faces.data();
+    }
+};
+
+static Vector vector_of(const float *p)
+{
+    return { { (double)p[0], (double)p[1], (double)p[2] } };
+}
+
+static double angle_between(const Vector &a, const Vector &b)
+{
+    const double d = a.p[0] * b.p[0] + a.p[1] * b.p[1] + a.p[2] * b.p[2];
+    return std::atan2(length(cross(a, b)), d) * 57.29577951308232;
+}
+
+struct Place {
+    Vector point, normal;
+};
+
+// How a surface does near vertex 0: the largest angle, in degrees, between the normals on both
+// sides of an edge there; the largest angle to the exact normal, and distance to the exact point.
+struct Quality {
+    double between = 0, normal = 0, point = 0;
+};
+
+template <class Evaluate> static Quality quality_of(const Fan &fan, const Evaluate &evaluate)
+{
+    Quality worst;
+    oracle *exact;
+    CHECK(oracle_open(&exact, &fan.mesh));
+    for (int i = 0; i < fan.valence; i++) {
+        const int f = fan.first_face(i), before = fan.first_face(i - 1);
+        for (float r = 0.75f; r > 1e-4f; r *= 0.75f)
+            worst.between = std::max(worst.between,
+                                     angle_between(evaluate(f, r, 0.0f).normal,
+                                                   evaluate(before, 0.0f, r).normal));
+    }
+    for (float u = 0.02f; u < 0.9f; u *= 1.7f) {
+        for (float v = 0.03f; u + v < 1; v *= 1.8f) {
+            const Place place = evaluate(0, u, v);
+            double out[3][3];
+            Vector e[3];
+            CHECK(oracle_evaluate(exact, 0, 0, (double)u, (double)v, ORACLE_DEPTH, out));
+            memcpy(e, out, sizeof out);
+            for (int k = 0; k < 3; k++) e[0].p[k] -= place.point.p[k];
+            worst.point = std::max(worst.point, length(e[0]));
+            worst.normal = std::max(worst.normal, angle_between(place.normal, cross(e[1], e[2])));
+        }
+    }
+    oracle_close(exact);
+    return worst;
+}
+
+static Quality their_quality(const Fan &fan, int level)
+{
+    const std::unique_ptr<Far::TopologyRefiner> refiner(make_refiner(fan.mesh, 0));
+    Bfr::SurfaceFactory::Options options;
+    options.SetApproxLevelSmooth(level);
+    const Bfr::RefinerSurfaceFactory<> factory(*refiner, options);
+    std::vector<Bfr::Surface<float>> surfaces((size_t)fan.mesh.face_count);
+    std::vector<std::vector<float>> points(surfaces.size());
+    const Bfr::Surface<float>::PointDescriptor dense(3);
+    for (int i = 0; i < fan.valence; i++) {
+        const size_t f = (size_t)fan.first_face(i);
+        CHECK(factory.InitVertexSurface((int)f, &surfaces[f]));
+        points[f].resize(3 * (size_t)surfaces[f].GetNumPatchPoints());
+        surfaces[f].PreparePatchPoints(fan.mesh.positions, dense, points[f].data(), dense);
+    }
+    return quality_of(fan, [&](int f, float u, float v) {
+        const float uv[2] = { u, v };
+        float p[3], du[3], dv[3];
+        surfaces[(size_t)f].Evaluate(uv, points[(size_t)f].data(), dense, p, du, dv);
+        return Place{ vector_of(p), cross(vector_of(du), vector_of(dv)) };
+    });
+}
+
+static Quality our_quality(const Fan &fan)
+{
+    subdiv_surface *surface = nullptr;
+    CHECK_EQUAL(subdiv_prepare(&surface, &fan.mesh, SUBDIV_EXACT, nullptr), SUBDIV_OK);
+    std::vector<char> scratch(subdiv_scratch_size(surface, 3));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, 3, fan.mesh.positions, 0, scratch.data(), nullptr),
+                SUBDIV_OK);
+    const Quality quality = quality_of(fan, [&](int f, float u, float v) {
+        const subdiv_location at = { f, 0, u, v };
+        subdiv_derivatives out = {};
+        float p[3], normal[3];
+        out.points = p;
+        out.normals = normal;
+        CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch.data(), 1, &at, &out, nullptr),
+                    SUBDIV_OK);
+        return Place{ vector_of(p), vector_of(normal) };
+    });
+    subdiv_surface_free(surface);
+    return quality;
+}
+
+static void print_quality(const Quality &q)
+{
+    printf("  %8.4f%9.4f%9.1e", q.between, q.normal, q.point);
+}
+
+static void compare_continuity()
+{
+    const int valences[] = { 3, 4, 5, 6, 7, 8, 10, 12, 16, 20, 30, 40, 50 };
+    const char *schemes[] = { "Catmull-Clark", "Loop" };
+    printf("Near an extraordinary vertex: the largest angle between the normals on both sides of\n"
+           "an edge, the largest to the exact normal, in degrees, and the largest distance to the\n"
+           "exact point, where edges of the cage are about 1 long\n"
+           "               valence  subdiv.h                    OpenSubdiv's Bfr, 1 level   "
+           "2 levels (default)\n");
+    for (int scheme = 0; scheme < 2; scheme++) {
+        for (const int valence : valences) {
+            const Fan fan((subdiv_scheme)scheme, valence);
+            const std::string name = std::string(schemes[scheme]) + ", valence "
+                                   + std::to_string(valence);
+            test_bad = 0;
+            test_context = name.c_str();
+            const Quality ours = our_quality(fan);
+            printf("%-14s%8d", schemes[scheme], valence);
+            print_quality(ours);
+            print_quality(their_quality(fan, 1));
+            print_quality(their_quality(fan, 2));
+            printf("\n");
+            CHECK_NEAR(ours.between, 0, angle_tolerance);
+            CHECK_NEAR(ours.normal, 0, angle_tolerance);
+            CHECK_NEAR(ours.point, 0, position_tolerance * largest_extent(fan.mesh));
+            (test_bad ? test_failed : test_passed)++;
+        }
+    }
 }
 
 // -------------------------------------------------------------------------------------- Cages
@@ -965,7 +1159,7 @@ static void ignore_warning(const char *)
 
 static int usage(void)
 {
-    printf("opensubdiv [--random N] [--seed S] [--levels a-b] "
+    printf("opensubdiv [--continuity] [--random N] [--seed S] [--levels a-b] "
            "[--scheme catmull-clark|loop|bilinear] [file.obj ...]\n"
            "opensubdiv --record DIR\n");
     return 2;
@@ -973,8 +1167,8 @@ static int usage(void)
 
 static int report(void)
 {
-    printf("%d cages compared: %lld vertices, %lld faces, %lld creases, %lld corners, %lld faces hidden, "
-           "largest error %.3g of the extent\n", test_passed + test_failed, totals.vertices,
+    printf("%lld cages compared: %lld vertices, %lld faces, %lld creases, %lld corners, %lld faces hidden, "
+           "largest error %.3g of the extent\n", totals.cages, totals.vertices,
            totals.faces, totals.creases, totals.corners, totals.hidden, totals.largest_error);
     printf("%lld limit points, largest error %.3g of the extent; %lld normals, %lld beside creases "
            "where OpenSubdiv's differ or are not to be had; %lld are 0\n", totals.limit_points,
@@ -991,12 +1185,17 @@ int main(int argc, char **argv)
     const char *schemes[] = { "catmull-clark", "loop", "bilinear" };
     int random_count = 0, scheme = -1, first = 0, last = 0;
     unsigned seed = 1;
+    bool continuity = false;
     std::vector<std::string> files;
     Far::SetWarningCallback(ignore_warning);
     for (int i = 1; i < argc; i++) {
         const std::string arg = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
         if (arg.compare(0, 2, "--") != 0) {
             files.push_back(arg);
+            continue;
+        }
+        if (arg == "--continuity") {
+            continuity = true;
             continue;
         }
         if (arg == "--record") {
@@ -1016,7 +1215,8 @@ int main(int argc, char **argv)
         }
         i++;
     }
-    if (random_count == 0 && files.empty()) return usage();
+    if (random_count == 0 && files.empty() && !continuity) return usage();
+    if (continuity) compare_continuity();
     for (int k = 0; k < random_count; k++)
         compare_random(seed + (unsigned)k, first ? first : 1, last ? last : 3);
     for (const std::string &path : files)

@@ -23,7 +23,7 @@ run sh tests/test_cli.sh
 echo '#include <opensubdiv/far/primvarRefiner.h>' > build/osd.cpp
 if ${CXX:-c++} -fsyntax-only build/osd.cpp 2> build/osd.log; then
     if ${MAKE:-make} -s build/opensubdiv; then
-        run build/opensubdiv --random "${CAGES:-1000}" tests/oracle/*.obj examples/cages/*.obj
+        run build/opensubdiv --continuity --random "${CAGES:-1000}" tests/oracle/*.obj examples/cages/*.obj
     else
         echo "opensubdiv: does not build     0 passed, 1 failed" | tee -a $log
     fi

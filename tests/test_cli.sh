@@ -130,8 +130,9 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
+              --tessellate \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
-              --stream --triangulate --info --time --help --version; do
+              --stream --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
 fine "--help is not an error" test ! -s err
@@ -366,6 +367,42 @@ for level in 0 1 2; do
 done
 ends 2 --limit --stream limit.obj form.obj
 says "so not with --limit"
+
+# ------------------------------------------------------------------------------------- tessellate
+
+# A cube in quads: rate 4 is the limit of level 2; 3 is what no level is.
+ends 0 --limit -l 2 limit.obj form.obj
+ends 0 --tessellate 4 limit.obj tiles.obj
+fine "--tessellate 4 has the faces of two levels" \
+    test "$(grep '^f' tiles.obj | cksum)" = "$(grep '^f' form.obj | cksum)"
+ends 0 --tessellate 3 limit.obj tiles.obj
+counts tiles.obj 56 54
+fine "--tessellate writes normals" test "$(grep -c '^vn' tiles.obj)" = 56
+ends 0 --tessellate 3 -j 3 limit.obj threads.obj
+same threads.obj tiles.obj
+ends 2 --tessellate 0 limit.obj form.obj
+says "--tessellate needs a whole number"
+ends 2 --tessellate 3 -l 2 limit.obj form.obj
+says "--tessellate has no levels"
+ends 2 --tessellate 3 --stream limit.obj form.obj
+says "is no stream"
+
+# --------------------------------------------------------------------------------------- explain
+
+ends 0 --explain 0 limit.obj
+fine "--explain names the rule" grep -q '^Vertex 0 is interior, of valence 3, and smooth\.$' out
+fine "--explain has fractions" grep -q '^    5/12    vertex 0$' out
+ends 0 --crease-angle 30 --explain 8 limit.obj
+fine "--explain sees creases" grep -q 'is a crease, sharp forever\.$' out
+ends 0 -s loop --triangulate --explain 25 limit.obj
+ends 1 --explain 26 limit.obj
+says "8 to 19 of edges, 20 to 25 of faces"
+ends 2 --explain 0 limit.obj form.obj
+says "standard output alone"
+awk 'BEGIN { n = 3000; for (i = 0; i < n; i++) print "v", i, i % 7, 0; printf "f"
+             for (i = 1; i <= n; i++) printf " %d", i; print "" }' > huge.obj
+ends 0 --explain 6000 huge.obj
+fine "--explain of a large face is whole" grep -q '^\[CC78\]' out
 
 # --------------------------------------------------------------------------------------- threads
 

@@ -17,7 +17,7 @@ static void  heap_free(void *pointer, void *user);
 
 // ------------------------------------------------------------------------- the allocator's books
 
-enum { HEAP_BLOCKS = 256 };
+enum { HEAP_BLOCKS = 1024 };
 
 typedef struct heap {
     int    calls, fail_at;            // call number fail_at fails; 0: none
@@ -225,6 +225,115 @@ static subdiv_result call_limit_zero(const subdiv_mesh *cage, const subdiv_optio
     return limit_as(cage, SUBDIV_CATMULL_CLARK, 0, opt);
 }
 
+static subdiv_result stencils_as(const subdiv_mesh *cage, int limit, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_options with = *opt;
+    subdiv_stencils stencils, zero;
+    with.limit = limit;
+    subdiv_result result = subdiv_prepare(&surface, cage, 2, &with);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_refined_stencils(&stencils, surface, 0, 3000, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_stencils(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return stencils_as(cage, 0, opt);
+}
+
+static subdiv_result call_limit_stencils(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return stencils_as(cage, 1, opt);
+}
+
+// On a face of the strip and, in a nest, at its pentagon.
+static subdiv_result call_stencils_at(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_surface *surface;
+    subdiv_stencils stencils, zero;
+    subdiv_location at[2] = { { 40, 0, 0.25f, 0.5f }, { cage->face_count - 2, 3, 0.9999f, 1 } };
+    subdiv_result result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (result) return result;
+    memset(&zero, 0, sizeof zero);
+    memset(&stencils, 0x55, sizeof stencils);
+    result = subdiv_stencils_at(&stencils, surface, 2, at, opt);
+    if (result) CHECK(memcmp(&stencils, &zero, sizeof zero) == 0);
+    subdiv_stencils_free(&stencils);
+    subdiv_surface_free(surface);
+    return result;
+}
+
+static subdiv_result call_explain(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    char text[4096] = "";
+    subdiv_mesh other = *cage;
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    other.scheme = SUBDIV_LOOP;
+    other.creasing = SUBDIV_CREASING_CHAIKIN;
+    subdiv_result result = subdiv_explain(text, sizeof text, &other, 12, &triangulate);
+    CHECK((text[0] != 0) == (result == SUBDIV_OK));
+    return result;
+}
+
+static int rate_of_edge(void *user, int edge, const float *a, const float *middle, const float *b)
+{
+    (void)user;
+    return 1 + edge % 3 + (a[0] < middle[0]) + (middle[0] < b[0]);
+}
+
+// The first faces of the cage, with UVs, colours and statements.
+static subdiv_result tessellate_as(const subdiv_mesh *cage, subdiv_scheme scheme,
+                                   const subdiv_options *opt)
+{
+    subdiv_mesh mesh, other = *cage;
+    subdiv_tessellation how = {0};
+    subdiv_options triangulate = *opt;
+    triangulate.triangulate = 1;
+    other.scheme = scheme;
+    other.face_count = 40;
+    other.crease_count = other.corner_count = other.statement_count = 5;
+    other.hole_count = 1;
+    how.edge_rate = rate_of_edge;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_tessellate(&mesh, &other, &how, &triangulate));
+}
+
+static subdiv_result call_tessellate(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return tessellate_as(cage, SUBDIV_CATMULL_CLARK, opt);
+}
+
+// Evaluation at a vertex with so many faces takes memory of its own.
+static subdiv_result call_tessellate_fan(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    enum { FACES = 90 };
+    static int triangles[3 * FACES];
+    subdiv_mesh mesh, fan = {0};
+    for (int i = 0; i < FACES; i++) {
+        triangles[3 * i + 1] = 1 + i;
+        triangles[3 * i + 2] = 1 + (i + 1) % FACES;
+    }
+    fan.vertex_count = 1 + FACES;
+    fan.positions = cage->positions;
+    fan.face_count = FACES;
+    fan.face_size = 3;
+    fan.face_vertices = triangles;
+    memset(&mesh, 0x55, sizeof mesh);
+    return keep_nothing(&mesh, subdiv_tessellate(&mesh, &fan, NULL, opt));
+}
+
+static subdiv_result call_tessellate_loop(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    return tessellate_as(cage, SUBDIV_LOOP, opt);
+}
+
 // For a copy of the cage; a failure has to leave it as it was.
 static subdiv_result call_normals(const subdiv_mesh *cage, const subdiv_options *opt)
 {
@@ -419,6 +528,13 @@ static void test_limit(void)
     CHECK_EQUAL(check_call(call_normals), 2);
 }
 
+static void test_tessellate(void)
+{
+    CHECK(check_call(call_tessellate) > 0);
+    CHECK(check_call(call_tessellate_loop) > 0);
+    CHECK(check_call(call_tessellate_fan) > 0);
+}
+
 static void test_prepare(void)
 {
     CHECK(check_call(call_prepare) > 1);
@@ -427,6 +543,14 @@ static void test_prepare(void)
 static void test_exact(void)
 {
     CHECK(check_call(call_exact) > 2);
+}
+
+static void test_stencils(void)
+{
+    CHECK(check_call(call_stencils) > 1);
+    CHECK(check_call(call_limit_stencils) > 1);
+    CHECK(check_call(call_stencils_at) > 1);
+    CHECK(check_call(call_explain) > 1);
 }
 
 static void test_inspect(void)
@@ -478,8 +602,10 @@ int main(void)
     RUN(test_load);
     RUN(test_refine);
     RUN(test_limit);
+    RUN(test_tessellate);
     RUN(test_prepare);
     RUN(test_exact);
+    RUN(test_stencils);
     RUN(test_inspect);
     RUN(test_creases);
     RUN(test_check);

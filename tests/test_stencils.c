@@ -1,0 +1,641 @@
+// Stencils: each weight beside what evaluation makes of unit vectors, sums of the cage's positions
+// beside refinement, the masks of the papers as fractions; and what explain says of every rule.
+//
+//     cc -I. tests/test_stencils.c -o build/test_stencils -lm && build/test_stencils
+#include <stdlib.h>
+
+#define SUBDIV_IMPLEMENTATION
+#include "subdiv.h"
+#include "cages.h"
+#include "random_cage.h"
+#include "test.h"
+
+static char where[96];
+
+static void say_where(const char *what, unsigned seed, int level)
+{
+    snprintf(where, sizeof where, "%s, seed %u, level %d", what, seed, level);
+    test_context = where;
+}
+
+// In order, and as many weights as there should be.
+static void check_shape(const subdiv_stencils *s, int points, int inputs)
+{
+    CHECK_EQUAL(s->count, points);
+    CHECK_EQUAL(s->offsets[0], 0);
+    for (int i = 0; i < s->count; i++) {
+        CHECK(s->offsets[i] <= s->offsets[i + 1]);
+        for (size_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
+            CHECK(s->indices[k] >= 0 && s->indices[k] < inputs);
+            CHECK(k == s->offsets[i] || s->indices[k - 1] < s->indices[k]);
+        }
+    }
+}
+
+static void check_sums(const subdiv_stencils *s)
+{
+    for (int i = 0; i < s->count; i++) {
+        double sum = 0, du = 0, dv = 0, largest = 1;
+        for (size_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
+            sum += (double)s->weights[k];
+            if (!s->du) continue;
+            du += (double)s->du[k];
+            dv += (double)s->dv[k];
+            largest = fmax(largest, fabs((double)s->du[k]));
+            largest = fmax(largest, fabs((double)s->dv[k]));
+        }
+        CHECK_NEAR(sum, 1, 1e-6);
+        CHECK_NEAR(du, 0, 1e-6 * largest);
+        CHECK_NEAR(dv, 0, 1e-6 * largest);
+    }
+}
+
+// Each stencil written out, [inputs] floats a point, is what evaluation makes of unit vectors.
+static void check_weights(const subdiv_stencils *s, const float *weights, const float *expected,
+                          int inputs, double tolerance)
+{
+    float *row = malloc(sizeof(float) * (size_t)inputs);
+    for (int i = 0; i < s->count && row; i++) {
+        for (int v = 0; v < inputs; v++) row[v] = 0;
+        for (size_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) row[s->indices[k]] = weights[k];
+        for (int v = 0; v < inputs; v++)
+            CHECK_NEAR(row[v], expected[(size_t)i * (size_t)inputs + (size_t)v], tolerance);
+    }
+    free(row);
+}
+
+static float *units(int count)
+{
+    float *in = calloc((size_t)count * (size_t)count, sizeof(float));
+    for (int v = 0; v < count && in; v++) in[(size_t)v * (size_t)(count + 1)] = 1;
+    return in;
+}
+
+static void check_surface(const subdiv_surface *surface, int inputs)
+{
+    int points = subdiv_surface_vertex_count(surface);
+    float *in = units(inputs), *out = malloc(sizeof(float) * (size_t)points * (size_t)inputs);
+    subdiv_stencils stencils;
+    CHECK_EQUAL(subdiv_evaluate(surface, inputs, in, 0, out, 0, NULL, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refined_stencils(&stencils, surface, 0, points, NULL), SUBDIV_OK);
+    check_shape(&stencils, points, inputs);
+    check_sums(&stencils);
+    check_weights(&stencils, stencils.weights, out, inputs, 1e-6);
+    subdiv_stencils_free(&stencils);
+    CHECK(stencils.memory == NULL && stencils.offsets == NULL);
+    free(in), free(out);
+}
+
+static void test_random_cages(void)
+{
+    for (unsigned seed = 0; seed < 60; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        for (int level = 0; level <= 3 - (c->mesh.vertex_count > 60); level++) {
+            subdiv_surface *surface;
+            say_where("random", seed, level);
+            CHECK_EQUAL(subdiv_prepare(&surface, &c->mesh, level, NULL), SUBDIV_OK);
+            check_surface(surface, c->mesh.vertex_count);
+            subdiv_surface_free(surface);
+        }
+        random_cage_free(c);
+    }
+}
+
+static void test_face_varying(void)
+{
+    for (unsigned seed = 0; seed < 60; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        for (int level = 0; level <= 2 && c->mesh.uv_count > 0; level++) {
+            subdiv_surface *surface;
+            say_where("face-varying", seed, level);
+            CHECK_EQUAL(subdiv_prepare_face_varying(&surface, &c->mesh, c->mesh.uv_count,
+                                                    c->mesh.face_uvs, c->mesh.uv_rule, level,
+                                                    NULL), SUBDIV_OK);
+            check_surface(surface, c->mesh.uv_count);
+            subdiv_surface_free(surface);
+        }
+        random_cage_free(c);
+    }
+}
+
+// Positions and tangents of three unit vectors at a time, as x, y and z.
+static void check_limit(const subdiv_surface *surface, int inputs)
+{
+    int points = subdiv_surface_vertex_count(surface);
+    subdiv_stencils stencils;
+    float *in = calloc(3 * (size_t)inputs, sizeof(float));
+    size_t size = sizeof(float) * (size_t)points;
+    float *p = malloc(3 * size), *t = malloc(6 * size), *w[3];
+    size *= (size_t)inputs;
+    for (int k = 0; k < 3; k++) w[k] = malloc(size);
+    subdiv_limit out = { p, NULL, t, 0 };
+    for (int v = 0; v < inputs; v += 3) {
+        for (int k = 0; k < 3 && v + k < inputs; k++) in[3 * (v + k) + k] = 1;
+        CHECK_EQUAL(subdiv_evaluate_limit(surface, in, 0, &out, NULL, NULL), SUBDIV_OK);
+        for (int k = 0; k < 3 && v + k < inputs; k++) in[3 * (v + k) + k] = 0;
+        for (int i = 0; i < points; i++) {
+            for (int k = 0; k < 3 && v + k < inputs; k++) {
+                size_t at = (size_t)i * (size_t)inputs + (size_t)(v + k);
+                w[0][at] = p[3 * i + k];
+                w[1][at] = t[6 * i + k];
+                w[2][at] = t[6 * i + 3 + k];
+            }
+        }
+    }
+    CHECK_EQUAL(subdiv_refined_stencils(&stencils, surface, 0, points, NULL), SUBDIV_OK);
+    check_shape(&stencils, points, inputs);
+    check_sums(&stencils);
+    check_weights(&stencils, stencils.weights, w[0], inputs, 1e-6);
+    check_weights(&stencils, stencils.du, w[1], inputs, 1e-5);
+    check_weights(&stencils, stencils.dv, w[2], inputs, 1e-5);
+    subdiv_stencils_free(&stencils);
+    for (int k = 0; k < 3; k++) free(w[k]);
+    free(in), free(p), free(t);
+}
+
+static void test_limits(void)
+{
+    subdiv_options opt = {0};
+    opt.limit = 1;
+    for (unsigned seed = 0; seed < 40; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        for (int level = 0; level <= 2 && c->mesh.vertex_count < 90; level++) {
+            subdiv_surface *surface;
+            say_where("limit", seed, level);
+            CHECK_EQUAL(subdiv_prepare(&surface, &c->mesh, level, &opt), SUBDIV_OK);
+            check_limit(surface, c->mesh.vertex_count);
+            subdiv_surface_free(surface);
+        }
+        random_cage_free(c);
+    }
+}
+
+// Parts of the result have the same stencils as the whole.
+static void test_parts(void)
+{
+    for (int limit = 0; limit < 2; limit++) {
+        random_cage *c = random_cage_new(3, RANDOM_ALL);
+        subdiv_options opt = {0};
+        subdiv_stencils all, part;
+        subdiv_surface *surface;
+        opt.limit = limit;
+        CHECK_EQUAL(subdiv_prepare(&surface, &c->mesh, 3, &opt), SUBDIV_OK);
+        int points = subdiv_surface_vertex_count(surface);
+        CHECK_EQUAL(subdiv_refined_stencils(&all, surface, 0, points, &opt), SUBDIV_OK);
+        for (int first = 0; first < points; first += 1 + points / 23) {
+            int count = first % 7 < points - first ? first % 7 : points - first;
+            CHECK_EQUAL(subdiv_refined_stencils(&part, surface, first, count, &opt), SUBDIV_OK);
+            CHECK_EQUAL(part.count, count);
+            for (int i = 0; i < count; i++) {
+                size_t from = part.offsets[i], to = part.offsets[i + 1];
+                size_t start = all.offsets[first + i];
+                CHECK_EQUAL(to - from, all.offsets[first + i + 1] - start);
+                for (size_t k = 0; k < to - from; k++) {
+                    CHECK_EQUAL(part.indices[from + k], all.indices[start + k]);
+                    CHECK_NEAR(part.weights[from + k], all.weights[start + k], 1e-7);
+                }
+            }
+            subdiv_stencils_free(&part);
+        }
+        subdiv_stencils_free(&all);
+        subdiv_surface_free(surface);
+        random_cage_free(c);
+    }
+}
+
+// ------------------------------------------------------------------------------------- anywhere
+
+// Places on each face, or on each quad of an n-gon: its vertex, its middle, near its vertices and
+// edges, on its edges.
+static int places_of(const subdiv_mesh *mesh, subdiv_location *at, int most)
+{
+    static const float places[9][2] = { {0, 0}, {0.5f, 0.25f}, {1e-5f, 3e-6f}, {0.875f, 0.1f},
+                                        {0.3f, 0}, {0, 1}, {0.04f, 0.03f}, {0.26f, 0.73f}, {1, 0} };
+    int count = 0;
+    for (int f = 0; f < mesh->face_count; f++) {
+        int size = mesh->face_size ? mesh->face_size : mesh->face_sizes[f];
+        int corners = mesh->scheme == SUBDIV_LOOP || size == 4 ? 1 : size;
+        for (int i = 0; i < 9 && count < most; i++) {
+            subdiv_location place = { f, (f + i) % corners, places[i][0], places[i][1] };
+            at[count++] = place;
+        }
+    }
+    return count;
+}
+
+// Each location's stencils beside evaluation of unit vectors. Derivatives have the size of their
+// weights as the measure.
+static void check_locations(const subdiv_surface *surface, const subdiv_mesh *mesh, int inputs)
+{
+    static subdiv_location at[400];
+    int count = places_of(mesh, at, 400);
+    size_t size = sizeof(float) * (size_t)count * (size_t)inputs;
+    float *in = units(inputs), *out[3];
+    void *scratch = malloc(subdiv_scratch_size(surface, inputs));
+    subdiv_stencils s;
+    for (int k = 0; k < 3; k++) out[k] = malloc(size);
+    subdiv_derivatives values = { out[0], out[1], out[2], NULL, NULL, NULL, NULL, 0 };
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, inputs, in, 0, scratch, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_at(surface, inputs, scratch, count, at, &values, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, count, at, NULL), SUBDIV_OK);
+    check_shape(&s, count, inputs);
+    for (int k = 0; k < 3; k++) {
+        const float *weights = k == 0 ? s.weights : k == 1 ? s.du : s.dv;
+        for (int i = 0; i < s.count; i++) {
+            const float *expected = out[k] + (size_t)i * (size_t)inputs;
+            double sum = 0, wanted = 0, largest = 1;
+            size_t j = s.offsets[i];
+            for (int v = 0; v < inputs; v++) {
+                wanted += (double)expected[v];
+                largest = fmax(largest, fabs((double)expected[v]));
+            }
+            for (int v = 0; v < inputs; v++) {
+                int there = j < s.offsets[i + 1] && s.indices[j] == v;
+                double weight = there ? (double)weights[j++] : 0;
+                sum += weight;
+                CHECK_NEAR(weight, expected[v], (k ? 5e-6 : 1e-6) * largest);
+            }
+            CHECK_NEAR(sum, k ? 0 : floor(wanted + 0.5), 1e-6 * largest);
+        }
+    }
+    subdiv_stencils_free(&s);
+    for (int k = 0; k < 3; k++) free(out[k]);
+    free(in), free(scratch);
+}
+
+static void test_anywhere(void)
+{
+    for (unsigned seed = 0; seed < 50; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        const subdiv_mesh *mesh = &c->mesh;
+        subdiv_surface *surface;
+        say_where("anywhere", seed, -1);
+        CHECK_EQUAL(subdiv_prepare(&surface, mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+        check_locations(surface, mesh, mesh->vertex_count);
+        subdiv_surface_free(surface);
+        if (mesh->uv_count > 0) {
+            CHECK_EQUAL(subdiv_prepare_face_varying(&surface, mesh, mesh->uv_count,
+                                                    mesh->face_uvs, mesh->uv_rule, SUBDIV_EXACT,
+                                                    NULL), SUBDIV_OK);
+            check_locations(surface, mesh, mesh->uv_count);
+            subdiv_surface_free(surface);
+        }
+        random_cage_free(c);
+    }
+}
+
+// ------------------------------------------------------------------------------------ the papers
+
+// So many weights p/q of a point and no others; and of its tangents' sizes.
+typedef struct share { int count; double p, q; } share;
+
+static void check_shares(const subdiv_stencils *s, const float *weights, int i,
+                         const share *shares, int count)
+{
+    int total = 0, found = 0;
+    for (int j = 0; j < count; j++) {
+        int same = 0;
+        for (size_t k = s->offsets[i]; k < s->offsets[i + 1]; k++)
+            same += fabs(fabs((double)weights[k]) - shares[j].p / shares[j].q) < 1e-7;
+        CHECK_EQUAL(same, shares[j].count);
+        total += shares[j].count;
+        found += same;
+    }
+    CHECK_EQUAL(found, total);
+    CHECK_EQUAL(s->offsets[i + 1] - s->offsets[i], total);
+}
+
+#define SHARES(s, w, i, ...) do {                                                       \
+        const share list[] = { __VA_ARGS__ };                                           \
+        check_shares(s, w, i, list, (int)(sizeof list / sizeof *list));                 \
+    } while (0)
+
+static subdiv_stencils stencils_of(const subdiv_mesh *mesh, int levels, int limit)
+{
+    subdiv_stencils s;
+    subdiv_surface *surface;
+    subdiv_options opt = {0};
+    opt.limit = limit;
+    CHECK_EQUAL(subdiv_prepare(&surface, mesh, levels, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refined_stencils(&s, surface, 0, subdiv_surface_vertex_count(surface), &opt),
+                SUBDIV_OK);
+    subdiv_surface_free(surface);
+    return s;
+}
+
+static void test_papers(void)
+{
+    static test_cage c;
+    build_torus(&c, SUBDIV_CATMULL_CLARK, 6, 5);
+    subdiv_stencils s = stencils_of(&c.mesh, 1, 0);
+    SHARES(&s, s.weights, 0, { 1, 9, 16 }, { 4, 3, 32 }, { 4, 1, 64 });
+    SHARES(&s, s.weights, 30, { 2, 3, 8 }, { 4, 1, 16 });
+    SHARES(&s, s.weights, 90, { 4, 1, 4 });
+    subdiv_stencils_free(&s);
+    for (int level = 0; level <= 2; level++) {
+        s = stencils_of(&c.mesh, level, 1);
+        if (level < 2) SHARES(&s, s.weights, 0, { 1, 4, 9 }, { 4, 1, 9 }, { 4, 1, 36 });
+        for (int v = 0; v < 30; v++) CHECK_EQUAL(s.offsets[v + 1] - s.offsets[v], 9);
+        subdiv_stencils_free(&s);
+    }
+    s = stencils_of(&c.mesh, 1, 1);
+    SHARES(&s, s.du, 0, { 2, 1, 3 }, { 4, 1, 12 }, { 3, 0, 1 });
+    subdiv_stencils_free(&s);
+
+    build_torus(&c, SUBDIV_LOOP, 6, 6);
+    s = stencils_of(&c.mesh, 1, 0);
+    SHARES(&s, s.weights, 0, { 1, 5, 8 }, { 6, 1, 16 });
+    SHARES(&s, s.weights, 40, { 2, 3, 8 }, { 2, 1, 8 });
+    subdiv_stencils_free(&s);
+    s = stencils_of(&c.mesh, 1, 1);
+    SHARES(&s, s.weights, 0, { 1, 1, 2 }, { 6, 1, 12 });
+    subdiv_stencils_free(&s);
+
+    build_prism(&c, 4);
+    cage_crease(&c, 0, 1, 10), cage_crease(&c, 1, 2, 10), cage_corner(&c, 7, 10);
+    s = stencils_of(&c.mesh, 1, 0);
+    SHARES(&s, s.weights, 1, { 1, 3, 4 }, { 2, 1, 8 });
+    SHARES(&s, s.weights, 4, { 1, 5, 12 }, { 3, 1, 6 }, { 3, 1, 36 });
+    SHARES(&s, s.weights, 7, { 1, 1, 1 });
+    subdiv_stencils_free(&s);
+    s = stencils_of(&c.mesh, 1, 1);
+    SHARES(&s, s.weights, 1, { 1, 2, 3 }, { 2, 1, 6 });
+    subdiv_stencils_free(&s);
+}
+
+// --------------------------------------------------------------------------------------- explain
+
+static char text[100000];
+
+static void check_says(const char *words)
+{
+    if (!strstr(text, words)) TEST_REPORT("\"%s\" is missing in\n%s", words, text);
+}
+
+static void explain(const subdiv_mesh *mesh, int point)
+{
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, mesh, point, NULL), SUBDIV_OK);
+}
+
+// What the table of the text makes of the cage's positions.
+static void sum_of_table(const float *positions, double *sum)
+{
+    double total = 0;
+    sum[0] = sum[1] = sum[2] = 0;
+    for (const char *line = text; *line; line = strchr(line, '\n') + 1) {
+        char *end;
+        const char *word = strstr(line, "  vert");
+        if (strncmp(line, "    ", 4) || !strchr("-0123456789", line[4])) continue;
+        if (!word || word > strchr(line, '\n')) continue;
+        word += 2;
+        double weight = strtod(line, &end);
+        if (*end == '/') weight /= strtod(end + 1, NULL);
+        for (const char *p = word + strcspn(word, " \n"); ;) {
+            long v = strtol(p, &end, 10);           // also from lines that go on
+            if (end == p) break;
+            if (memchr(p, '\n', (size_t)(end - p)) && strncmp(strchr(p, '\n') + 1, "        ", 8))
+                break;
+            total += weight;
+            for (int k = 0; k < 3; k++) sum[k] += weight * (double)positions[3 * v + k];
+            p = end;
+        }
+    }
+    CHECK_NEAR(total, 1, 1e-6);
+}
+
+static void check_lines(void)
+{
+    for (const char *line = text; *line; ) {
+        const char *end = strchr(line, '\n');
+        CHECK(end != NULL);
+        if (!end) return;
+        if (end - line > 80) TEST_REPORT("%.*s", (int)(end - line), line);
+        CHECK(end == line || end[-1] != ' ');
+        line = end + 1;
+    }
+}
+
+// The words begin with the point, and end with a full stop before each formula, mask and table.
+static void check_words(int point)
+{
+    char start[64];
+    snprintf(start, sizeof start, "Point %d of the mesh refined once is the ", point);
+    CHECK(strncmp(text, start, strlen(start)) == 0);
+    const char *formula = strstr(text, "\n\n    "), *mask = strstr(text, "\n\nIts mask");
+    CHECK(formula && (formula[-1] == '.' || formula[-1] == ':'));
+    CHECK(mask && mask > formula);
+    check_lines();
+}
+
+static void test_explained_masks(void)
+{
+    for (unsigned seed = 0; seed < 80; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_options opt = {0};
+        subdiv_mesh fine;
+        opt.linear = seed % 9 == 8;
+        CHECK_EQUAL(subdiv_refine(&fine, &c->mesh, 1, &opt), SUBDIV_OK);
+        for (int i = 0; i < fine.vertex_count; i += 1 + fine.vertex_count / 200) {
+            double sum[3];
+            say_where("explain", seed, i);
+            CHECK_EQUAL(subdiv_explain(text, sizeof text, &c->mesh, i, &opt), SUBDIV_OK);
+            check_words(i);
+            sum_of_table(c->positions, sum);
+            for (int k = 0; k < 3; k++) CHECK_NEAR(sum[k], fine.positions[3 * i + k], 2e-6);
+        }
+        subdiv_mesh_free(&fine);
+        random_cage_free(c);
+    }
+}
+
+static void test_explained_catmull_clark(void)
+{
+    static test_cage c;
+    build_torus(&c, SUBDIV_CATMULL_CLARK, 6, 5);
+    explain(&c.mesh, 7);
+    check_says("is the vertex point of vertex 7.\nVertex 7 is interior, of valence 4, and smooth.");
+    check_says("\n   1/64 ----- 3/32 ----- 1/64\n     |          |          |\n"
+               "   3/32 ----- 9/16 ----- 3/32\n");
+    check_says("\n    9/16    vertex 7\n    3/32    vertices 1 6 8 13\n");
+    check_says("[CC78] Catmull, Clark: ");
+    explain(&c.mesh, 30);
+    check_says("Edge 0-1 is smooth, between the faces 0 and 24.");
+    check_says("(a + b + f + g) / 4  [CC78]");
+    check_says("    3/8 --- E ---- 3/8\n");
+    explain(&c.mesh, 90);
+    check_says("Face 0 has 4 vertices; its face point is their mean.");
+    check_says("\n    1/4     vertices 0 1 6 7\n");
+
+    build_prism(&c, 4);
+    cage_crease(&c, 0, 1, 0.25), cage_crease(&c, 1, 2, 0.25);
+    cage_crease(&c, 2, 3, 2.5), cage_corner(&c, 7, 3);
+    explain(&c.mesh, 1);
+    check_says("Vertex 1 is on a crease: it moves along the curve of the edges\n"
+               "1-2 and 1-0, a cubic B-spline.\nOn the next level it is smooth.");
+    check_says("V = 1/4 C + 3/4 S  [DKT98]\n    C = (a + 6 v + b) / 8  [HDD94]\n"
+               "    S = (n-2)/n v + ");
+    check_says("\n    1/2     vertex 1\n    5/32    vertices 0 2\n    1/8     vertex ");
+    explain(&c.mesh, 3);
+    check_says("Vertex 3 is a dart: the crease 3-2 ends there.\nIt moves as if it were smooth.");
+    check_says("\n    5/12    vertex 3\n");
+    explain(&c.mesh, 7);
+    check_says("Vertex 7 is a corner, of sharpness 3.\n");
+    explain(&c.mesh, 8);
+    check_says("Edge 0-1 is a crease, of sharpness 0.25.\nIt ends before the next level, and so ");
+    check_says("E = 1/4 C + 3/4 S  [DKT98]\n    C = (a + b) / 2\n");
+    explain(&c.mesh, 10);
+    check_says("Edge 2-3 is a crease, of sharpness 2.5.\n");
+    check_says("\n    1/2 --- E ---- 1/2\n");
+}
+
+static void test_explained_shapes(void)
+{
+    static test_cage c;
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 2, 2);
+    c.mesh.boundary = SUBDIV_BOUNDARY_EDGE_AND_CORNER;
+    explain(&c.mesh, 0);
+    check_says("Vertex 0 is a corner: it has one face, and the rule is \"edge and corner\".\n");
+    explain(&c.mesh, 1);
+    check_says("Vertex 1 is on the boundary: ");
+    check_says("\n    1/8 ------ 3/4 ------ 1/8\n");
+    explain(&c.mesh, 9);
+    check_says("is on the boundary, which is a crease.");
+    c.mesh.scheme = SUBDIV_BILINEAR;
+    explain(&c.mesh, 4);
+    check_says("Refinement is linear: vertex 4 stays where it is.\n\n    V = v\n\nIts mask");
+
+    build_fins(&c, SUBDIV_CATMULL_CLARK, 3, 2);
+    explain(&c.mesh, 1);
+    check_says("Vertex 1 is on a crease");
+    explain(&c.mesh, 0);
+    check_says("Vertex 0 is a corner: the surface is non-manifold there.");
+    explain(&c.mesh, c.mesh.vertex_count);
+    check_says("Edge 0-1 is non-manifold, and so a crease.");
+
+    build_fan(&c, SUBDIV_CATMULL_CLARK, 5, 1);
+    for (int i = 1; i <= 3; i++) cage_crease(&c, 0, i, 10);
+    cage_vertex(&c, 9, 9, 9);
+    explain(&c.mesh, 0);
+    check_says("Vertex 0 is a corner: 3 sharp edges meet there.");
+    explain(&c.mesh, c.mesh.vertex_count - 1);
+    check_says("has no faces: it stays where it is.");
+    explain(&c.mesh, c.mesh.vertex_count);
+    check_says("is a crease, sharp forever.");
+
+    build_bipyramid(&c, SUBDIV_CATMULL_CLARK, 5);
+    c.mesh.triangles = SUBDIV_TRIANGLES_SMOOTH;
+    explain(&c.mesh, 7);
+    check_says("E = 3/100 (a + b) + 47/100 (f + g)  [OSD]");
+}
+
+static void test_explained_loop(void)
+{
+    static test_cage c;
+    build_torus(&c, SUBDIV_LOOP, 6, 6);
+    explain(&c.mesh, 0);
+    check_says("b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = 1/16 for n = 6\n");
+    check_says("   1/16 ------ 5/8 ----- 1/16\n");
+    explain(&c.mesh, 36);
+    check_says("E = (3 a + 3 b + c + d) / 8  [Loop87]");
+    check_says("\n    3/8     vertices 0 1\n    1/8     vertices ");
+    build_tetrahedron(&c, SUBDIV_LOOP);
+    explain(&c.mesh, 0);
+    check_says("= 3/16 for n = 3\n");
+    check_says("\n    7/16    vertex 0\n    3/16    vertices 1 2 3\n");
+    for (int n = 5; n <= 24; n++) {                 // most of these weights are no fractions
+        build_fan(&c, SUBDIV_LOOP, n, 1);
+        explain(&c.mesh, 0);
+        const char *table = strstr(text, "Its mask");
+        CHECK(table && (strchr(table, '/') != NULL) == (n == 6));
+    }
+}
+
+// ---------------------------------------------------------------------------------------- errors
+
+static int is_zero(const subdiv_stencils *s)
+{
+    subdiv_stencils zero;
+    memset(&zero, 0, sizeof zero);
+    return memcmp(s, &zero, sizeof zero) == 0;
+}
+
+static void test_errors(void)
+{
+    static test_cage c;
+    subdiv_surface *surface;
+    subdiv_stencils s;
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    opt.error = &error;
+    build_prism(&c, 4);
+    CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, 1, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refined_stencils(NULL, surface, 0, 1, &opt), SUBDIV_ERROR_ARGUMENT);
+    memset(&s, 0x55, sizeof s);
+    CHECK_EQUAL(subdiv_refined_stencils(&s, NULL, 0, 1, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK(is_zero(&s));
+    const int bad[4][2] = { { -1, 1 }, { 0, 27 }, { 26, 1 }, { 3, -1 } };
+    for (int i = 0; i < 4; i++) {
+        memset(&s, 0x55, sizeof s);
+        CHECK_EQUAL(subdiv_refined_stencils(&s, surface, bad[i][0], bad[i][1], &opt),
+                    SUBDIV_ERROR_INDEX);
+        CHECK_TEXT(error.message, "the result has 26 points");
+        CHECK(is_zero(&s));
+    }
+    subdiv_location at = { 0, 0, 0.5f, 0.5f };
+    memset(&s, 0x55, sizeof s);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK(strstr(error.message, "SUBDIV_EXACT") != NULL);
+    CHECK(is_zero(&s));
+    CHECK_EQUAL(subdiv_refined_stencils(&s, surface, 26, 0, &opt), SUBDIV_OK);
+    CHECK_EQUAL(s.count, 0);
+    subdiv_stencils_free(&s);
+    subdiv_stencils_free(&s);
+    subdiv_stencils_free(NULL);
+    subdiv_surface_free(surface);
+
+    CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refined_stencils(&s, surface, 0, 1, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(NULL, surface, 1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(&s, NULL, 1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, NULL, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, -1, &at, &opt), SUBDIV_ERROR_ARGUMENT);
+    at.face = 6;
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, &at, &opt), SUBDIV_ERROR_INDEX);
+    CHECK(is_zero(&s));
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 0, NULL, &opt), SUBDIV_OK);
+    CHECK_EQUAL(s.count, 0);
+    subdiv_stencils_free(&s);
+    subdiv_surface_free(surface);
+
+    CHECK_EQUAL(subdiv_explain(NULL, 9, &c.mesh, 0, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_explain(text, 0, &c.mesh, 0, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, NULL, 0, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, -1, &opt), SUBDIV_ERROR_INDEX);
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 26, &opt), SUBDIV_ERROR_INDEX);
+    CHECK_TEXT(text, "");
+    CHECK_TEXT(error.message, "refined once, the mesh has no point 26, but 0 to 7 of vertices, "
+                              "8 to 19 of edges, 20 to 25 of faces");
+    CHECK_EQUAL(subdiv_explain(text, 100, &c.mesh, 0, &opt), SUBDIV_ERROR_TOO_LARGE);
+    CHECK_TEXT(text, "");
+    c.mesh.scheme = SUBDIV_LOOP;
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 0, &opt), SUBDIV_ERROR_NOT_TRIANGLE);
+    opt.triangulate = 1;
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 26, &opt), SUBDIV_ERROR_INDEX);
+    CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 25, &opt), SUBDIV_OK);
+}
+
+int main(void)
+{
+    RUN(test_random_cages);
+    RUN(test_face_varying);
+    RUN(test_limits);
+    RUN(test_parts);
+    RUN(test_anywhere);
+    RUN(test_papers);
+    RUN(test_explained_masks);
+    RUN(test_explained_catmull_clark);
+    RUN(test_explained_shapes);
+    RUN(test_explained_loop);
+    RUN(test_errors);
+    return test_end("stencils");
+}
