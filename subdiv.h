@@ -961,6 +961,15 @@ static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
 }
 #endif
 
+static void sdv_prefetch(const float *p)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(p);
+#else
+    (void)p;
+#endif
+}
+
 #define SDV_NEW(context, arena, type, count) \
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
 
@@ -7224,6 +7233,7 @@ typedef struct sdv_nest_kind {
     int      points;
     int      work_count;                // the points, and those of the next level
     sdv_step step;                      // which its rows make
+    const int **rows;                   // [work_count] its rows, by point; first ones have none
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
     sdv_patches patches;
@@ -7428,6 +7438,24 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
         kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
 }
 
+// Where the row of each point is.
+static void sdv_nest_rows(sdv_exact_maker *maker, sdv_nest_kind *kind)
+{
+    const sdv_weights *masks = (const sdv_weights *)sdv_items(&maker->writer->masks);
+    const sdv_rows *rows[3] = { &kind->step.faces, &kind->step.vertices, &kind->step.edges };
+    kind->rows = SDV_NEW(maker->writer->context, &maker->surface->arena, const int *,
+                         kind->work_count);
+    if (!kind->rows) return;
+    memset(kind->rows, 0, (size_t)kind->work_count * sizeof *kind->rows);
+    for (int i = 0; i < 3; i++) {
+        const int *row = rows[i]->items;
+        for (int k = 0; k < rows[i]->count; k++) {
+            kind->rows[rows[i]->first + k] = row;
+            row += 1 + masks[row[0]].count;
+        }
+    }
+}
+
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
 // not one that both and their neighbours share as in the cage of a mesh.
 static void sdv_part_triangles(sdv_level *level, int dart)
@@ -7494,6 +7522,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     if (!context->result) {
         sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
         sdv_nest_children(maker, kind, &split, &next, &scratch);
+        sdv_nest_rows(maker, kind);
     }
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
         sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
@@ -7809,7 +7838,22 @@ static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int chann
     return memory;
 }
 
-// Rows as sdv_apply, in doubles.
+// Rows as sdv_apply, in doubles. Returns the next row.
+static inline const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
+                                       double *out)
+{
+    const sdv_weights *mask = &masks->items[row[0]];
+    const double *p0 = work + 4 * (size_t)row[1];
+    double sum[4] = { 0, 0, 0, 0 };
+    for (int j = 1; j < mask->count; j++) {
+        const double *p = work + 4 * (size_t)row[1 + j];
+        double w = mask->first < 0 ? (double)mask->even : (double)masks->weights[mask->first + j];
+        for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
+    }
+    for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
+    return row + 1 + mask->count;
+}
+
 static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
                            double *work)
 {
@@ -7818,19 +7862,7 @@ static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int blo
     const int *row = rows->items + rows->starts[block];
     double *out = work + 4 * (size_t)(rows->first + first);
     if (last > rows->count) last = rows->count;
-    for (int i = first; i < last; i++, out += 4) {
-        const sdv_weights *mask = &masks->items[row[0]];
-        const double *p0 = work + 4 * (size_t)row[1];
-        double sum[4] = { 0, 0, 0, 0 };
-        for (int j = 1; j < mask->count; j++) {
-            const double *p = work + 4 * (size_t)row[1 + j];
-            double w = mask->first < 0 ? (double)mask->even
-                                       : (double)masks->weights[mask->first + j];
-            for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
-        }
-        for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
-        row += 1 + mask->count;
-    }
+    for (int i = first; i < last; i++, out += 4) row = sdv_exact_row(masks, row, work, out);
 }
 
 // Jobs of an evaluation.
@@ -7889,7 +7921,7 @@ static void sdv_exact_points_job(void *context, int job)
 static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, const int *points,
                             const double *work, int lanes, float *out)
 {
-    float relative[64], lane[4];
+    float relative[64], packed[4 * SDV_SLOTS];
     sdv_polynomial q;
     sdv_four slots[SDV_SLOTS];
     const double *origin = work + 4 * (size_t)points[rules->loop ? 4 : 5];
@@ -7898,12 +7930,11 @@ static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, cons
             relative[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
     sdv_limit_polynomial(rules, patch, relative, &q);
     sdv_pack(&q, slots);
-    for (int k = 0; k < SDV_SLOTS; k++) {
-        sdv_store(lane, slots[k]);
-        for (int c = 0; c < lanes; c++) out[SDV_SLOTS * c + k] = lane[c];
+    for (int k = 0; k < SDV_SLOTS; k++) sdv_store(packed + 4 * k, slots[k]);
+    for (int c = 0; c < lanes; c++, out += SDV_SLOTS) {
+        for (int k = 1; k < SDV_SLOTS; k++) out[k] = packed[4 * k + c];
+        out[0] = (float)(origin[c] + (double)packed[c]);
     }
-    for (int c = 0; c < lanes; c++)
-        out[SDV_SLOTS * c] = (float)(origin[c] + (double)out[SDV_SLOTS * c]);
 }
 
 static void sdv_exact_patches_job(void *context, int job)
@@ -7952,41 +7983,42 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
 }
 
-// The weights of the coefficients for a value and its derivatives at (x, y): first ones are scaled
-// by s, second ones by its square.
-static inline void sdv_quad_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+// The lanes of up to four channels' sums.
+static inline sdv_four sdv_lane_sums(const sdv_four *sum, int lanes)
 {
-    float xx = x * x, yy = y * y, ss = s * s;
-    sdv_four y1 = sdv_all(y), y2 = sdv_all(yy), y3 = sdv_all(y * yy), p = sdv_of(1, x, xx, x * xx);
-    w[0][0] = p;
-    w[0][1] = sdv_times(p, y1);
-    w[0][2] = sdv_times(p, y2);
-    w[0][3] = sdv_times(p, y3);
-    if (order == 0) return;
-    sdv_four along = sdv_of(0, s, 2 * s * x, 3 * s * xx);
-    sdv_four up = sdv_all(s), up2 = sdv_all(2 * s * y), up3 = sdv_all(3 * s * yy);
-    w[1][0] = along;
-    w[1][1] = sdv_times(along, y1);
-    w[1][2] = sdv_times(along, y2);
-    w[1][3] = sdv_times(along, y3);
-    w[2][0] = sdv_all(0);
-    w[2][1] = sdv_times(p, up);
-    w[2][2] = sdv_times(p, up2);
-    w[2][3] = sdv_times(p, up3);
-    if (order == 1) return;
-    sdv_four bend = sdv_of(0, 0, 2 * ss, 6 * ss * x);
-    w[3][0] = bend;
-    w[3][1] = sdv_times(bend, y1);
-    w[3][2] = sdv_times(bend, y2);
-    w[3][3] = sdv_times(bend, y3);
-    w[4][0] = w[5][0] = w[5][1] = sdv_all(0);
-    w[4][1] = sdv_times(along, up);
-    w[4][2] = sdv_times(along, up2);
-    w[4][3] = sdv_times(along, up3);
-    w[5][2] = sdv_times(p, sdv_all(2 * ss));
-    w[5][3] = sdv_times(p, sdv_all(6 * ss * y));
+    return sdv_sums(sum[0], sum[lanes > 1 ? 1 : 0], sum[lanes > 2 ? 2 : 0], sum[lanes > 3 ? 3 : 0]);
 }
 
+// Values at (x, y) and derivatives up to an order, in the order of subdiv_derivatives, of up to
+// four channels: a cubic in y whose coefficients are cubics in x. First derivatives are scaled by
+// s, second ones by its square.
+static inline void sdv_quad_values(const float *data, int lanes, float x, float y, float s,
+                                   int order, sdv_four *out)
+{
+    float xx = x * x, ss = s * s;
+    sdv_four p = sdv_of(1, x, xx, x * xx), dp = sdv_of(0, s, 2 * s * x, 3 * s * xx);
+    sdv_four ddp = sdv_of(0, 0, 2 * ss, 6 * ss * x), sum[6][4];
+    sdv_four y1 = sdv_all(y), s1 = sdv_all(s), sy2 = sdv_all(2 * s * y);
+    sdv_four syy3 = sdv_all(3 * s * (y * y)), ss2 = sdv_all(2 * ss), ssy6 = sdv_all(6 * ss * y);
+    for (int l = 0; l < lanes; l++, data += SDV_SLOTS) {
+        sdv_four a = sdv_load(data), b = sdv_load(data + 4);
+        sdv_four c = sdv_load(data + 8), d = sdv_load(data + 12);
+        sdv_four row = sdv_plus(c, sdv_times(d, y1));
+        row = sdv_plus(a, sdv_times(sdv_plus(b, sdv_times(row, y1)), y1));
+        sum[0][l] = sdv_times(row, p);
+        if (order == 0) continue;
+        sdv_four up = sdv_plus(sdv_times(b, s1), sdv_plus(sdv_times(c, sy2), sdv_times(d, syy3)));
+        sum[1][l] = sdv_times(row, dp);
+        sum[2][l] = sdv_times(up, p);
+        if (order == 1) continue;
+        sum[3][l] = sdv_times(row, ddp);
+        sum[4][l] = sdv_times(up, dp);
+        sum[5][l] = sdv_times(sdv_plus(sdv_times(c, ss2), sdv_times(d, ssy6)), p);
+    }
+    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++) out[k] = sdv_lane_sums(sum[k], lanes);
+}
+
+// The weights of the coefficients of a triangle for the same.
 static inline void sdv_triangle_weights(float x, float y, float s, int order, sdv_four (*w)[4])
 {
     float xx = x * x, yy = y * y, ss = s * s;
@@ -8014,57 +8046,55 @@ static inline void sdv_triangle_weights(float x, float y, float s, int order, sd
     w[5][3] = sdv_of(12 * ss * yy, 0, 0, 0);
 }
 
-// The sums of up to four channels.
-static inline sdv_four sdv_exact_sums(const float *data, int lanes, const sdv_four *w)
+static inline void sdv_triangle_values(const float *data, int lanes, float x, float y, float s,
+                                       int order, sdv_four *out)
 {
-    sdv_four sum[4];
-    for (int i = 0; i < 4; i++) {
-        const float *p = data + SDV_SLOTS * (i < lanes ? i : 0);
-        if (i > 0 && i >= lanes) sum[i] = sum[0];
-        else sum[i] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[0]),
-                                        sdv_times(sdv_load(p + 4), w[1])),
-                               sdv_plus(sdv_times(sdv_load(p + 8), w[2]),
-                                        sdv_times(sdv_load(p + 12), w[3])));
-    }
-    return sdv_sums(sum[0], sum[1], sum[2], sum[3]);
-}
-
-// What is asked for of a patch, at location i, from the weights of values and derivatives.
-static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data,
-                             const sdv_four (*w)[4], size_t i)
-{
-    for (int k = 0; k < 6; k++)
-        for (int c = 0; c < e->channels && e->out[k]; c += 4) {
-            int lanes = e->channels - c < 4 ? e->channels - c : 4;
-            sdv_store_some(e->out[k] + e->stride * i + c,
-                           sdv_exact_sums(data + SDV_SLOTS * c, lanes, w[k]), lanes);
+    sdv_four w[6][4], sum[4];
+    sdv_triangle_weights(x, y, s, order, w);
+    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++) {
+        for (int l = 0; l < lanes; l++) {
+            const float *p = data + SDV_SLOTS * l;
+            sum[l] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[k][0]),
+                                       sdv_times(sdv_load(p + 4), w[k][1])),
+                              sdv_plus(sdv_times(sdv_load(p + 8), w[k][2]),
+                                       sdv_times(sdv_load(p + 12), w[k][3])));
         }
+        out[k] = sdv_lane_sums(sum, lanes);
+    }
 }
 
-static void sdv_put_normal(const sdv_exact_evaluation *e, const float *data,
-                           const sdv_four (*w)[4], size_t i)
+// What is asked for of a patch, at location i, of channels from c on.
+static inline void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
+                                 int lanes, int order, float x, float y, float s, int c, size_t i)
 {
-    float t[8];
-    sdv_store(t, sdv_exact_sums(data, 3, w[1]));
-    sdv_store(t + 4, sdv_exact_sums(data, 3, w[2]));
-    sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+    sdv_four values[6];
+    data += SDV_SLOTS * c;
+    if (loop) sdv_triangle_values(data, lanes, x, y, s, order, values);
+    else sdv_quad_values(data, lanes, x, y, s, order, values);
+    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++)
+        if (e->out[k]) sdv_store_some(e->out[k] + e->stride * i + c, values[k], lanes);
+    if (order > 0 && e->normals && c == 0) {
+        float t[8];
+        sdv_store(t, values[1]);
+        sdv_store(t + 4, values[2]);
+        sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+    }
+}
+
+static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, int loop,
+                             float x, float y, float s, size_t i)
+{
+    for (int c = 0; c < e->channels; c += 4)
+        sdv_put_lanes(e, data, loop, e->channels - c < 4 ? e->channels - c : 4, e->order, x, y, s,
+                      c, i);
 }
 
 static inline void sdv_put_patch(const sdv_exact_evaluation *e, const float *data, int loop,
                                  float x, float y, float s, size_t i)
 {
-    sdv_four w[6][4];
-    size_t at = e->stride * i;
-    if (loop) sdv_triangle_weights(x, y, s, e->order, w);
-    else sdv_quad_weights(x, y, s, e->order, w);
-    if (e->channels != 3 || e->order == 2) {
-        sdv_put_channels(e, data, (const sdv_four (*)[4])w, i);
-    } else {
-        if (e->out[0]) sdv_store_three(e->out[0] + at, sdv_exact_sums(data, 3, w[0]));
-        if (e->out[1]) sdv_store_three(e->out[1] + at, sdv_exact_sums(data, 3, w[1]));
-        if (e->out[2]) sdv_store_three(e->out[2] + at, sdv_exact_sums(data, 3, w[2]));
-    }
-    if (e->normals) sdv_put_normal(e, data, (const sdv_four (*)[4])w, i);
+    if (e->channels != 3 || e->order == 2) sdv_put_channels(e, data, loop, x, y, s, i);
+    else if (e->order == 0) sdv_put_lanes(e, data, loop, 3, 0, x, y, s, 0, i);
+    else sdv_put_lanes(e, data, loop, 3, 1, x, y, s, 0, i);
 }
 
 // Which child of a face, and where on it; a middle triangle is turned by half.
@@ -8094,10 +8124,18 @@ typedef struct sdv_nest_sample {
     int     face;
     double  x, y;                       // as seen from the vertex
     double *w;                          // [4 * work_count] points: (p - base) / shrink
+    unsigned char *done;                // [work_count] is it there?
     double  base[4], shrink;
     double  values[6][4];               // what comes out; derivatives are those in x and y
     double  normal[2][4];               // tangents for the normal
 } sdv_nest_sample;
+
+// Its points are there, none of the next level.
+static void sdv_nest_start(sdv_nest_sample *s)
+{
+    memset(s->done, 1, (size_t)s->kind->points);
+    memset(s->done + s->kind->points, 0, (size_t)(s->kind->work_count - s->kind->points));
+}
 
 static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
 {
@@ -8107,29 +8145,33 @@ static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double
         for (int c = 0; c < 4; c++)
             s->w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
     s->shrink = 1;
+    sdv_nest_start(s);
 }
 
-// The points of the next level.
-static void sdv_nest_refine(sdv_nest_sample *s)
+// A point of the next level, after those its row needs.
+static void sdv_nest_point(sdv_nest_sample *s, int point)
 {
     const sdv_masks *masks = &s->surface->masks;
-    const sdv_step *step = &s->kind->step;
-    const sdv_rows *rows[3] = { &step->faces, &step->vertices, &step->edges };
-    for (int i = 0; i < 3; i++)
-        sdv_exact_rows(masks, rows[i], 0, (int)sdv_row_blocks(rows[i]->count), s->w);
+    const int *row = s->kind->rows[point];
+    if (s->done[point]) return;
+    for (int i = 0; i < masks->items[row[0]].count; i++)
+        if (!s->done[row[1 + i]]) sdv_nest_point(s, row[1 + i]);
+    sdv_exact_row(masks, row, s->w, s->w + 4 * point);
+    s->done[point] = 1;
 }
 
 static void sdv_nest_go_down(sdv_nest_sample *s)
 {
     const sdv_nest_kind *kind = s->kind;
-    sdv_nest_refine(s);
     double vertex[4];
+    for (int i = 0; i < kind->points; i++) sdv_nest_point(s, kind->below[i]);
     for (int c = 0; c < 4; c++) vertex[c] = s->w[4 * kind->below[0] + c];
     for (int c = 0; c < 4; c++) s->base[c] += s->shrink * vertex[c];
     for (int i = 0; i < kind->points; i++)
         for (int c = 0; c < 4; c++)
             s->w[4 * i + c] = 2 * (s->w[4 * kind->below[i] + c] - vertex[c]);
     s->shrink /= 2;
+    sdv_nest_start(s);
 }
 
 // From the patch of a child, where (x, y) is not in the next nest.
@@ -8144,6 +8186,7 @@ static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
     double px[5] = { 1, x, x * x, x * x * x, x * x * x * x };
     double py[5] = { 1, y, y * y, y * y * y, y * y * y * y };
     memset(s->values, 0, sizeof s->values);
+    for (int i = 0; i < count; i++) sdv_nest_point(s, points[i]);
     for (int k = 0; k < SDV_SLOTS; k++) {
         int i = sdv_powers[loop][k][0], j = sdv_powers[loop][k][1];
         double c[4] = { 0, 0, 0, 0 };
@@ -8193,7 +8236,6 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
         sdv_nest_masks(s);
     } else {
         for (int i = 0; i < 100; i++) sdv_nest_go_down(s);
-        sdv_nest_refine(s);
         for (int i = 0; i < 3; i++) {
             sdv_nest_patch(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
             if (i < 2) memcpy(along[i], s->values[1 + i], sizeof along[i]);
@@ -8218,7 +8260,6 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_nest *nest, const do
     frexp(size, &down);
     down = down > 0 ? 0 : -down;
     for (int i = 0; i < down; i++) sdv_nest_go_down(s);
-    sdv_nest_refine(s);
     sdv_nest_patch(s, ldexp(s->x, down), ldexp(s->y, down));
 }
 
@@ -8267,7 +8308,7 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, doub
     const sdv_nest_face *face = &exact->nest_faces[index];
     const sdv_nest *nest = &exact->nests[face->nest];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
-    double small[4 * SDV_NEST_STACK], z = 1 - x - y;
+    double small[5 * SDV_NEST_STACK], z = 1 - x - y;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
@@ -8284,7 +8325,8 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, doub
     if (s.y < 0) s.y = 0;
     if (s.x < 0) s.x = 0;
     s.w = s.kind->work_count <= SDV_NEST_STACK ? small
-        : SDV_NEW(&context, &arena, double, 4 * (size_t)s.kind->work_count);
+        : SDV_NEW(&context, &arena, double, 5 * (size_t)s.kind->work_count);
+    if (s.w) s.done = (unsigned char *)(s.w + 4 * (size_t)s.kind->work_count);
     for (int c = 0; c < e->channels && s.w; c += 4) {
         sdv_nest_evaluate(&s, nest, e->memory.work + (size_t)c * (size_t)surface->work_count);
         sdv_nest_turn(&s, t, scale);
@@ -8308,53 +8350,92 @@ static inline double sdv_on_face(float u)
     return u < 0 ? 0 : u > 1 ? 1 : (double)u;
 }
 
-// The leaf of a location, where on it that is, and how much smaller than the face it is.
-static inline int sdv_find_leaf(const subdiv_surface *surface, const int *nodes, int loop,
-                                const subdiv_location *at, double *x, double *y, double *scale)
+// Where a location is in the tree.
+typedef struct sdv_spot {
+    int    leaf;                        // 0: its face has no surface
+    float  scale;                       // of the leaf's coordinates
+    double x, y;
+} sdv_spot;
+
+// From the cell of the deepest level a location is in.
+static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_spot *spot)
 {
-    int f = surface->own_face ? surface->own_face[at->face] : at->face;
-    int node = nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    *x = sdv_on_face(at->u);
-    *y = sdv_on_face(at->v);
-    if (loop && *x + *y > 1) *y = 1 - *x;
-    for (*scale = 1; node >= 0; *scale *= 2)
-        node = nodes[node + (loop ? sdv_descend_triangle(x, y, scale) : sdv_descend_quad(x, y))];
-    return node;
+    const int cells = 1 << SDV_EXACT_LEVELS;
+    int x = (int)(u * cells), y = (int)(v * cells), level = SDV_EXACT_LEVELS;
+    if (x == cells) x--;
+    if (y == cells) y--;
+    for (int turn = x ^ y; node >= 0; ) {
+        level--;
+        node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
+    }
+    int scale = cells >> level;
+    spot->leaf = node;
+    spot->scale = (float)scale;
+    spot->x = u * scale - (x >> level);
+    spot->y = v * scale - (y >> level);
 }
 
-static inline int sdv_put_location(const sdv_exact_evaluation *e, const int *nodes, int loop,
-                                   size_t i)
+static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
+                                       sdv_spot *spot)
 {
-    const subdiv_surface *surface = e->surface;
-    const subdiv_location *at = &e->locations[i];
-    double x, y, scale;
-    if (surface->exact->absent && surface->exact->absent[at->face]) {
-        sdv_put_zeros(e, i);
-        return 1;
+    double scale = 1;
+    if (x + y > 1) y = 1 - x;
+    for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
+    spot->leaf = node;
+    spot->scale = (float)scale;
+    spot->x = x;
+    spot->y = y;
+}
+
+static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
+                              sdv_spot *spot)
+{
+    double x = sdv_on_face(at->u), y = sdv_on_face(at->v);
+    int f = at->face;
+    spot->leaf = 0;
+    if (surface->exact->absent && surface->exact->absent[f]) return;
+    if (surface->own_face) f = surface->own_face[f];
+    int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
+    if (loop) sdv_locate_triangle(surface->exact->nodes, node, x, y, spot);
+    else sdv_locate_quad(surface->exact->nodes, node, x, y, spot);
+}
+
+// All are located before the first is evaluated: what they need of memory comes at the same time.
+static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
+{
+    enum { block = 32 };
+    sdv_spot spots[block];
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    while (i < end) {
+        int count = end - i < block ? (int)(end - i) : block;
+        for (int k = 0; k < count; k++) {
+            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], &spots[k]);
+            if (~spots[k].leaf & 1) continue;
+            const float *data = e->memory.patches + width * (size_t)(~spots[k].leaf >> 1);
+            for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
+        }
+        for (const sdv_spot *spot = spots; spot < spots + count; spot++, i++) {
+            if (spot->leaf == 0)
+                sdv_put_zeros(e, i);
+            else if (~spot->leaf & 1)
+                e->failed[job] |= !sdv_put_nest(e, ~spot->leaf >> 1, spot->x, spot->y,
+                                                (double)spot->scale, i);
+            else
+                sdv_put_patch(e, e->memory.patches + width * (size_t)(~spot->leaf >> 1), loop,
+                              (float)spot->x, (float)spot->y, spot->scale, i);
+        }
     }
-    int node = sdv_find_leaf(surface, nodes, loop, at, &x, &y, &scale);
-    if (~node & 1) return sdv_put_nest(e, ~node >> 1, x, y, scale, i);
-    sdv_put_patch(e, e->memory.patches + SDV_SLOTS * (size_t)e->channels * (size_t)(~node >> 1),
-                  loop, (float)x, (float)y, (float)scale, i);
-    return 1;
 }
 
 static void sdv_quads_job(void *context, int job)
 {
-    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    for (; i < end; i++)
-        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 0, i);
+    sdv_put_locations((sdv_exact_evaluation *)context, 0, job);
 }
 
 static void sdv_triangles_job(void *context, int job)
 {
-    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    for (; i < end; i++)
-        e->failed[job] |= !sdv_put_location(e, e->surface->exact->nodes, 1, i);
+    sdv_put_locations((sdv_exact_evaluation *)context, 1, job);
 }
 
 // Is a location there?
@@ -9056,18 +9137,15 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
 {
     sdv_stencil_maker make;
     sdv_probe probe;
-    const unsigned char *absent = surface->exact->absent;
     sdv_stencil_maker_new(context, &make, surface, count, 3);
     sdv_probe_new(context, &make.arena, surface, &probe);
     for (int i = 0; i < count && !context->result; i++) {
         const subdiv_location *at = &locations[i];
-        if (!absent || !absent[at->face]) {
-            double x, y, scale;
-            int level, patch = 0;
-            int slot = sdv_find_leaf(surface, surface->exact->nodes, surface->rules.loop, at, &x,
-                                     &y, &scale);
-            int points = sdv_probe_points(&probe, slot, &level, &patch);
-            sdv_probe_location(context, &probe, at, slot, points, level, patch);
+        sdv_spot spot;
+        sdv_locate(surface, surface->rules.loop, at, &spot);
+        if (spot.leaf) {
+            int level, patch = 0, points = sdv_probe_points(&probe, spot.leaf, &level, &patch);
+            sdv_probe_location(context, &probe, at, spot.leaf, points, level, patch);
             if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
         }
         if (!context->result) sdv_write_stencil(&make, i);
