@@ -4592,7 +4592,7 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
 }
 
 // The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for
-// it: fans around vertex 0, a choice that needs no positions. cage_face says what each was cut from.
+// it: fans around vertex 0, a choice that needs no positions. cage_face says what each is cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
@@ -8351,14 +8351,14 @@ static inline double sdv_on_face(float u)
 }
 
 // Where a location is in the tree.
-typedef struct sdv_spot {
+typedef struct sdv_leaf {
     int    leaf;                        // 0: its face has no surface
     float  scale;                       // of the leaf's coordinates
     double x, y;
-} sdv_spot;
+} sdv_leaf;
 
 // From the cell of the deepest level a location is in.
-static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_spot *spot)
+static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_leaf *spot)
 {
     const int cells = 1 << SDV_EXACT_LEVELS;
     int x = (int)(u * cells), y = (int)(v * cells), level = SDV_EXACT_LEVELS;
@@ -8376,7 +8376,7 @@ static inline void sdv_locate_quad(const int *nodes, int node, double u, double 
 }
 
 static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
-                                       sdv_spot *spot)
+                                       sdv_leaf *spot)
 {
     double scale = 1;
     if (x + y > 1) y = 1 - x;
@@ -8388,7 +8388,7 @@ static inline void sdv_locate_triangle(const int *nodes, int node, double x, dou
 }
 
 static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
-                              sdv_spot *spot)
+                              sdv_leaf *spot)
 {
     double x = sdv_on_face(at->u), y = sdv_on_face(at->v);
     int f = at->face;
@@ -8404,18 +8404,18 @@ static inline void sdv_locate(const subdiv_surface *surface, int loop, const sub
 static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
 {
     enum { block = 32 };
-    sdv_spot spots[block];
+    sdv_leaf leaves[block];
     size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     while (i < end) {
         int count = end - i < block ? (int)(end - i) : block;
         for (int k = 0; k < count; k++) {
-            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], &spots[k]);
-            if (~spots[k].leaf & 1) continue;
-            const float *data = e->memory.patches + width * (size_t)(~spots[k].leaf >> 1);
+            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], &leaves[k]);
+            if (~leaves[k].leaf & 1) continue;
+            const float *data = e->memory.patches + width * (size_t)(~leaves[k].leaf >> 1);
             for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
         }
-        for (const sdv_spot *spot = spots; spot < spots + count; spot++, i++) {
+        for (const sdv_leaf *spot = leaves; spot < leaves + count; spot++, i++) {
             if (spot->leaf == 0)
                 sdv_put_zeros(e, i);
             else if (~spot->leaf & 1)
@@ -8892,7 +8892,7 @@ static int sdv_face_has(const sdv_order *order, int f, int first, int end)
     return has;
 }
 
-// The points of a face's nets. Their records: minus the level + 1, the net, and which of its points.
+// The points of a face's nets. Their records: minus the level + 1, the net, which of its points.
 static void sdv_note_nets(sdv_makers *makers, int face)
 {
     const subdiv_surface *surface = makers->surface;
@@ -9141,7 +9141,7 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     sdv_probe_new(context, &make.arena, surface, &probe);
     for (int i = 0; i < count && !context->result; i++) {
         const subdiv_location *at = &locations[i];
-        sdv_spot spot;
+        sdv_leaf spot;
         sdv_locate(surface, surface->rules.loop, at, &spot);
         if (spot.leaf) {
             int level, patch = 0, points = sdv_probe_points(&probe, spot.leaf, &level, &patch);
