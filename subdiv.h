@@ -12833,7 +12833,7 @@ sdv_pictures[] = {
 static void sdv_draw(sdv_explainer *x, const char *picture)
 {
     char texts[SDV_GROUPS][32];
-    for (int i = 0, g = 0; i < x->count; i += x->group_sizes[g++]) {
+    for (int i = 0, g = 0; g < SDV_GROUPS && x->group_sizes[g]; i += x->group_sizes[g++]) {
         sdv_number_text(x->weights[x->order[i]], texts[g]);
         if (strlen(texts[g]) > 6) return;
     }
