@@ -1112,7 +1112,7 @@ static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, si
 // A place behind the items, with room for so many more. NULL when out of memory.
 static void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
 {
-    if (array->capacity - array->count < more)
+    if (!array->block || array->capacity - array->count < more)
         sdv_grow(context, array, 2 * (array->count + more), item);
     return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
 }
@@ -7391,10 +7391,11 @@ static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nes
                            sdv_arena *arena, sdv_arena *scratch)
 {
     int n = kind->faces, loop = rules->loop, width = loop ? 3 : 6, edges = n + !kind->ring;
-    double *t = SDV_NEW(context, scratch, double, 4 * (size_t)n + 8), *t0 = t, *t1 = t + 2 * n + 4;
+    double *t = SDV_NEW(context, scratch, double, 4 * (size_t)n + 8);
     sdv_mask mask = sdv_limit_mask(rules, kind->rule, n);
     kind->limit = SDV_NEW(context, arena, double, 3 * (size_t)kind->points);
     if (context->result) return;
+    double *t0 = t, *t1 = t + 2 * n + 4;
     if (kind->ring) sdv_smooth_tangents(n, loop, t0, t1);
     else sdv_crease_tangents(n, loop, t0, t1);
     double norm[2] = { 0, 0 }, wave = 4;
