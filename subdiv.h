@@ -5721,6 +5721,33 @@ static void sdv_apply(const sdv_masks *masks, const sdv_rows *rows, int block, i
     }
 }
 
+// Rows as sdv_apply, in doubles. Returns the next row.
+static inline const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
+                                       double *out)
+{
+    const sdv_weights *mask = &masks->items[row[0]];
+    const double *p0 = work + 4 * (size_t)row[1];
+    double sum[4] = { 0, 0, 0, 0 };
+    for (int j = 1; j < mask->count; j++) {
+        const double *p = work + 4 * (size_t)row[1 + j];
+        double w = mask->first < 0 ? (double)mask->even : (double)masks->weights[mask->first + j];
+        for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
+    }
+    for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
+    return row + 1 + mask->count;
+}
+
+static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
+                           double *work)
+{
+    if (block == end) return;
+    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
+    const int *row = rows->items + rows->starts[block];
+    double *out = work + 4 * (size_t)(rows->first + first);
+    if (last > rows->count) last = rows->count;
+    for (int i = first; i < last; i++, out += 4) row = sdv_exact_row(masks, row, work, out);
+}
+
 // The first patch of a cage face or one behind it.
 static int sdv_first_patch(const sdv_order *order, const sdv_patches *patches, int face)
 {
@@ -6594,8 +6621,9 @@ typedef struct sdv_evaluation {
     int          channels;
     const float *in;                    // channels a vertex
     size_t       in_stride;
-    float       *work;                  // [4 * work_count] for every four channels
-    float       *out;
+    float       *work;                  // [4 * work_count] for every four channels; or
+    double      *deep;                  // the same of SUBDIV_EXACT: points of a deep level differ
+    float       *out;                   // in their last digits alone
     size_t       out_stride;
     int          first_point, end_point;
     int          first_face, end_face;
@@ -6630,11 +6658,13 @@ static void sdv_input_job(void *context, int job)
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c;
-        float *out = e->work + (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
-        for (int i = v; i < end; i++, out += 4) {
+        size_t at = (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
+        for (int i = v; i < end; i++, at += 4) {
             int from = e->surface->source ? e->surface->source[i] : i;
             const float *in = e->in + e->in_stride * (size_t)from + c;
-            for (int k = 0; k < 4; k++) out[k] = k < lanes ? in[k] : 0;
+            for (int k = 0; k < 4 && !e->deep; k++) e->work[at + (size_t)k] = k < lanes ? in[k] : 0;
+            for (int k = 0; k < 4 && e->deep; k++)
+                e->deep[at + (size_t)k] = k < lanes ? (double)in[k] : 0;
         }
     }
 }
@@ -6643,9 +6673,11 @@ static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int j
 {
     int blocks = (int)sdv_row_blocks(rows->count);
     int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
-    for (int c = 0; c < e->channels; c += 4)
-        sdv_apply(&e->surface->masks, rows, block, end,
-                  e->work + (size_t)c * (size_t)e->surface->work_count);
+    for (int c = 0; c < e->channels; c += 4) {
+        size_t at = (size_t)c * (size_t)e->surface->work_count;
+        if (e->deep) sdv_exact_rows(&e->surface->masks, rows, block, end, e->deep + at);
+        else sdv_apply(&e->surface->masks, rows, block, end, e->work + at);
+    }
 }
 
 static void sdv_face_point_job(void *context, int job)
@@ -6754,8 +6786,7 @@ static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
 
 // See >>exact-surface.
 static size_t sdv_exact_size(const subdiv_surface *surface, int channels);
-static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
-                            size_t in_stride, void *scratch, const subdiv_options *opt);
+static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt);
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
@@ -6783,10 +6814,6 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, scratch, &in_stride);
     if (context.result) return context.result;
-    if (surface->exact) {
-        sdv_exact_begin(surface, channels, in, (size_t)in_stride, scratch, opt);
-        return SUBDIV_OK;
-    }
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.surface = sdv_maker(surface);
@@ -6794,7 +6821,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     evaluation.in = in;
     evaluation.in_stride = (size_t)in_stride;
     evaluation.work = (float *)scratch;
-    sdv_make_work(&evaluation, opt);
+    if (surface->exact) sdv_exact_begin(&evaluation, scratch, opt);
+    else sdv_make_work(&evaluation, opt);
     return SUBDIV_OK;
 }
 
@@ -7839,41 +7867,12 @@ static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int chann
     return memory;
 }
 
-// Rows as sdv_apply, in doubles. Returns the next row.
-static inline const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
-                                       double *out)
-{
-    const sdv_weights *mask = &masks->items[row[0]];
-    const double *p0 = work + 4 * (size_t)row[1];
-    double sum[4] = { 0, 0, 0, 0 };
-    for (int j = 1; j < mask->count; j++) {
-        const double *p = work + 4 * (size_t)row[1 + j];
-        double w = mask->first < 0 ? (double)mask->even : (double)masks->weights[mask->first + j];
-        for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
-    }
-    for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
-    return row + 1 + mask->count;
-}
-
-static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
-                           double *work)
-{
-    if (block == end) return;
-    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
-    const int *row = rows->items + rows->starts[block];
-    double *out = work + 4 * (size_t)(rows->first + first);
-    if (last > rows->count) last = rows->count;
-    for (int i = first; i < last; i++, out += 4) row = sdv_exact_row(masks, row, work, out);
-}
-
 // Jobs of an evaluation.
 typedef struct sdv_exact_evaluation {
     const subdiv_surface *surface;
     int channels;
-    const float *in;
-    size_t in_stride;
     sdv_exact_memory memory;
-    int step, jobs;
+    int jobs;
     int count;                          // locations, and where what is asked of each goes: value,
     const subdiv_location *locations;   // du, dv, duu, duv, dvv; or NULL
     float *out[6], *normals;
@@ -7882,41 +7881,6 @@ typedef struct sdv_exact_evaluation {
     unsigned char failed[256];          // jobs that got no memory
     const subdiv_options *opt;
 } sdv_exact_evaluation;
-
-static void sdv_exact_input_job(void *context, int job)
-{
-    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
-    const subdiv_surface *surface = e->surface;
-    int end = sdv_share(surface->cage_vertex_count, job + 1, e->jobs);
-    for (int v = sdv_share(surface->cage_vertex_count, job, e->jobs); v < end; v++) {
-        const float *in = e->in + e->in_stride * (size_t)(surface->source ? surface->source[v] : v);
-        for (int c = 0; c < (e->channels + 3) / 4 * 4; c++)
-            e->memory.work[(size_t)(c / 4) * 4 * (size_t)surface->work_count + 4 * (size_t)v +
-                           (size_t)(c & 3)] = c < e->channels ? (double)in[c] : 0;
-    }
-}
-
-static void sdv_exact_share(const sdv_exact_evaluation *e, const sdv_rows *rows, int job)
-{
-    int blocks = (int)sdv_row_blocks(rows->count);
-    int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
-    for (int c = 0; c < e->channels; c += 4)
-        sdv_exact_rows(&e->surface->masks, rows, block, end,
-                       e->memory.work + (size_t)c * (size_t)e->surface->work_count);
-}
-
-static void sdv_exact_faces_job(void *context, int job)
-{
-    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
-    sdv_exact_share(e, &e->surface->steps[e->step].faces, job);
-}
-
-static void sdv_exact_points_job(void *context, int job)
-{
-    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
-    sdv_exact_share(e, &e->surface->steps[e->step].vertices, job);
-    sdv_exact_share(e, &e->surface->steps[e->step].edges, job);
-}
 
 // The polynomial of a patch from its work points, four channels or fewer.
 static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, const int *points,
@@ -7961,26 +7925,16 @@ static void sdv_exact_patches_job(void *context, int job)
     }
 }
 
-static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
-                            size_t in_stride, void *scratch, const subdiv_options *opt)
+static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt)
 {
     sdv_exact_evaluation e;
     memset(&e, 0, sizeof e);
-    e.surface = surface;
-    e.channels = channels;
-    e.in = in;
-    e.in_stride = in_stride;
-    e.memory = sdv_exact_parts(surface, channels, scratch);
-    e.jobs = sdv_jobs(surface->cage_vertex_count, 4096);
-    sdv_run(opt, sdv_exact_input_job, &e, e.jobs);
-    for (e.step = 0; e.step < surface->levels; e.step++) {
-        const sdv_step *step = &surface->steps[e.step];
-        e.jobs = sdv_jobs(step->faces.count, 4096);
-        sdv_run(opt, sdv_exact_faces_job, &e, e.jobs);
-        e.jobs = sdv_jobs(step->vertices.count + step->edges.count, 4096);
-        sdv_run(opt, sdv_exact_points_job, &e, e.jobs);
-    }
-    e.jobs = sdv_jobs(surface->exact->patch_count, 256);
+    e.surface = evaluation->surface;
+    e.channels = evaluation->channels;
+    e.memory = sdv_exact_parts(e.surface, e.channels, scratch);
+    evaluation->deep = e.memory.work;
+    sdv_make_work(evaluation, opt);
+    e.jobs = sdv_jobs(e.surface->exact->patch_count, 256);
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
 }
 
