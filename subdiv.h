@@ -3250,8 +3250,10 @@ static int sdv_control_points(const sdv_rules *rules)
     return rules->loop ? 12 : 16;
 }
 
-// So many levels never end: then a patch's place is that of its face.
+// So many levels never end: then a patch's place is that of its face, and strips are measured in
+// segments of so many levels, as semi-sharp creases are smooth by then.
 #define SDV_FOREVER 1000
+#define SDV_STRIP_LEVELS 10
 
 // Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
 // even behind the last of them; with just as much sharpness as levels its own masks are all
@@ -3470,7 +3472,7 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
-    if (stay < sharp && !dependent && levels != SDV_FOREVER) {
+    if (stay < sharp && !dependent) {
         int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
         if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
     }
@@ -3616,6 +3618,7 @@ static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels
     sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
     int count = (int)writer->strips.count;
     if (low > 0 && high > 0 && (low < high || low > high)) return 0;
+    if (levels == SDV_FOREVER) levels = SDV_STRIP_LEVELS;
     for (int i = count; i > 0; i--) {
         float d = strips[i - 1].low - low, e = strips[i - 1].high - high;
         if (d * d + e * e <= 0 && strips[i - 1].levels == levels) return i;
@@ -7224,17 +7227,17 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 //     +-------+-------+        Of the four children of a face in a nest, three are patches (p), the
 //     |       |       |        fourth is in the nest of the next level. Which points that level
 //     |   p   |   p   |        has and how they follow is the same at all such vertices, and is
-//     |       |       |        kept once: a nest kind. A sample near the vertex goes down from
-//     +---+---+-------+        nest to nest until it is on a patch; what the vertex itself has is
-//     | n | p |       |        subtracted and the rest doubled at every step, so that nothing
-//     +---+---+   p   |        gets lost, however near it is.
+//     |       |       |        kept once: a nest kind. What the vertex itself has is subtracted and
+//     +---+---+-------+        the rest doubled at every step, so that nothing gets lost, however
+//     | n | p |       |        near a sample is. The polynomials of a few levels are kept, too.
+//     +---+---+   p   |
 //     | n | n |       |
 //     v---+---+-------+
 //
 // A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
-#define SDV_NEST_LEVEL 4                // nests start there or deeper
+#define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
 #define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
@@ -7243,12 +7246,6 @@ static const unsigned char sdv_powers[2][SDV_SLOTS][2] = {
       {0,2}, {1,2}, {2,2}, {3,2}, {0,3}, {1,3}, {2,3}, {3,3} },
     { {0,0}, {1,0}, {2,0}, {3,0}, {0,1}, {1,1}, {2,1}, {3,1},
       {0,2}, {1,2}, {0,3}, {1,3}, {0,4}, {4,0}, {0,0}, {0,0} } };
-
-// The coefficients of a patch from its control points. Patches with the same sharp edges share it.
-typedef struct sdv_matrix {
-    uint32_t key;
-    double weights[SDV_SLOTS][16];
-} sdv_matrix;
 
 // Points of a nest: the vertex; then of each face, counter-clockwise, as far as two faces away,
 //
@@ -7261,41 +7258,52 @@ typedef struct sdv_nest_kind {
     int      points;
     int      work_count;                // the points, and those of the next level
     sdv_step step;                      // which its rows make
-    const int **rows;                   // [work_count] its rows, by point; first ones have none
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
     sdv_patches patches;
-    int     *matrices;                  // [patches.count]
     double  *limit;                     // [3 * points] weights of the limit and of two tangents,
                                         // of a smooth ring and a crease; NULL: none
 } sdv_nest_kind;
 
 typedef struct sdv_nest {
     int kind, first;                    // where its points start
+    int face;                           // the first of its faces, in order
 } sdv_nest;
 
 typedef struct sdv_nest_face {
-    int nest, face, turn;               // the vertex of the nest is its vertex number turn
+    int nest, turn;                     // the vertex of the nest is its vertex number turn
+    int level;
+    sdv_place place;                    // on the grid of its cage face
 } sdv_nest_face;
+
+// A patch that is cut into strips.
+typedef struct sdv_cut_patch {
+    int patch, polynomial;              // its number, and that of the first of its polynomials
+    unsigned char along, up;            // see sdv_patch
+} sdv_cut_patch;
+
+// A leaf is ~(4 number + what): of a polynomial, a cut patch, a face of a nest.
+enum { SDV_LEAF_PATCH, SDV_LEAF_CUT, SDV_LEAF_NEST };
 
 typedef struct sdv_exact {
     int patch_count;
-    int *nodes;                         // first those of faces, or of an n-gon's quads; a leaf is
-                                        // ~(2 patch) or ~(2 face of a nest + 1)
+    int polynomial_count;               // of patches; those of nests' faces come behind
+    int *nodes;                         // first those of faces, or of an n-gon's quads
     unsigned char *absent;              // [face_count] without surface; NULL: none
+    sdv_cut_patch *cuts;
     sdv_nest_kind *kinds;
-    int kind_count;
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
-    sdv_matrix *matrices;
+    int cut_count, kind_count, nest_count, nest_face_count;
+    int most_work;                      // of the kinds' work_counts
 } sdv_exact;
 
 // While it is made.
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
-    sdv_array nodes, kinds, nests, nest_points, nest_faces, matrices;
+    sdv_array nodes, cuts, kinds, nests, nest_points, nest_faces;
     int      *slots;                    // [face_count of the level] their nodes
 } sdv_exact_maker;
 
@@ -7322,52 +7330,6 @@ static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
     const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
     for (int k = 0; k < SDV_SLOTS; k++)
         slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
-}
-
-static void sdv_limit_polynomial(const sdv_rules *rules, const sdv_patch *patch,
-                                 const float *points, sdv_polynomial *q)
-{
-    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    sdv_four p[16];
-    if (rules->loop) {
-        sdv_triangle_polynomial(patch, same, 0, rules->linear, points, q);
-        return;
-    }
-    sdv_load_points(same, 16, points, p);
-    q->origin = p[5];
-    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], q->origin);
-    if (patch->sharp) sdv_mirror_quad(patch, p);
-    sdv_quad_polynomial(p, 0, 0, rules->linear, q);
-}
-
-// What a patch makes of unit vectors, four at a time. All weights are multiples of 1/36, so that
-// rounding gives them back.
-static int sdv_find_matrix(sdv_exact_maker *maker, const sdv_patch *patch)
-{
-    const sdv_rules *rules = &maker->surface->rules;
-    sdv_matrix *known = (sdv_matrix *)sdv_items(&maker->matrices);
-    uint32_t key = patch->sharp;
-    for (int i = 0; i < 3; i++) key = key << 4 | patch->fan[i];
-    for (size_t i = 0; i < maker->matrices.count; i++) if (known[i].key == key) return (int)i;
-    sdv_matrix *matrix = (sdv_matrix *)sdv_append(maker->writer->context, &maker->matrices, 1,
-                                                  sizeof *matrix);
-    if (!matrix) return 0;
-    matrix->key = key;
-    for (int first = 0; first < sdv_control_points(rules); first += 4) {
-        float unit[64] = { 0 }, lanes[4];
-        sdv_polynomial q;
-        sdv_four slots[SDV_SLOTS];
-        for (int i = 0; i < 4; i++) unit[4 * (first + i) + i] = 1;
-        sdv_limit_polynomial(rules, patch, unit, &q);
-        q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
-        sdv_pack(&q, slots);
-        for (int k = 0; k < SDV_SLOTS; k++) {
-            sdv_store(lanes, slots[k]);
-            for (int i = 0; i < 4; i++)
-                matrix->weights[k][first + i] = floor(36 * (double)lanes[i] + 0.5) / 36;
-        }
-    }
-    return (int)maker->matrices.count - 1;
 }
 
 // The points of a nest whose first face is that of h, a face-vertex at its vertex.
@@ -7457,32 +7419,11 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
     int loop = maker->surface->rules.loop, count = 0;
     int *patch = SDV_NEW(context, scratch, int, next->face_count);
     kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
-    kind->matrices = SDV_NEW(context, &maker->surface->arena, int, kind->patches.count);
     if (context->result) return;
     for (int f = 0; f < next->face_count; f++)
         patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
     for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
         kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
-    for (int i = 0; i < kind->patches.count && !context->result; i++)
-        kind->matrices[i] = sdv_find_matrix(maker, &kind->patches.items[i]);
-}
-
-// Where the row of each point is.
-static void sdv_nest_rows(sdv_exact_maker *maker, sdv_nest_kind *kind)
-{
-    const sdv_weights *masks = (const sdv_weights *)sdv_items(&maker->writer->masks);
-    const sdv_rows *rows[3] = { &kind->step.faces, &kind->step.vertices, &kind->step.edges };
-    kind->rows = SDV_NEW(maker->writer->context, &maker->surface->arena, const int *,
-                         kind->work_count);
-    if (!kind->rows) return;
-    memset(kind->rows, 0, (size_t)kind->work_count * sizeof *kind->rows);
-    for (int i = 0; i < 3; i++) {
-        const int *row = rows[i]->items;
-        for (int k = 0; k < rows[i]->count; k++) {
-            kind->rows[rows[i]->first + k] = row;
-            row += 1 + masks[row[0]].count;
-        }
-    }
 }
 
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
@@ -7551,7 +7492,6 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     if (!context->result) {
         sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
         sdv_nest_children(maker, kind, &split, &next, &scratch);
-        sdv_nest_rows(maker, kind);
     }
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
         sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
@@ -7591,11 +7531,11 @@ static int sdv_vertex_settled(const sdv_level *level, int v)
     return settled;
 }
 
-// Is the vertex of h regular as seen from its face?
+// Is the vertex of h regular as seen from its face, with nothing semi-sharp?
 static sdv_fan sdv_fan_at(const sdv_level *level, const sdv_rules *rules, int h)
 {
     sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h], SDV_FOREVER);
-    return sdv_find_fan(level, kind, h, rules->loop);
+    return kind == SDV_LINED ? SDV_FAN_ROUGH : sdv_find_fan(level, kind, h, rules->loop);
 }
 
 // Are the neighbours in the faces from h on regular, creased only along the first and last edge?
@@ -7646,7 +7586,9 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int de
         size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
         nest->kind = kind;
         nest->first = (int)maker->nest_points.count;
+        nest->face = (int)maker->nest_faces.count;
         int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
+        sdv_append(context, &maker->nest_faces, (size_t)faces, sizeof(sdv_nest_face));
         if (points) sdv_nest_points(level, first, faces, ring || dart, rules->loop, points);
     }
     for (i = 0; i < faces; i++) {
@@ -7654,6 +7596,21 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int de
         face_at[first] = i;
         if (i + 1 < faces) first = sdv_counter_clockwise(level, first);
     }
+}
+
+// Takes face f, whose face-vertex h is at the vertex of a nest, as one of its faces: a leaf.
+static void sdv_take_nest_face(sdv_exact_maker *maker, sdv_level *level, int depth, int f, int h,
+                               int number, int face_at)
+{
+    int *nodes = (int *)sdv_items(&maker->nodes), start = sdv_face_start(level, f);
+    int face = ((const sdv_nest *)sdv_items(&maker->nests))[number].face + face_at;
+    sdv_nest_face *taken = (sdv_nest_face *)sdv_items(&maker->nest_faces) + face;
+    taken->nest = number;
+    taken->turn = h - start;
+    taken->level = depth;
+    taken->place = level->places ? level->places[f] : sdv_first_place(start);
+    level->rough[f] = 0;
+    nodes[maker->slots[f]] = ~(4 * face + SDV_LEAF_NEST);
 }
 
 // Turns the rough faces of nests into leaves.
@@ -7671,16 +7628,8 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
             if (at[h] == -1) sdv_find_nest(maker, level, depth, h, at, face_at);
             found = h;
         }
-        if (found < 0 || context->result || at[found] < 0) continue;
-        int number = (int)maker->nest_faces.count;
-        sdv_nest_face *face = (sdv_nest_face *)sdv_append(context, &maker->nest_faces, 1,
-                                                          sizeof *face);
-        if (!face) continue;
-        face->nest = at[found];
-        face->face = face_at[found];
-        face->turn = found - start;
-        level->rough[f] = 0;
-        ((int *)sdv_items(&maker->nodes))[maker->slots[f]] = ~(2 * number + 1);
+        if (found >= 0 && !context->result && at[found] >= 0)
+            sdv_take_nest_face(maker, level, depth, f, found, at[found], face_at[found]);
     }
     sdv_arena_free(&scratch);
 }
@@ -7709,13 +7658,48 @@ static void sdv_exact_children(sdv_exact_maker *maker, const sdv_level *level,
     maker->slots = slots;
 }
 
-// Does the next level fit, with at most four children a face-vertex?
+// Do the leaves of this level fit, and the next level, with at most four children a face-vertex?
 static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *surface,
                                  const sdv_level *level)
 {
     double most = 4.0 * level->face_vertex_count + 4.0 * level->vertex_count;
-    if (most + surface->work_count > INT_MAX / 2)
+    if (most + surface->work_count > INT_MAX / 2 ||
+        surface->exact->polynomial_count > INT_MAX / 8 - level->face_count)
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh make too many points");
+}
+
+// A patch becomes a leaf: with one polynomial, or one for each place where its strips cross.
+static int sdv_patch_leaf(sdv_exact_maker *maker, const sdv_patch *patch)
+{
+    const sdv_strips *strips = (const sdv_strips *)sdv_items(&maker->writer->strips);
+    sdv_exact *exact = maker->surface->exact;
+    int number = exact->patch_count++, polynomial = exact->polynomial_count;
+    exact->polynomial_count++;
+    if (!patch->up) return ~(4 * polynomial + SDV_LEAF_PATCH);
+    int parts = strips[patch->along - 1].count * strips[patch->up - 1].count;
+    exact->polynomial_count += parts - 1;
+    sdv_cut_patch *made = (sdv_cut_patch *)sdv_append(maker->writer->context, &maker->cuts, 1,
+                                                      sizeof *made);
+    if (!made) return 0;
+    made->patch = number;
+    made->polynomial = polynomial;
+    made->along = patch->along;
+    made->up = patch->up;
+    return ~(4 * ((int)maker->cuts.count - 1) + SDV_LEAF_CUT);
+}
+
+// The patches of a level, which are those of its core that are not rough, in order.
+static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *level)
+{
+    subdiv_surface *surface = maker->surface;
+    const sdv_patches *patches = &surface->patches[depth];
+    const sdv_patch *patch;
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, SDV_FOREVER,
+                     &surface->patches[depth]);
+    patch = patches->items;
+    for (int f = 0; f < level->face_count && !maker->writer->context->result; f++)
+        if (level->core[f] && !level->rough[f])
+            ((int *)sdv_items(&maker->nodes))[maker->slots[f]] = sdv_patch_leaf(maker, patch++);
 }
 
 // A level: its patches and nests become leaves; then the rows to the next level, if any face is
@@ -7725,26 +7709,19 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
 {
     subdiv_surface *surface = maker->surface;
     sdv_context *context = maker->writer->context;
-    sdv_patches *patches = &surface->patches[depth];
     sdv_arena scratch = sdv_scratch();
     sdv_split split;
-    int regular = level->face_size == (surface->rules.loop ? 3 : 4);
-    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, SDV_FOREVER,
-                     patches);
-    for (int f = 0; f < level->face_count && !context->result; f++)
-        if (level->core[f] && !level->rough[f])
-            ((int *)sdv_items(&maker->nodes))[maker->slots[f]] =
-                ~(2 * surface->exact->patch_count++);
-    if (depth >= SDV_NEST_LEVEL && regular && !context->result) sdv_find_nests(maker, level, depth);
+    int loop = surface->rules.loop, regular = level->face_size == (loop ? 3 : 4);
+    sdv_check_exact_size(context, surface, level);
+    sdv_exact_patches(maker, depth, level);
+    if (regular && !context->result) sdv_find_nests(maker, level, depth);
     surface->work_count = level->first_point + level->vertex_count;
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
-    sdv_check_exact_size(context, surface, level);
     sdv_split_new(context, &scratch, level, &split);
     sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
-        int loop = surface->rules.loop;
         sdv_find_active(level, &split);
         sdv_number_faces(level, &split, loop);
         sdv_number_points(level, &split, loop);
@@ -7784,16 +7761,24 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     subdiv_surface *surface = maker->surface;
     sdv_exact *exact = surface->exact;
     sdv_arena *arena = &surface->arena;
+    exact->cut_count = (int)maker->cuts.count;
+    exact->kind_count = (int)maker->kinds.count;
+    exact->nest_count = (int)maker->nests.count;
+    exact->nest_face_count = (int)maker->nest_faces.count;
     exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
+    exact->cuts = (sdv_cut_patch *)sdv_keep_array(context, arena, &maker->cuts,
+                                                  sizeof(sdv_cut_patch));
     exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
                                                    sizeof(sdv_nest_kind));
-    exact->kind_count = (int)maker->kinds.count;
     exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
                                                         sizeof(sdv_nest_face));
-    exact->matrices = (sdv_matrix *)sdv_keep_array(context, arena, &maker->matrices,
-                                                   sizeof(sdv_matrix));
+    surface->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
+                                                   sizeof(sdv_strips));
+    for (int i = 0; i < exact->kind_count && !context->result; i++)
+        if (exact->kinds[i].work_count > exact->most_work)
+            exact->most_work = exact->kinds[i].work_count;
 }
 
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
@@ -7839,11 +7824,156 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     sdv_arena_free(arena);
 }
 
+// A patch's control points, relative to one of them, and the strips that it is cut into.
+typedef struct sdv_deep_patch {
+    const sdv_rules  *rules;
+    const sdv_patch  *patch;
+    const sdv_strips *along, *up;       // or NULL
+    double origin[4];
+    float  points[4 * 16];
+} sdv_deep_patch;
+
+static void sdv_load_deep(const subdiv_surface *surface, const sdv_patch *patch,
+                          const int *points, const double *work, sdv_deep_patch *deep)
+{
+    const double *origin = work + 4 * (size_t)points[surface->rules.loop ? 4 : 5];
+    deep->rules = &surface->rules;
+    deep->patch = patch;
+    deep->along = patch->up ? &surface->strips[patch->along - 1] : NULL;
+    deep->up = patch->up ? &surface->strips[patch->up - 1] : NULL;
+    for (int c = 0; c < 4; c++) deep->origin[c] = origin[c];
+    for (int i = 0; i < sdv_control_points(&surface->rules); i++)
+        for (int c = 0; c < 4; c++)
+            deep->points[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
+}
+
+static int sdv_deep_parts(const sdv_deep_patch *deep)
+{
+    return deep->along ? deep->along->count * deep->up->count : 1;
+}
+
+// The polynomial of the part where two strips cross, from where their own segments start on, but in
+// the patch's units: powers of two make them longer.
+static void sdv_stretch(const sdv_strip *along, const sdv_strip *up, sdv_polynomial *q)
+{
+    const float whole = 1 << SDV_STRIP_LEVELS;
+    float dx = whole / (float)along->unit, dy = whole / (float)up->unit, xi = 1;
+    for (int i = 0; i < 4; i++, xi *= dx) {
+        float scale = xi;
+        for (int j = 0; j < 4; j++, scale *= dy)
+            q->c[i][j] = sdv_times(sdv_all(scale), q->c[i][j]);
+    }
+}
+
+// The polynomial of part number i.
+static void sdv_deep_polynomial(const sdv_deep_patch *deep, int i, sdv_polynomial *q)
+{
+    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    sdv_four p[16];
+    if (deep->rules->loop) {
+        sdv_triangle_polynomial(deep->patch, same, 0, deep->rules->linear, deep->points, q);
+        return;
+    }
+    sdv_load_points(same, 16, deep->points, p);
+    q->origin = sdv_all(0);
+    if (deep->patch->sharp) sdv_mirror_quad(deep->patch, p);
+    if (!deep->along) {
+        sdv_quad_polynomial(p, 0, 0, deep->rules->linear, q);
+        return;
+    }
+    const sdv_strip *along = &deep->along->items[i % deep->along->count];
+    const sdv_strip *up = &deep->up->items[i / deep->along->count];
+    sdv_strip_points(deep->along, along, 1, 4, p);
+    sdv_strip_points(deep->up, up, 4, 1, p);
+    sdv_quad_polynomial(p, 0, 0, 0, q);
+    sdv_stretch(along, up, q);
+}
+
+// A nest's points, four channels at a time, as seen from its vertex: base + shrink w.
+typedef struct sdv_nest_state {
+    const subdiv_surface *surface;
+    const sdv_nest_kind *kind;
+    double *w;                          // [4 * work_count] its points, then those of the next level
+    double  base[4], shrink;
+} sdv_nest_state;
+
+#define SDV_NEST_STACK 256              // work points; nests with more take memory
+
+static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int number,
+                          const double *work, double *w)
+{
+    const sdv_nest *nest = &surface->exact->nests[number];
+    const int *points = surface->exact->nest_points + nest->first;
+    s->surface = surface;
+    s->kind = &surface->exact->kinds[nest->kind];
+    s->w = w;
+    s->shrink = 1;
+    for (int c = 0; c < 4; c++) s->base[c] = work[4 * (size_t)points[0] + (size_t)c];
+    for (int i = 0; i < s->kind->points; i++)
+        for (int c = 0; c < 4; c++)
+            w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
+}
+
+// Makes the points of the next level.
+static void sdv_nest_refine(sdv_nest_state *s)
+{
+    const sdv_step *step = &s->kind->step;
+    const sdv_rows *rows[3] = { &step->faces, &step->vertices, &step->edges };
+    for (int i = 0; i < 3; i++)
+        sdv_exact_rows(&s->surface->masks, rows[i], 0, (int)sdv_row_blocks(rows[i]->count), s->w);
+}
+
+// Takes those that continue the nest for its points.
+static void sdv_nest_descend(sdv_nest_state *s)
+{
+    const sdv_nest_kind *kind = s->kind;
+    double vertex[4];
+    for (int c = 0; c < 4; c++) vertex[c] = s->w[4 * kind->below[0] + c];
+    for (int c = 0; c < 4; c++) s->base[c] += s->shrink * vertex[c];
+    for (int i = 0; i < kind->points; i++)
+        for (int c = 0; c < 4; c++)
+            s->w[4 * i + c] = 2 * (s->w[4 * kind->below[i] + c] - vertex[c]);
+    s->shrink /= 2;
+}
+
+// A patch as seen by the face that it is turned in: control point k there is the nest's own number
+// sdv_turned_points[k], for every turn once more.
+static const unsigned char sdv_turned_points[2][16] = {
+    { 12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3 },
+    { 9, 6, 3, 10, 8, 4, 11, 0, 5, 7, 2, 1, 0, 0, 0, 0 } };
+
+static void sdv_turn_patch(const sdv_rules *rules, sdv_patch *patch, int *points)
+{
+    const unsigned char *turned = sdv_turned_points[rules->loop];
+    int old[16], count = sdv_control_points(rules), sides = rules->loop ? 3 : 4;
+    unsigned char first = patch->fan[0], sharp = patch->sharp;
+    for (int i = 0; i < count; i++) old[i] = points[i];
+    for (int i = 0; i < count; i++) points[i] = old[turned[i]];
+    patch->sharp = (unsigned char)((sharp << 1 | sharp >> (sides - 1)) & ((1 << sides) - 1));
+    patch->fan[0] = patch->fan[2];
+    patch->fan[2] = patch->fan[1];
+    patch->fan[1] = first;
+}
+
+// The patch of a child of a nest's face, after a refinement.
+static void sdv_nest_patch(const sdv_nest_state *s, int face, int child, int turn,
+                           sdv_patch *patch, sdv_deep_patch *deep)
+{
+    const sdv_rules *rules = &s->surface->rules;
+    int number = s->kind->children[4 * face + child], count = sdv_control_points(rules);
+    int points[16];
+    *patch = s->kind->patches.items[number];
+    for (int i = 0; i < count; i++) points[i] = s->kind->patches.points[count * number + i];
+    for (int i = 0; i < turn; i++) sdv_turn_patch(rules, patch, points);
+    sdv_load_deep(s->surface, patch, points, s->w, deep);
+}
+
 // The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
-// in their last digits alone; then the coefficients of each patch, channel by channel.
+// in their last digits alone; a nest's; then the coefficients of each polynomial.
 typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
-    float  *patches;                    // [SDV_SLOTS * channels * patch_count]
+    double *nest;                       // [4 * most_work]
+    float  *polynomials;                // [SDV_SLOTS] each, channel by channel
 } sdv_exact_memory;
 
 static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
@@ -7851,10 +7981,18 @@ static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
     return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
 }
 
+static size_t sdv_exact_nest_size(const subdiv_surface *surface)
+{
+    return 4 * sizeof(double) * (size_t)surface->exact->most_work;
+}
+
 static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
 {
+    const sdv_exact *exact = surface->exact;
+    size_t count = (size_t)exact->polynomial_count +
+                   3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
     return sizeof(double) + sdv_exact_work_size(surface, channels) +
-           SDV_SLOTS * sizeof(float) * (size_t)channels * (size_t)surface->exact->patch_count;
+           sdv_exact_nest_size(surface) + SDV_SLOTS * sizeof(float) * (size_t)channels * count;
 }
 
 static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int channels, void *scratch)
@@ -7863,7 +8001,9 @@ static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int chann
     size_t beyond = (size_t)((uintptr_t)scratch % sizeof(double));
     char *base = (char *)scratch + (beyond ? sizeof(double) - beyond : 0);
     memory.work = (double *)(void *)base;
-    memory.patches = (float *)(void *)(base + sdv_exact_work_size(surface, channels));
+    base += sdv_exact_work_size(surface, channels);
+    memory.nest = (double *)(void *)base;
+    memory.polynomials = (float *)(void *)(base + sdv_exact_nest_size(surface));
     return memory;
 }
 
@@ -7882,47 +8022,131 @@ typedef struct sdv_exact_evaluation {
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// The polynomial of a patch from its work points, four channels or fewer.
-static void sdv_exact_patch(const sdv_rules *rules, const sdv_patch *patch, const int *points,
-                            const double *work, int lanes, float *out)
+// The coefficients of polynomial number i, channels c and on, of a patch that shrinks around origin.
+static void sdv_keep_polynomial(const sdv_exact_evaluation *e, size_t i, int c,
+                                const sdv_polynomial *q, const double *origin, double shrink)
 {
-    float relative[64], packed[4 * SDV_SLOTS];
-    sdv_polynomial q;
+    float packed[4 * SDV_SLOTS];
     sdv_four slots[SDV_SLOTS];
-    const double *origin = work + 4 * (size_t)points[rules->loop ? 4 : 5];
-    for (int i = 0; i < sdv_control_points(rules); i++)
-        for (int c = 0; c < 4; c++)
-            relative[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
-    sdv_limit_polynomial(rules, patch, relative, &q);
-    sdv_pack(&q, slots);
-    for (int k = 0; k < SDV_SLOTS; k++) sdv_store(packed + 4 * k, slots[k]);
-    for (int c = 0; c < lanes; c++, out += SDV_SLOTS) {
-        for (int k = 1; k < SDV_SLOTS; k++) out[k] = packed[4 * k + c];
-        out[0] = (float)(origin[c] + (double)packed[c]);
+    float *out = e->memory.polynomials + SDV_SLOTS * ((size_t)e->channels * i + (size_t)c);
+    sdv_pack(q, slots);
+    for (int k = 0; k < SDV_SLOTS; k++)
+        sdv_store(packed + 4 * k, sdv_times(sdv_all((float)shrink), slots[k]));
+    for (int l = 0; l < 4 && c + l < e->channels; l++, out += SDV_SLOTS) {
+        for (int k = 1; k < SDV_SLOTS; k++) out[k] = packed[4 * k + l];
+        out[0] = (float)(origin[l] + (double)packed[l]);
     }
+}
+
+// Those of a patch, of which i is the first one's number.
+static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
+                                  const int *points, size_t i)
+{
+    sdv_deep_patch deep;
+    sdv_polynomial q;
+    for (int c = 0; c < e->channels; c += 4) {
+        sdv_load_deep(e->surface, patch, points,
+                      e->memory.work + (size_t)c * (size_t)e->surface->work_count, &deep);
+        for (int k = 0; k < sdv_deep_parts(&deep); k++) {
+            sdv_deep_polynomial(&deep, k, &q);
+            sdv_keep_polynomial(e, i + (size_t)k, c, &q, deep.origin, 1);
+        }
+    }
+}
+
+// The number of the first polynomial of a child of a nest's face.
+static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int depth, int child)
+{
+    return (size_t)exact->polynomial_count +
+           3 * ((size_t)face * SDV_NEST_DEPTH + (size_t)depth) + (size_t)child - 1;
+}
+
+// Those of a nest, of the children of its faces that are none of its own; w [4 * work_count].
+static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, double *w)
+{
+    const sdv_exact *exact = e->surface->exact;
+    int first = exact->nests[number].face;
+    for (int c = 0; c < e->channels; c += 4) {
+        sdv_nest_state s;
+        sdv_nest_load(&s, e->surface, number,
+                      e->memory.work + (size_t)c * (size_t)e->surface->work_count, w);
+        for (int depth = 0; depth < SDV_NEST_DEPTH; depth++) {
+            if (depth > 0) sdv_nest_descend(&s);
+            sdv_nest_refine(&s);
+            for (int i = 0; i < 3 * s.kind->faces; i++) {
+                int face = i / 3, child = i % 3 + 1;
+                sdv_patch patch;
+                sdv_deep_patch deep;
+                sdv_polynomial q;
+                sdv_nest_patch(&s, face, child, exact->nest_faces[first + face].turn, &patch,
+                               &deep);
+                sdv_deep_polynomial(&deep, 0, &q);
+                for (int k = 0; k < 4; k++)
+                    deep.origin[k] = s.base[k] + s.shrink * deep.origin[k];
+                sdv_keep_polynomial(e, sdv_nest_polynomial(exact, first + face, depth, child), c,
+                                    &q, deep.origin, s.shrink);
+            }
+        }
+    }
+}
+
+// The last cut patch of a number up to this, or of a polynomial: -1 if there is none.
+static int sdv_last_cut(const sdv_exact *exact, int patch, int polynomial)
+{
+    int low = 0, high = exact->cut_count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (exact->cuts[middle].patch <= patch && exact->cuts[middle].polynomial <= polynomial)
+            low = middle + 1;
+        else high = middle;
+    }
+    return low - 1;
+}
+
+// How many more polynomials than patches there are up to this cut patch.
+static int sdv_more_polynomials(const subdiv_surface *surface, int i)
+{
+    const sdv_cut_patch *cut = i < 0 ? NULL : &surface->exact->cuts[i];
+    if (!cut) return 0;
+    return cut->polynomial - cut->patch - 1 +
+           surface->strips[cut->along - 1].count * surface->strips[cut->up - 1].count;
 }
 
 static void sdv_exact_patches_job(void *context, int job)
 {
     const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
     const subdiv_surface *surface = e->surface;
-    int first = sdv_share(surface->exact->patch_count, job, e->jobs);
-    int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs), base = 0;
-    size_t size = SDV_SLOTS * (size_t)e->channels;
+    int first = sdv_share(surface->exact->patch_count, job, e->jobs), base = 0;
+    int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs);
+    int next = first + sdv_more_polynomials(surface, sdv_last_cut(surface->exact, first - 1,
+                                                                  INT_MAX));
     size_t width = (size_t)sdv_control_points(&surface->rules);
     for (int i = 0; i < surface->levels; base += surface->patches[i++].count) {
         const sdv_patches *patches = &surface->patches[i];
         int from = first > base ? first - base : 0, to = end - base;
         if (to > patches->count) to = patches->count;
-        for (int k = from; k < to; k++)
-            for (int c = 0; c < e->channels; c += 4)
-                sdv_exact_patch(&surface->rules, &patches->items[k],
-                                patches->points + width * (size_t)k,
-                                e->memory.work + (size_t)c * (size_t)surface->work_count,
-                                e->channels - c < 4 ? e->channels - c : 4,
-                                e->memory.patches + size * (size_t)(base + k) +
-                                SDV_SLOTS * (size_t)c);
+        for (int k = from; k < to; k++) {
+            const sdv_patch *patch = &patches->items[k];
+            sdv_patch_polynomials(e, patch, patches->points + width * (size_t)k, (size_t)next++);
+            if (patch->up) next += surface->strips[patch->along - 1].count *
+                                   surface->strips[patch->up - 1].count - 1;
+        }
     }
+}
+
+static int sdv_nest_work(const sdv_exact *exact, int nest)
+{
+    return exact->kinds[exact->nests[nest].kind].work_count;
+}
+
+static void sdv_exact_nests_job(void *context, int job)
+{
+    const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
+    const sdv_exact *exact = e->surface->exact;
+    double w[4 * SDV_NEST_STACK];
+    int end = sdv_share(exact->nest_count, job + 1, e->jobs);
+    for (int i = sdv_share(exact->nest_count, job, e->jobs); i < end; i++)
+        if (sdv_nest_work(exact, i) <= SDV_NEST_STACK) sdv_nest_polynomials(e, i, w);
 }
 
 static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt)
@@ -7934,8 +8158,13 @@ static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const sub
     e.memory = sdv_exact_parts(e.surface, e.channels, scratch);
     evaluation->deep = e.memory.work;
     sdv_make_work(evaluation, opt);
-    e.jobs = sdv_jobs(e.surface->exact->patch_count, 256);
+    const sdv_exact *exact = e.surface->exact;
+    e.jobs = sdv_jobs(exact->patch_count, 256);
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
+    e.jobs = sdv_jobs(exact->nest_count, 16);
+    sdv_run(opt, sdv_exact_nests_job, &e, e.jobs);
+    for (int i = 0; i < exact->nest_count; i++)         // they are few, and there is room for one
+        if (sdv_nest_work(exact, i) > SDV_NEST_STACK) sdv_nest_polynomials(&e, i, e.memory.nest);
 }
 
 // The lanes of up to four channels' sums.
@@ -8018,6 +8247,21 @@ static inline void sdv_triangle_values(const float *data, int lanes, float x, fl
     }
 }
 
+// The same of four channels straight from a patch.
+static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float s, sdv_four *out)
+{
+    float data[4 * SDV_SLOTS];
+    sdv_polynomial q;
+    sdv_exact_evaluation here;
+    here.channels = 4;
+    here.memory.polynomials = data;
+    sdv_deep_polynomial(deep, 0, &q);
+    q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
+    sdv_keep_polynomial(&here, 0, 0, &q, deep->origin, 1);
+    if (deep->rules->loop) sdv_triangle_values(data, 4, x, y, s, 2, out);
+    else sdv_quad_values(data, 4, x, y, s, 2, out);
+}
+
 // What is asked for of a patch, at location i, of channels from c on.
 static inline void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
                                  int lanes, int order, float x, float y, float s, int c, size_t i)
@@ -8070,94 +8314,46 @@ static inline int sdv_descend_triangle(double *x, double *y, double *scale)
     return child;
 }
 
-#define SDV_NEST_STACK 256              // work points; nests with more take memory
-
 // A sample in a nest, four channels at a time.
 typedef struct sdv_nest_sample {
-    const subdiv_surface *surface;
-    const sdv_nest_kind *kind;
+    sdv_nest_state state;
     int     face;
     double  x, y;                       // as seen from the vertex
-    double *w;                          // [4 * work_count] points: (p - base) / shrink
-    unsigned char *done;                // [work_count] is it there?
-    double  base[4], shrink;
     double  values[6][4];               // what comes out; derivatives are those in x and y
     double  normal[2][4];               // tangents for the normal
 } sdv_nest_sample;
 
-// Its points are there, none of the next level.
-static void sdv_nest_start(sdv_nest_sample *s)
+// From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time, show
+// how it weighs its control points. (Across a sharp edge, those on one side not at all: there the
+// surface may grow without bound as seen from the vertex, while along the edge it does not.)
+static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
-    memset(s->done, 1, (size_t)s->kind->points);
-    memset(s->done + s->kind->points, 0, (size_t)(s->kind->work_count - s->kind->points));
-}
-
-static void sdv_nest_load(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
-{
-    const int *points = s->surface->exact->nest_points + nest->first;
-    for (int c = 0; c < 4; c++) s->base[c] = work[4 * (size_t)points[0] + (size_t)c];
-    for (int i = 0; i < s->kind->points; i++)
-        for (int c = 0; c < 4; c++)
-            s->w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
-    s->shrink = 1;
-    sdv_nest_start(s);
-}
-
-// A point of the next level, after those its row needs.
-static void sdv_nest_point(sdv_nest_sample *s, int point)
-{
-    const sdv_masks *masks = &s->surface->masks;
-    const int *row = s->kind->rows[point];
-    if (s->done[point]) return;
-    for (int i = 0; i < masks->items[row[0]].count; i++)
-        if (!s->done[row[1 + i]]) sdv_nest_point(s, row[1 + i]);
-    sdv_exact_row(masks, row, s->w, s->w + 4 * point);
-    s->done[point] = 1;
-}
-
-static void sdv_nest_go_down(sdv_nest_sample *s)
-{
-    const sdv_nest_kind *kind = s->kind;
-    double vertex[4];
-    for (int i = 0; i < kind->points; i++) sdv_nest_point(s, kind->below[i]);
-    for (int c = 0; c < 4; c++) vertex[c] = s->w[4 * kind->below[0] + c];
-    for (int c = 0; c < 4; c++) s->base[c] += s->shrink * vertex[c];
-    for (int i = 0; i < kind->points; i++)
-        for (int c = 0; c < 4; c++)
-            s->w[4 * i + c] = 2 * (s->w[4 * kind->below[i] + c] - vertex[c]);
-    s->shrink /= 2;
-    sdv_nest_start(s);
-}
-
-// From the patch of a child, where (x, y) is not in the next nest.
-static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
-{
-    int loop = s->surface->rules.loop, count = loop ? 12 : 16;
+    const sdv_nest_state *state = &s->state;
+    int loop = state->surface->rules.loop, count = loop ? 12 : 16;
     double scale = 2;
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
-    int patch = s->kind->children[4 * s->face + child];
-    const sdv_matrix *matrix = &s->surface->exact->matrices[s->kind->matrices[patch]];
-    const int *points = s->kind->patches.points + count * patch;
-    double px[5] = { 1, x, x * x, x * x * x, x * x * x * x };
-    double py[5] = { 1, y, y * y, y * y * y, y * y * y * y };
+    int number = state->kind->children[4 * s->face + child];
+    const int *points = state->kind->patches.points + count * number;
+    sdv_deep_patch unit = { &state->surface->rules, &state->kind->patches.items[number], NULL, NULL,
+                            { 0, 0, 0, 0 }, { 0 } };
+    sdv_nest_refine(&s->state);
     memset(s->values, 0, sizeof s->values);
-    for (int i = 0; i < count; i++) sdv_nest_point(s, points[i]);
-    for (int k = 0; k < SDV_SLOTS; k++) {
-        int i = sdv_powers[loop][k][0], j = sdv_powers[loop][k][1];
-        double c[4] = { 0, 0, 0, 0 };
-        for (int p = 0; p < count; p++)
-            for (int l = 0; l < 4; l++) c[l] += matrix->weights[k][p] * s->w[4 * points[p] + l];
-        double dx = i ? i * px[i - 1] : 0, dy = j ? j * py[j - 1] : 0;
-        double dxx = i > 1 ? i * (i - 1) * px[i - 2] : 0;
-        double dyy = j > 1 ? j * (j - 1) * py[j - 2] : 0;
-        double w[6] = { px[i] * py[j], scale * dx * py[j], scale * px[i] * dy, 4 * dxx * py[j],
-                        4 * dx * dy, 4 * px[i] * dyy };
-        for (int d = 0; d < 6; d++)
-            for (int l = 0; l < 4; l++) s->values[d][l] += w[d] * c[l];
+    for (int first = 0; first < count; first += 4) {
+        sdv_four weights[6];
+        for (int i = 0; i < 4; i++) unit.points[4 * (first + i) + i] = 1;
+        sdv_deep_values(&unit, (float)x, (float)y, (float)scale, weights);
+        for (int i = 0; i < 4; i++) unit.points[4 * (first + i) + i] = 0;
+        for (int d = 0; d < 6; d++) {
+            float w[4];
+            sdv_store(w, weights[d]);
+            for (int i = 0; i < 4; i++)
+                for (int c = 0; c < 4; c++)
+                    s->values[d][c] += (double)w[i] * state->w[4 * points[first + i] + c];
+        }
     }
-    for (int l = 0; l < 4; l++) {
-        s->values[0][l] = s->base[l] + s->shrink * s->values[0][l];
-        for (int d = 3; d < 6; d++) s->values[d][l] /= s->shrink;
+    for (int c = 0; c < 4; c++) {
+        s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
+        for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
     }
     memcpy(s->normal, s->values[1], sizeof s->normal);
 }
@@ -8166,16 +8362,16 @@ static void sdv_nest_patch(sdv_nest_sample *s, double x, double y)
 // for the normal, between them. Second derivatives are 0.
 static void sdv_nest_masks(sdv_nest_sample *s)
 {
-    const sdv_nest_kind *kind = s->kind;
+    const sdv_nest_kind *kind = s->state.kind;
     double sum[3][4], a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
     for (int k = 0; k < 3; k++)
         for (int c = 0; c < 4; c++) {
             sum[k][c] = 0;
             for (int i = 0; i < kind->points; i++)
-                sum[k][c] += kind->limit[k * kind->points + i] * s->w[4 * i + c];
+                sum[k][c] += kind->limit[k * kind->points + i] * s->state.w[4 * i + c];
         }
     for (int c = 0; c < 4; c++) {
-        s->values[0][c] = s->base[c] + sum[0][c];
+        s->values[0][c] = s->state.base[c] + s->state.shrink * sum[0][c];
         for (int i = 0; i < 2; i++) {
             s->values[1 + i][c] = cos((s->face + i) * a) * sum[1][c] +
                                   sin((s->face + i) * a) * sum[2][c];
@@ -8184,38 +8380,45 @@ static void sdv_nest_masks(sdv_nest_sample *s)
     }
 }
 
+static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
+{
+    for (int i = 0; i < levels; i++) {
+        sdv_nest_refine(&s->state);
+        sdv_nest_descend(&s->state);
+    }
+}
+
 static void sdv_nest_vertex(sdv_nest_sample *s)
 {
     double along[2][4], normal[2][4];
-    if (s->kind->limit) {
+    if (s->state.kind->limit) {
         sdv_nest_masks(s);
     } else {
-        for (int i = 0; i < 100; i++) sdv_nest_go_down(s);
+        sdv_nest_go_down(s, 100);
         for (int i = 0; i < 3; i++) {
-            sdv_nest_patch(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
+            sdv_nest_child(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
             if (i < 2) memcpy(along[i], s->values[1 + i], sizeof along[i]);
             else memcpy(normal, s->normal, sizeof normal);
         }
         memcpy(s->values[1], along, sizeof along);
         memcpy(s->normal, normal, sizeof normal);
-        memcpy(s->values[0], s->base, sizeof s->base);
+        memcpy(s->values[0], s->state.base, sizeof s->state.base);
     }
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
 }
 
-static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_nest *nest, const double *work)
+static void sdv_nest_evaluate(sdv_nest_sample *s)
 {
-    double size = s->surface->rules.loop ? s->x + s->y : s->x > s->y ? s->x : s->y;
+    double size = s->state.surface->rules.loop ? s->x + s->y : s->x > s->y ? s->x : s->y;
     int down;
-    sdv_nest_load(s, nest, work);
     if (size <= 0) {
         sdv_nest_vertex(s);
         return;
     }
     frexp(size, &down);
     down = down > 0 ? 0 : -down;
-    for (int i = 0; i < down; i++) sdv_nest_go_down(s);
-    sdv_nest_patch(s, ldexp(s->x, down), ldexp(s->y, down));
+    sdv_nest_go_down(s, down);
+    sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
 }
 
 // What the coordinates of a face are as seen from its vertex number turn: those of row 2 i and
@@ -8223,6 +8426,18 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_nest *nest, const do
 static const signed char sdv_turns[2][4][4] = {
     { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
     { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
+
+static inline void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
+{
+    double w = 1 - u - v;
+    if (loop) {
+        *x = turn == 0 ? u : turn == 1 ? v : w;
+        *y = turn == 0 ? v : turn == 1 ? w : u;
+    } else {
+        *x = turn == 0 ? u : turn == 1 ? v : turn == 2 ? 1 - u : 1 - v;
+        *y = turn == 0 ? v : turn == 1 ? 1 - u : turn == 2 ? 1 - v : u;
+    }
+}
 
 // Derivatives in u and v from those in x and y, with the scale of the face.
 static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
@@ -8255,40 +8470,31 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
     sdv_make_unit(n, e->normals + e->normal_stride * i);
 }
 
-static int sdv_put_nest(const sdv_exact_evaluation *e, int index, double x, double y, double scale,
+static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, double y, double scale,
                         size_t i)
 {
     const subdiv_surface *surface = e->surface;
-    const sdv_exact *exact = surface->exact;
-    const sdv_nest_face *face = &exact->nest_faces[index];
-    const sdv_nest *nest = &exact->nests[face->nest];
+    const sdv_nest_face *face = &surface->exact->nest_faces[number];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
-    double small[5 * SDV_NEST_STACK], z = 1 - x - y;
+    int count = sdv_nest_work(surface->exact, face->nest);
+    double small[4 * SDV_NEST_STACK], *w = small;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
-    s.surface = surface;
-    s.kind = &exact->kinds[nest->kind];
-    s.face = face->face;
-    if (surface->rules.loop) {
-        s.x = face->turn == 0 ? x : face->turn == 1 ? y : z;
-        s.y = face->turn == 0 ? y : face->turn == 1 ? z : x;
-    } else {
-        s.x = face->turn == 0 ? x : face->turn == 1 ? y : face->turn == 2 ? 1 - x : 1 - y;
-        s.y = face->turn == 0 ? y : face->turn == 1 ? 1 - x : face->turn == 2 ? 1 - y : x;
-    }
+    s.face = number - surface->exact->nests[face->nest].face;
+    sdv_turn_place(surface->rules.loop, face->turn, x, y, &s.x, &s.y);
     if (s.y < 0) s.y = 0;
     if (s.x < 0) s.x = 0;
-    s.w = s.kind->work_count <= SDV_NEST_STACK ? small
-        : SDV_NEW(&context, &arena, double, 5 * (size_t)s.kind->work_count);
-    if (s.w) s.done = (unsigned char *)(s.w + 4 * (size_t)s.kind->work_count);
-    for (int c = 0; c < e->channels && s.w; c += 4) {
-        sdv_nest_evaluate(&s, nest, e->memory.work + (size_t)c * (size_t)surface->work_count);
+    if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
+    for (int c = 0; c < e->channels && w; c += 4) {
+        sdv_nest_load(&s.state, surface, face->nest,
+                      e->memory.work + (size_t)c * (size_t)surface->work_count, w);
+        sdv_nest_evaluate(&s);
         sdv_nest_turn(&s, t, scale);
         sdv_nest_put(e, &s, c, i);
     }
     sdv_arena_free(&arena);
-    return s.w != NULL;
+    return w != NULL;
 }
 
 // Faces without a surface have zeros.
@@ -8305,15 +8511,16 @@ static inline double sdv_on_face(float u)
     return u < 0 ? 0 : u > 1 ? 1 : (double)u;
 }
 
-// Where a location is in the tree.
+// Where a location is: on a leaf of the tree, and on a polynomial of that.
 typedef struct sdv_leaf {
-    int    leaf;                        // 0: its face has no surface
-    float  scale;                       // of the leaf's coordinates
-    double x, y;
+    int    slot;                        // 0: its face has no surface
+    int    deep;                        // in a nest, nearer to the vertex than polynomials are kept
+    size_t polynomial;
+    double x, y, scale;                 // of the coordinates on the face
 } sdv_leaf;
 
 // From the cell of the deepest level a location is in.
-static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_leaf *spot)
+static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_leaf *leaf)
 {
     const int cells = 1 << SDV_EXACT_LEVELS;
     int x = (int)(u * cells), y = (int)(v * cells), level = SDV_EXACT_LEVELS;
@@ -8324,35 +8531,97 @@ static inline void sdv_locate_quad(const int *nodes, int node, double u, double 
         node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
     }
     int scale = cells >> level;
-    spot->leaf = node;
-    spot->scale = (float)scale;
-    spot->x = u * scale - (x >> level);
-    spot->y = v * scale - (y >> level);
+    leaf->slot = node;
+    leaf->scale = scale;
+    leaf->x = u * scale - (x >> level);
+    leaf->y = v * scale - (y >> level);
 }
 
 static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
-                                       sdv_leaf *spot)
+                                       sdv_leaf *leaf)
 {
-    double scale = 1;
+    leaf->scale = 1;
     if (x + y > 1) y = 1 - x;
-    for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
-    spot->leaf = node;
-    spot->scale = (float)scale;
-    spot->x = x;
-    spot->y = y;
+    for (; node >= 0; leaf->scale *= 2)
+        node = nodes[node + sdv_descend_triangle(&x, &y, &leaf->scale)];
+    leaf->slot = node;
+    leaf->x = x;
+    leaf->y = y;
 }
 
 static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
-                              sdv_leaf *spot)
+                              sdv_leaf *leaf)
 {
     double x = sdv_on_face(at->u), y = sdv_on_face(at->v);
     int f = at->face;
-    spot->leaf = 0;
+    leaf->slot = leaf->deep = 0;
     if (surface->exact->absent && surface->exact->absent[f]) return;
     if (surface->own_face) f = surface->own_face[f];
     int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop) sdv_locate_triangle(surface->exact->nodes, node, x, y, spot);
-    else sdv_locate_quad(surface->exact->nodes, node, x, y, spot);
+    if (loop) sdv_locate_triangle(surface->exact->nodes, node, x, y, leaf);
+    else sdv_locate_quad(surface->exact->nodes, node, x, y, leaf);
+}
+
+// The strip that a coordinate is on; it then counts from the strip's origin.
+static inline int sdv_find_strip(const sdv_strips *strips, double *x)
+{
+    const double whole = 1 << SDV_STRIP_LEVELS;
+    int i = 0;
+    while (i + 1 < strips->count && *x * whole >= strips->items[i].to) i++;
+    *x -= strips->items[i].origin / whole;
+    return i;
+}
+
+static inline void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
+{
+    const sdv_cut_patch *cut = &surface->exact->cuts[number];
+    const sdv_strips *along = &surface->strips[cut->along - 1];
+    int row = sdv_find_strip(&surface->strips[cut->up - 1], &leaf->y);
+    leaf->polynomial = (size_t)(cut->polynomial + row * along->count +
+                                sdv_find_strip(along, &leaf->x));
+}
+
+// On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
+// as seen by the face again.
+static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
+{
+    int turn = exact->nest_faces[number].turn, depth = 0;
+    double x, y, scale = 2 * leaf->scale;
+    sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
+    while ((loop ? x + y : x > y ? x : y) < 0.5) {
+        if (++depth == SDV_NEST_DEPTH) {
+            leaf->deep = 1;
+            return;
+        }
+        x *= 2;
+        y *= 2;
+        scale *= 2;
+    }
+    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
+    sdv_turn_place(loop, turn ? (loop ? 3 : 4) - turn : 0, x, y, &leaf->x, &leaf->y);
+    leaf->scale = scale;
+    leaf->polynomial = sdv_nest_polynomial(exact, number, depth, child);
+}
+
+static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
+{
+    int what = ~leaf->slot & 3, number = ~leaf->slot >> 2;
+    leaf->polynomial = (size_t)number;
+    if (what == SDV_LEAF_CUT) sdv_find_in_cut(surface, number, leaf);
+    if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
+}
+
+static inline void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job,
+                                size_t i)
+{
+    size_t width = SDV_SLOTS * (size_t)e->channels;
+    if (leaf->slot == 0)
+        sdv_put_zeros(e, i);
+    else if (leaf->deep)
+        e->failed[job] |= !sdv_put_nest(e, ~leaf->slot >> 2, leaf->x, leaf->y, leaf->scale, i);
+    else
+        sdv_put_patch(e, e->memory.polynomials + width * leaf->polynomial, loop, (float)leaf->x,
+                      (float)leaf->y, (float)leaf->scale, i);
 }
 
 // All are located before the first is evaluated: what they need of memory comes at the same time.
@@ -8365,21 +8634,14 @@ static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
     while (i < end) {
         int count = end - i < block ? (int)(end - i) : block;
         for (int k = 0; k < count; k++) {
-            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], &leaves[k]);
-            if (~leaves[k].leaf & 1) continue;
-            const float *data = e->memory.patches + width * (size_t)(~leaves[k].leaf >> 1);
+            sdv_leaf *leaf = &leaves[k];
+            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], leaf);
+            if (leaf->slot) sdv_find_polynomial(e->surface, loop, leaf);
+            if (leaf->slot == 0 || leaf->deep) continue;
+            const float *data = e->memory.polynomials + width * leaf->polynomial;
             for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
         }
-        for (const sdv_leaf *spot = leaves; spot < leaves + count; spot++, i++) {
-            if (spot->leaf == 0)
-                sdv_put_zeros(e, i);
-            else if (~spot->leaf & 1)
-                e->failed[job] |= !sdv_put_nest(e, ~spot->leaf >> 1, spot->x, spot->y,
-                                                (double)spot->scale, i);
-            else
-                sdv_put_patch(e, e->memory.patches + width * (size_t)(~spot->leaf >> 1), loop,
-                              (float)spot->x, (float)spot->y, spot->scale, i);
-        }
+        for (int k = 0; k < count; k++, i++) sdv_put_leaf(e, &leaves[k], loop, job, i);
     }
 }
 
@@ -9029,24 +9291,32 @@ static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_s
     memset(probe->seen, 0, work);
 }
 
-// The work points that a leaf looks at. Of a patch also its level and its number there.
-static int sdv_probe_points(sdv_probe *probe, int slot, int *level, int *patch)
+// The patch of a leaf that is none of a nest.
+static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, const int **points)
+{
+    const sdv_exact *exact = surface->exact;
+    int number = ~slot >> 2, patch, level = 0;
+    if ((~slot & 3) == SDV_LEAF_CUT) patch = exact->cuts[number].patch;
+    else patch = number - sdv_more_polynomials(surface, sdv_last_cut(exact, INT_MAX, number));
+    while (patch >= surface->patches[level].count) patch -= surface->patches[level++].count;
+    *points = surface->patches[level].points +
+              (size_t)sdv_control_points(&surface->rules) * (size_t)patch;
+    return &surface->patches[level].items[patch];
+}
+
+// The work points that a leaf looks at, each once: how many.
+static int sdv_probe_points(sdv_probe *probe, int slot)
 {
     const subdiv_surface *surface = probe->surface;
     const sdv_exact *exact = surface->exact;
-    int leaf = ~slot >> 1, count, distinct = 0;
+    int count = sdv_control_points(&surface->rules), distinct = 0;
     const int *points;
-    *level = -1;
-    if (~slot & 1) {
-        const sdv_nest *nest = &exact->nests[exact->nest_faces[leaf].nest];
+    if ((~slot & 3) == SDV_LEAF_NEST) {
+        const sdv_nest *nest = &exact->nests[exact->nest_faces[~slot >> 2].nest];
         points = exact->nest_points + nest->first;
         count = exact->kinds[nest->kind].points;
     } else {
-        for (*level = 0; leaf >= surface->patches[*level].count; (*level)++)
-            leaf -= surface->patches[*level].count;
-        *patch = leaf;
-        count = sdv_control_points(&surface->rules);
-        points = surface->patches[*level].points + (size_t)count * (size_t)leaf;
+        sdv_leaf_patch(surface, slot, &points);
     }
     for (int i = 0; i < count; i++) {
         if (probe->seen[points[i]]) continue;
@@ -9057,27 +9327,42 @@ static int sdv_probe_points(sdv_probe *probe, int slot, int *level, int *patch)
     return distinct;
 }
 
-// Their weights: of the point, du and dv.
-static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const subdiv_location *at,
-                               int slot, int count, int level, int patch)
+// Evaluates what the work points have at a location, by a polynomial made for it.
+static void sdv_probe_leaf(sdv_context *context, sdv_probe *probe, sdv_leaf leaf, float (*lanes)[4])
 {
     const subdiv_surface *surface = probe->surface;
+    sdv_exact_evaluation e;
+    memset(&e, 0, sizeof e);
+    e.surface = surface;
+    e.channels = 4;
+    e.memory = probe->memory;
+    e.order = 1;
+    e.opt = &probe->opt;
+    for (int k = 0; k < 3; k++) e.out[k] = lanes[k];
+    leaf.deep = (~leaf.slot & 3) == SDV_LEAF_NEST;
+    if (!leaf.deep) {
+        const int *points;
+        const sdv_patch *patch = sdv_leaf_patch(surface, leaf.slot, &points);
+        sdv_find_polynomial(surface, surface->rules.loop, &leaf);
+        int cut = (~leaf.slot & 3) == SDV_LEAF_CUT;
+        sdv_patch_polynomials(&e, patch, points,
+                              cut ? (size_t)surface->exact->cuts[~leaf.slot >> 2].polynomial
+                                  : leaf.polynomial);
+    }
+    sdv_put_leaf(&e, &leaf, surface->rules.loop, 0, 0);
+    if (e.failed[0]) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
+}
+
+// Their weights: of the point, du and dv.
+static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const sdv_leaf *leaf,
+                               int count)
+{
     float lanes[3][4];
-    subdiv_derivatives out = { lanes[0], lanes[1], lanes[2], NULL, NULL, NULL, NULL, 0 };
     for (int first = 0; first < count; first += 4) {
         int some = count - first < 4 ? count - first : 4;
         const int *points = probe->points + first;
         for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
-        if (level >= 0) {
-            const sdv_patches *patches = &surface->patches[level];
-            size_t width = (size_t)sdv_control_points(&surface->rules);
-            sdv_exact_patch(&surface->rules, &patches->items[patch],
-                            patches->points + width * (size_t)patch, probe->memory.work, 4,
-                            probe->memory.patches + 4 * SDV_SLOTS * (size_t)(~slot >> 1));
-        }
-        subdiv_result result = subdiv_evaluate_at(surface, 4, probe->scratch, 1, at, &out,
-                                                  &probe->opt);
-        if (result) sdv_fail(context, result, "out of memory");
+        sdv_probe_leaf(context, probe, *leaf, lanes);
         for (int i = 0; i < some; i++) {
             probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
             for (int k = 0; k < 3 && !context->result; k++)
@@ -9095,12 +9380,11 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     sdv_stencil_maker_new(context, &make, surface, count, 3);
     sdv_probe_new(context, &make.arena, surface, &probe);
     for (int i = 0; i < count && !context->result; i++) {
-        const subdiv_location *at = &locations[i];
-        sdv_leaf spot;
-        sdv_locate(surface, surface->rules.loop, at, &spot);
-        if (spot.leaf) {
-            int level, patch = 0, points = sdv_probe_points(&probe, spot.leaf, &level, &patch);
-            sdv_probe_location(context, &probe, at, spot.leaf, points, level, patch);
+        sdv_leaf leaf;
+        sdv_locate(surface, surface->rules.loop, &locations[i], &leaf);
+        if (leaf.slot) {
+            int points = sdv_probe_points(&probe, leaf.slot);
+            sdv_probe_location(context, &probe, &leaf, points);
             if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
         }
         if (!context->result) sdv_write_stencil(&make, i);
