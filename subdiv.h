@@ -7889,6 +7889,32 @@ static void sdv_deep_polynomial(const sdv_deep_patch *deep, int i, sdv_polynomia
     sdv_stretch(along, up, q);
 }
 
+// Where a patch is, of those of all levels, one level's behind the other's.
+typedef struct sdv_patch_at {
+    int level, i;
+} sdv_patch_at;
+
+static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
+{
+    while (at->level < surface->levels && at->i >= surface->patches[at->level].count)
+        at->i -= surface->patches[at->level++].count;
+}
+
+static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
+{
+    sdv_patch_at at = { 0, number };
+    sdv_next_level(surface, &at);
+    return at;
+}
+
+static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
+                                     const int **points)
+{
+    const sdv_patches *patches = &surface->patches[at.level];
+    *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
+    return &patches->items[at.i];
+}
+
 // A nest's points, four channels at a time, as seen from its vertex: base + shrink w.
 typedef struct sdv_nest_state {
     const subdiv_surface *surface;
@@ -7955,17 +7981,15 @@ static void sdv_turn_patch(const sdv_rules *rules, sdv_patch *patch, int *points
     patch->fan[1] = first;
 }
 
-// The patch of a child of a nest's face, after a refinement.
+// The patch of a child of a nest's face, after a refinement, and its control points [16].
 static void sdv_nest_patch(const sdv_nest_state *s, int face, int child, int turn,
-                           sdv_patch *patch, sdv_deep_patch *deep)
+                           sdv_patch *patch, int *points)
 {
     const sdv_rules *rules = &s->surface->rules;
     int number = s->kind->children[4 * face + child], count = sdv_control_points(rules);
-    int points[16];
     *patch = s->kind->patches.items[number];
     for (int i = 0; i < count; i++) points[i] = s->kind->patches.points[count * number + i];
     for (int i = 0; i < turn; i++) sdv_turn_patch(rules, patch, points);
-    sdv_load_deep(s->surface, patch, points, s->w, deep);
 }
 
 // The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
@@ -8038,20 +8062,23 @@ static void sdv_keep_polynomial(const sdv_exact_evaluation *e, size_t i, int c,
     }
 }
 
-// Those of a patch, of which i is the first one's number.
-static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
-                                  const int *points, size_t i)
+// Those of a patch, of which i is the first one's number. Returns how many.
+static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
+                                 const int *points, size_t i)
 {
     sdv_deep_patch deep;
     sdv_polynomial q;
+    int parts = 0;
     for (int c = 0; c < e->channels; c += 4) {
         sdv_load_deep(e->surface, patch, points,
                       e->memory.work + (size_t)c * (size_t)e->surface->work_count, &deep);
-        for (int k = 0; k < sdv_deep_parts(&deep); k++) {
+        parts = sdv_deep_parts(&deep);
+        for (int k = 0; k < parts; k++) {
             sdv_deep_polynomial(&deep, k, &q);
             sdv_keep_polynomial(e, i + (size_t)k, c, &q, deep.origin, 1);
         }
     }
+    return parts;
 }
 
 // The number of the first polynomial of a child of a nest's face.
@@ -8074,12 +8101,13 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
             if (depth > 0) sdv_nest_descend(&s);
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
-                int face = i / 3, child = i % 3 + 1;
+                int face = i / 3, child = i % 3 + 1, points[16];
                 sdv_patch patch;
                 sdv_deep_patch deep;
                 sdv_polynomial q;
                 sdv_nest_patch(&s, face, child, exact->nest_faces[first + face].turn, &patch,
-                               &deep);
+                               points);
+                sdv_load_deep(e->surface, &patch, points, w, &deep);
                 sdv_deep_polynomial(&deep, 0, &q);
                 for (int k = 0; k < 4; k++)
                     deep.origin[k] = s.base[k] + s.shrink * deep.origin[k];
@@ -8116,21 +8144,16 @@ static void sdv_exact_patches_job(void *context, int job)
 {
     const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
     const subdiv_surface *surface = e->surface;
-    int first = sdv_share(surface->exact->patch_count, job, e->jobs), base = 0;
+    int first = sdv_share(surface->exact->patch_count, job, e->jobs);
     int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs);
     int next = first + sdv_more_polynomials(surface, sdv_last_cut(surface->exact, first - 1,
                                                                   INT_MAX));
-    size_t width = (size_t)sdv_control_points(&surface->rules);
-    for (int i = 0; i < surface->levels; base += surface->patches[i++].count) {
-        const sdv_patches *patches = &surface->patches[i];
-        int from = first > base ? first - base : 0, to = end - base;
-        if (to > patches->count) to = patches->count;
-        for (int k = from; k < to; k++) {
-            const sdv_patch *patch = &patches->items[k];
-            sdv_patch_polynomials(e, patch, patches->points + width * (size_t)k, (size_t)next++);
-            if (patch->up) next += surface->strips[patch->along - 1].count *
-                                   surface->strips[patch->up - 1].count - 1;
-        }
+    sdv_patch_at at = sdv_find_patch(surface, first);
+    for (int i = first; i < end; i++, at.i++) {
+        const int *points;
+        sdv_next_level(surface, &at);
+        const sdv_patch *patch = sdv_patch_of(surface, at, &points);
+        next += sdv_patch_polynomials(e, patch, points, (size_t)next);
     }
 }
 
@@ -9295,13 +9318,10 @@ static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_s
 static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, const int **points)
 {
     const sdv_exact *exact = surface->exact;
-    int number = ~slot >> 2, patch, level = 0;
-    if ((~slot & 3) == SDV_LEAF_CUT) patch = exact->cuts[number].patch;
-    else patch = number - sdv_more_polynomials(surface, sdv_last_cut(exact, INT_MAX, number));
-    while (patch >= surface->patches[level].count) patch -= surface->patches[level++].count;
-    *points = surface->patches[level].points +
-              (size_t)sdv_control_points(&surface->rules) * (size_t)patch;
-    return &surface->patches[level].items[patch];
+    int number = ~slot >> 2;
+    if ((~slot & 3) == SDV_LEAF_CUT) number = exact->cuts[number].patch;
+    else number -= sdv_more_polynomials(surface, sdv_last_cut(exact, INT_MAX, number));
+    return sdv_patch_of(surface, sdv_find_patch(surface, number), points);
 }
 
 // The work points that a leaf looks at, each once: how many.
@@ -9531,6 +9551,14 @@ static int sdv_side_point(const sdv_tile *tile, int side, int k)
     return tiling->starts[e] - 1 + (a > b ? rate - k : k);
 }
 
+// Where column 0 of a row inside the grid (of an n-gon: its quad at vertex i) would stand.
+static int sdv_row_inside(const sdv_tile *tile, int i, int row)
+{
+    int columns = tile->grid.columns;
+    if (tile->ngon) return tile->inside + (tile->sides + i * (columns - 1) + row - 1) * (columns - 1);
+    return tile->inside - 1 + (row - 1) * (columns - 1) - (tile->loop ? row * (row - 1) / 2 : 0);
+}
+
 // A point of the quad at vertex i of an n-gon: its last column is the spoke to edge i, backwards,
 // its last row that to the edge before.
 static int sdv_ngon_point(const sdv_tile *tile, int i, int row, int column)
@@ -9541,7 +9569,7 @@ static int sdv_ngon_point(const sdv_tile *tile, int i, int row, int column)
     if (row == m && column == m) return tile->inside;
     if (column == m) return spokes + i * (m - 1) - row;
     if (row == m) return spokes + before * (m - 1) - column;
-    return tile->inside + 1 + (tile->sides + i * (m - 1) + row - 1) * (m - 1) + column - 1;
+    return sdv_row_inside(tile, i, row) + column;
 }
 
 // A point of the grid (of an n-gon: of its quad at vertex i). Row 0 and column 0, and what is
@@ -9554,8 +9582,7 @@ static int sdv_tile_point(const sdv_tile *tile, int i, int row, int column)
     if (column == 0) return sdv_side_point(tile, tile->sides - 1, rows - row);
     if (column == columns - (tile->loop ? row : 0)) return sdv_side_point(tile, 1, row);
     if (!tile->loop && row == rows) return sdv_side_point(tile, 2, columns - column);
-    int cut = tile->loop ? row * (row - 1) / 2 : 0;
-    return tile->inside + (row - 1) * (columns - 1) - cut + column - 1;
+    return sdv_row_inside(tile, i, row) + column;
 }
 
 // Point j of the ring along a side: from the corner of the ring at vertex 0 of that side on.
@@ -9679,138 +9706,12 @@ static void sdv_put_strips(const sdv_tile *tile, sdv_faces_at *out)
     for (int i = 0; i < tile->sides && tile->grid.margin; i++) sdv_put_strip(tile, i, out);
 }
 
-// Where on its face a point k of rate on a side is.
-static subdiv_location sdv_side_location(const sdv_tile *tile, int side, int k, int rate)
-{
-    subdiv_location at = { 0, 0, 0, 0 };
-    float t = (float)k / (float)rate, back = (float)(rate - k) / (float)rate;
-    if (tile->ngon) {
-        int behind = k > rate - k, next = side + 1 < tile->sides ? side + 1 : 0;
-        at.corner = behind ? next : side;
-        if (behind) at.v = 2 * back;
-        else at.u = 2 * t;
-    } else if (tile->loop) {
-        at.u = side == 0 ? t : side == 1 ? back : 0;
-        at.v = side == 0 ? 0 : side == 1 ? t : back;
-    } else {
-        at.u = side == 0 ? t : side == 1 ? 1 : side == 2 ? back : 0;
-        at.v = side == 0 ? 0 : side == 1 ? t : side == 2 ? 1 : back;
-    }
-    return at;
-}
-
-// Where point k inside an n-gon is: its centre, the spokes, or the inside of its quads.
-static subdiv_location sdv_ngon_location(const sdv_tile *tile, int k)
-{
-    subdiv_location at = { 0, 0, 1, 1 };
-    int m = tile->grid.columns, line = (k - 1) / (m - 1 ? m - 1 : 1), left = k - 1 - line * (m - 1);
-    if (k == 0) return at;
-    if (line < tile->sides) {
-        at.corner = line;
-        at.v = (float)(m - 1 - left) / (float)m;
-        return at;
-    }
-    line -= tile->sides;
-    at.corner = line / (m - 1);
-    at.u = (float)(left + 1) / (float)m;
-    at.v = (float)(line % (m - 1) + 1) / (float)m;
-    return at;
-}
-
-// Where point k inside a face is. The rows of a triangle are counted from its last, of one point.
-static subdiv_location sdv_inside_location(const sdv_tile *tile, int k)
-{
-    subdiv_location at = { 0, 0, 0, 0 };
-    int columns = tile->grid.columns, rows = tile->grid.rows, row, column;
-    if (tile->ngon) return sdv_ngon_location(tile, k);
-    if (tile->loop) {
-        int64_t behind = (int64_t)(columns - 1) * (columns - 2) / 2 - 1 - k;
-        int from_last = (int)((sqrt(8 * (double)behind + 1) - 1) / 2);
-        row = columns - 2 - from_last;
-        column = columns - row - 1 - (int)(behind - (int64_t)from_last * (from_last + 1) / 2);
-    } else {
-        row = k / (columns - 1) + 1;
-        column = k % (columns - 1) + 1;
-    }
-    at.u = (float)column / (float)columns;
-    at.v = (float)row / (float)rows;
-    return at;
-}
-
-// The edge or, behind them all, the face with point p inside.
-static int sdv_find_item(const sdv_tiling *tiling, int p)
-{
-    int low = 0, high = tiling->cage->edge_count + tiling->cage->face_count;
-    while (high - low > 1) {
-        int middle = low + (high - low) / 2;
-        if (tiling->starts[middle] <= p) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
-// Where the points are, one after the other: in a vertex, an edge or, behind them all, a face.
-typedef struct sdv_cursor {
-    int item;                           // edge or face
-    int vertex;                         // or vertex; -1: none
-    int h, rate;                        // of the edge or vertex, where it is evaluated
-    sdv_tile tile;                      // the face there
-    int number;                         // of it, for subdiv_evaluate_at
-} sdv_cursor;
-
-// Takes the cursor to what point p is in. There is no face at a vertex without one: h is -1.
-static void sdv_move_cursor(const sdv_tiling *tiling, sdv_cursor *at, int p)
-{
-    const sdv_level *cage = tiling->cage;
-    int f = at->item - cage->edge_count;
-    at->vertex = p < cage->vertex_count ? p : -1;
-    while (at->vertex < 0 && tiling->starts[at->item + 1] <= p) f = ++at->item - cage->edge_count;
-    if (at->vertex >= 0 || f < 0) {
-        at->h = tiling->home[at->vertex >= 0 ? p : cage->vertex_count + at->item];
-        at->rate = at->vertex >= 0 ? 1 : tiling->edge_rates[at->item];
-        if (at->h < 0) return;
-        f = sdv_face_of(cage, at->h);
-    }
-    at->tile = sdv_tile_at(tiling, f);
-    at->number = tiling->number ? tiling->number[f] : f;
-}
-
-static subdiv_location sdv_cursor_location(const sdv_tiling *tiling, const sdv_cursor *at, int p)
-{
-    const sdv_level *cage = tiling->cage;
-    subdiv_location location;
-    int k = p - tiling->starts[at->item] + 1, side = at->h - at->tile.first;
-    if (at->vertex >= 0) {
-        location = sdv_side_location(&at->tile, side, 0, 1);
-    } else if (at->item < cage->edge_count) {
-        int from = cage->face_vertices[at->h], to = cage->face_vertices[sdv_next(cage, at->h)];
-        location = sdv_side_location(&at->tile, side, from > to ? at->rate - k : k, at->rate);
-    } else {
-        location = sdv_inside_location(&at->tile, k - 1);
-    }
-    location.face = at->number;
-    return location;
-}
-
-// The locations of points p and on, at most count, up to a vertex without faces; returns how many.
-static int sdv_find_locations(const sdv_tiling *tiling, sdv_cursor *at, int p, int count,
-                              subdiv_location *out)
-{
-    for (int i = 0; i < count; i++, p++) {
-        if (p < tiling->cage->vertex_count || at->vertex >= 0 || tiling->starts[at->item + 1] <= p)
-            sdv_move_cursor(tiling, at, p);
-        if (at->vertex >= 0 && at->h < 0) return i;
-        out[i] = sdv_cursor_location(tiling, at, p);
-    }
-    return count;
-}
-
-// Values that are evaluated: what subdiv_evaluate_at needs.
+// Values that are evaluated: work points of SUBDIV_EXACT.
 typedef struct sdv_source {
     const subdiv_surface *surface;
-    int          channels;
+    int          channels;              // 4 at most
     const float *in;
-    void        *work;
+    double      *work;
 } sdv_source;
 
 // What a tessellation works on.
@@ -9895,9 +9796,15 @@ static sdv_source sdv_begin_source(sdv_context *context, sdv_tessellator *t,
                                    const subdiv_surface *surface, int channels, const float *in)
 {
     sdv_source source = { surface, channels, in, NULL };
-    source.work = sdv_new(context, &t->arena, subdiv_scratch_size(surface, channels), 1);
-    if (!context->result)
-        context->result = subdiv_evaluate_begin(surface, channels, in, 0, source.work, t->opt);
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    source.work = (double *)sdv_new(context, &t->arena, sdv_exact_work_size(surface, channels), 1);
+    evaluation.surface = surface;
+    evaluation.channels = channels;
+    evaluation.in = in;
+    evaluation.in_stride = (size_t)channels;
+    evaluation.deep = source.work;
+    if (source.work) sdv_make_work(&evaluation, t->opt);
     return source;
 }
 
@@ -9907,58 +9814,454 @@ typedef struct sdv_samples {
     const sdv_source *source;
     float *points, *normals;
     int    count, jobs;
-    subdiv_options alone;               // those of a job
-    subdiv_result  results[SDV_MOST_JOBS];
+    void  *user;                        // of the allocator
+    unsigned char failed[SDV_MOST_JOBS];
 } sdv_samples;
 
-#define SDV_SAMPLES 128                 // at once
+// A leaf of the exact surface covers a cell of the grid of its face (a turned triangle the upper half
+// of one, any other triangle the lower), and makes the points that are there:
+//
+//     +---+---+       those between cells belong to the cell that is nearer to the middle of the
+//     | > | < |       grid, so that what remains of a nest has no points but its vertex as soon as
+//     +---+---+       it is smaller than the pieces of the grid; with triangles to the right and
+//     | > | < |       upper one
+//     +---+---+
+typedef struct sdv_cell {
+    int64_t units;                      // of a side of the grid: it is, in these,
+    int64_t left, right, bottom, top;   // from left to right and from bottom to top
+    int     step;                       // -1: turned
+    double  scale, x, y;                // coordinates of its polynomial: step (scale t - x),
+} sdv_cell;                             // where t is from 0 to 1 along a side of the grid
 
+// Makes them. The polynomial is made for the first point that asks for it.
+typedef struct sdv_leaf_points {
+    const sdv_samples *samples;
+    sdv_tile tile;
+    int      corner;                    // whose quad of an n-gon it is
+    sdv_cell cell;
+    const sdv_patch *patch;             // and its control points, seen from base: + shrink times
+    const int       *points;
+    const double    *work;
+    double   base[4], shrink;
+    sdv_nest_sample *vertex;            // or what is left of a nest
+    int      loaded, part, ready;
+    sdv_deep_patch   deep;
+    sdv_polynomial   q, rise;
+} sdv_leaf_points;
+
+// The square (or triangle) whose vertex 0 is at (x, y).
+static sdv_cell sdv_cell_at(int64_t units, int64_t x, int64_t y, int step)
+{
+    sdv_cell cell = { units, x, x + 1, y, y + 1, step, (double)units, (double)x, (double)y };
+    if (step > 0) return cell;
+    cell.left = x - 1;
+    cell.right = x;
+    cell.bottom = y - 1;
+    cell.top = y;
+    return cell;
+}
+
+// The part of a quad where two strips cross.
+static sdv_cell sdv_cell_of_strips(sdv_cell cell, const sdv_strip *along, const sdv_strip *up)
+{
+    const int64_t whole = 1 << SDV_STRIP_LEVELS;
+    int64_t x = cell.left * whole, y = cell.bottom * whole;
+    cell.units *= whole;
+    cell.left = x + along->from;
+    cell.right = x + along->to;
+    cell.bottom = y + up->from;
+    cell.top = y + up->to;
+    cell.x += (double)along->origin / (double)whole;
+    cell.y += (double)up->origin / (double)whole;
+    return cell;
+}
+
+// What is left of a nest is the plane of its vertex.
+static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
+{
+    int degree = vertex->state.surface->rules.loop ? 4 : 3;
+    float p[3][4];
+    sdv_nest_vertex(vertex);
+    memset(q, 0, sizeof *q);
+    for (int c = 0; c < 4; c++) {
+        p[0][c] = (float)vertex->values[0][c];
+        p[1][c] = (float)vertex->normal[0][c];
+        p[2][c] = (float)vertex->normal[1][c];
+    }
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
+    q->degree = degree;
+    q->origin = sdv_load(p[0]);
+    q->c[1][0] = sdv_load(p[1]);
+    q->c[0][1] = sdv_load(p[2]);
+}
+
+static void sdv_need_polynomial(sdv_leaf_points *l)
+{
+    float origin[4];
+    if (l->ready) return;
+    l->ready = 1;
+    if (l->vertex) {
+        sdv_vertex_plane(l->vertex, &l->q);
+    } else {
+        if (!l->loaded)
+            sdv_load_deep(l->samples->source->surface, l->patch, l->points, l->work, &l->deep);
+        l->loaded = 1;
+        sdv_deep_polynomial(&l->deep, l->part, &l->q);
+        sdv_four shrink = sdv_all((float)l->shrink);
+        for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * l->deep.origin[c]);
+        l->q.origin = sdv_load(origin);
+        for (int i = 0; i <= l->q.degree && l->shrink < 1; i++)
+            for (int j = 0; j + (l->q.degree == 4 ? i : 0) <= l->q.degree; j++)
+                l->q.c[i][j] = sdv_times(shrink, l->q.c[i][j]);
+    }
+    if (l->samples->normals) sdv_across_rows(&l->q, &l->rise);
+}
+
+// Points k from first to last on a line of the grid, at (u + k du, v + k dv).
+typedef struct sdv_line_points {
+    int64_t first, last;
+    double  u, v, du, dv;
+    int     index, step;                // of point first, and from point to point
+} sdv_line_points;
+
+// Those of a row: v is the same for all.
+static void sdv_put_tile_row(const sdv_leaf_points *l, const sdv_line_points *line)
+{
+    const sdv_samples *s = l->samples;
+    const sdv_cell *cell = &l->cell;
+    sdv_window out = { s->points, (size_t)s->source->channels, s->source->channels, 0, s->count };
+    sdv_limit_window limit = { s->points, s->normals, NULL, 3, 6, 0, s->count };
+    double scale = cell->step * cell->scale * line->du;
+    double x = cell->step * (cell->scale * line->u - cell->x);
+    int index = line->index;
+    sdv_curve curve, along, across;
+    float y = (float)(cell->step * (cell->scale * line->v - cell->y));
+    sdv_row_curve(&l->q, y, &curve);
+    if (s->normals) {
+        sdv_row_curve(&l->rise, y, &across);
+        sdv_along_row(&curve, &along);
+    }
+    for (int64_t k = line->first; k <= line->last; k++, index += line->step) {
+        float at = (float)(x + (double)k * scale);
+        if (s->normals) sdv_put_curve_limit(&limit, index, &curve, &along, &across, at);
+        else sdv_put_point(&out, index, sdv_curve_point(&curve, sdv_all(at)));
+    }
+}
+
+static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
+{
+    sdv_line_points point = *line;
+    if (line->first > line->last || line->index >= l->samples->count) return;
+    sdv_need_polynomial(l);
+    if (fabs(line->dv) <= 0) {
+        sdv_put_tile_row(l, line);
+        return;
+    }
+    for (int64_t k = line->first; k <= line->last; k++, point.index += line->step) {
+        point.first = point.last = k;
+        point.v = line->v + (double)k * line->dv;
+        sdv_put_tile_row(l, &point);
+    }
+}
+
+// Of the points k step / rate of a side the first one behind low and the last one before high, both
+// in units of a cell, and of those at low and high themselves the ones that belong to it.
+static void sdv_find_ticks(const sdv_leaf_points *l, int64_t low, int64_t high, int64_t step,
+                           int64_t rate, int64_t most, sdv_line_points *line)
+{
+    int64_t units = l->cell.units, size = step * units, first = low * rate, last = high * rate;
+    int loop = l->tile.loop, own_low = loop || 2 * low <= units, own_high = !loop && 2 * high > units;
+    line->first = first / size + !(own_low && first % size == 0);
+    line->last = last / size - !(own_high || last % size);
+    if (line->first < 1) line->first = 1;
+    if (line->last > most) line->last = most;
+}
+
+// The points inside the grid, row by row.
+static void sdv_put_cell_inside(sdv_leaf_points *l)
+{
+    const sdv_cell *cell = &l->cell;
+    const sdv_tile *tile = &l->tile;
+    int columns = tile->grid.columns, rows = tile->grid.rows;
+    sdv_line_points line, up;
+    sdv_find_ticks(l, cell->bottom, cell->top, 1, rows, rows - 1, &up);
+    sdv_find_ticks(l, cell->left, cell->right, 1, columns, columns - 1, &line);
+    line.u = line.dv = 0;
+    line.du = 1.0 / columns;
+    line.step = 1;
+    sdv_line_points row = line;
+    int64_t slant = (cell->left + cell->bottom + 1) * columns;      // column + row on the diagonal
+    slant = slant / cell->units + (slant % cell->units > 0);        // or the next behind it
+    for (int64_t j = up.first; j <= up.last; j++) {
+        if (tile->loop && row.last > columns - 1 - j) row.last = columns - 1 - j;
+        if (tile->loop && cell->step > 0 && row.last > slant - 1 - j) row.last = slant - 1 - j;
+        if (tile->loop && cell->step < 0)
+            row.first = line.first > slant - j ? line.first : slant - j;
+        row.v = (double)j / rows;
+        row.index = sdv_row_inside(tile, l->corner, (int)j) + (int)row.first;
+        sdv_put_line(l, &row);
+    }
+}
+
+// The points on a side of a face that is an edge, if this is where they are made: point k of them is
+// at k step / rate of the grid's side, from the first vertex of the side or, backwards, the other.
+static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t low, int64_t high,
+                         int step, sdv_line_points line)
+{
+    const sdv_tile *tile = &l->tile;
+    const sdv_level *cage = tile->tiling->cage;
+    int rate = sdv_edge_rate(tile, side), h = tile->first + side;
+    if (tile->tiling->home[cage->vertex_count + cage->face_edges[h]] != h) return;
+    sdv_find_ticks(l, low, high, step, rate, step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
+    if (line.first > line.last) return;
+    int k = (int)line.first;
+    line.index = sdv_side_point(tile, side, backwards ? rate - k : k);
+    line.step = (cage->face_vertices[h] > cage->face_vertices[sdv_next(cage, h)]) != backwards ? -1 : 1;
+    line.du *= (double)step / rate;
+    line.dv *= (double)step / rate;
+    sdv_put_line(l, &line);
+}
+
+// The spoke of an n-gon from edge number corner to the centre.
+static void sdv_put_spoke(sdv_leaf_points *l)
+{
+    int m = l->tile.grid.columns;
+    sdv_line_points line = { 0, 0, 1, 0, 0, 1.0 / m, 0, -1 };
+    sdv_find_ticks(l, l->cell.bottom, l->cell.top, 1, m, m - 1, &line);
+    line.index = l->tile.inside + m + l->corner * (m - 1) - (int)line.first;
+    sdv_put_line(l, &line);
+}
+
+static void sdv_put_cell_sides(sdv_leaf_points *l)
+{
+    const sdv_cell *c = &l->cell;
+    const sdv_tile *tile = &l->tile;
+    int last = tile->sides - 1, before = l->corner ? l->corner - 1 : last, ngon = tile->ngon;
+    int64_t end = tile->loop ? c->left + c->bottom + 1 : c->right;
+    sdv_line_points bottom = { 0, 0, 0, 0, 1, 0, 0, 0 }, left = { 0, 0, 0, 0, 0, 1, 0, 0 };
+    sdv_line_points right = { 0, 0, 1, 0, 0, 1, 0, 0 }, top = { 0, 0, 0, 1, 1, 0, 0, 0 };
+    if (tile->loop) right.du = -1;
+    if (c->bottom == 0) sdv_put_edge(l, ngon ? l->corner : 0, 0, c->left, c->right, 1 + ngon, bottom);
+    if (c->left == 0) sdv_put_edge(l, ngon ? before : last, 1, c->bottom, c->top, 1 + ngon, left);
+    if (ngon && end == c->units) sdv_put_spoke(l);
+    if (ngon) return;
+    if (end == c->units) sdv_put_edge(l, 1, 0, c->bottom, c->top, 1, right);
+    if (!tile->loop && c->top == c->units) sdv_put_edge(l, 2, 1, c->left, c->right, 1, top);
+}
+
+// The vertices of the face, and the centre of an n-gon.
+static void sdv_put_cell_corners(sdv_leaf_points *l)
+{
+    const sdv_cell *cell = &l->cell;
+    const sdv_tile *tile = &l->tile;
+    const int (*at)[2] = tile->loop ? sdv_corner_triangle : sdv_corner_quad;
+    for (int i = 0; i < (tile->loop ? 3 : 4); i++) {
+        int up = at[i][0] > 0, right = at[i][1] > 0;
+        int h = tile->first + (tile->ngon ? l->corner : i), v = tile->tiling->cage->face_vertices[h];
+        sdv_line_points point = { 0, 0, right, up, 0, 0, v, 0 };
+        int here = tile->tiling->home[v] == h;
+        if (tile->ngon && i > 0) {
+            here = i == 2 && l->corner == 0;
+            point.index = tile->inside;
+        }
+        if (here && (right ? cell->right == cell->units : cell->left == 0) &&
+            (up ? cell->top == cell->units : cell->bottom == 0)) sdv_put_line(l, &point);
+    }
+}
+
+static void sdv_put_cell(sdv_leaf_points *l)
+{
+    l->ready = 0;
+    sdv_put_cell_inside(l);
+    if (l->cell.step < 0) return;
+    sdv_put_cell_sides(l);
+    sdv_put_cell_corners(l);
+}
+
+// A leaf on the grid of face-vertex h. Returns the units of level 0 a side of it, or 0 if the face has
+// no surface.
+static int sdv_begin_leaf(const sdv_samples *s, int h, sdv_leaf_points *l)
+{
+    const sdv_tiling *tiling = s->tiling;
+    int f = sdv_face_of(tiling->cage, h);
+    if (tiling->hole[tiling->number ? tiling->number[f] : f] == SDV_DROPPED) return 0;
+    memset(l, 0, sizeof *l);
+    l->samples = s;
+    l->tile = sdv_tile_at(tiling, f);
+    l->corner = l->tile.ngon ? h - l->tile.first : 0;
+    l->shrink = 1;
+    return 1;
+}
+
+static void sdv_put_patch_points(const sdv_samples *s, sdv_patch_at at)
+{
+    const subdiv_surface *surface = s->source->surface;
+    const int *points;
+    const sdv_patch *patch = sdv_patch_of(surface, at, &points);
+    sdv_leaf_points l;
+    if (!sdv_begin_leaf(s, patch->h, &l)) return;
+    sdv_cell cell = sdv_cell_at((int64_t)1 << (at.level - l.tile.ngon), patch->column, patch->row,
+                                patch->step);
+    l.cell = cell;
+    l.patch = patch;
+    l.points = points;
+    l.work = s->source->work;
+    if (!patch->up) {
+        sdv_put_cell(&l);
+        return;
+    }
+    const sdv_strips *along = &surface->strips[patch->along - 1];
+    const sdv_strips *up = &surface->strips[patch->up - 1];
+    for (; l.part < along->count * up->count; l.part++) {
+        l.cell = sdv_cell_of_strips(cell, &along->items[l.part % along->count],
+                                    &up->items[l.part / along->count]);
+        sdv_put_cell(&l);
+    }
+}
+
+// The cell of a face of a nest after so many levels, and where its vertex is; or that of its child.
+static sdv_cell sdv_nest_cell(const sdv_leaf_points *l, const sdv_nest_face *face, int depth,
+                              int child)
+{
+    const sdv_place *place = &face->place;
+    int loop = l->tile.loop, sides = loop ? 3 : 4, step = place->step;
+    const int (*at)[2] = loop ? sdv_corner_triangle : sdv_corner_quad;
+    int64_t units = (int64_t)1 << (face->level - l->tile.ngon + depth), size = (int64_t)1 << depth;
+    int64_t right = step * at[face->turn][1] / 2, up = step * at[face->turn][0] / 2;
+    int64_t x = (place->column + right) * size, y = (place->row + up) * size;
+    if (child == 0) {
+        sdv_cell own = sdv_cell_at(units, x - right, y - up, step);
+        own.x = (double)x;
+        own.y = (double)y;
+        return own;
+    }
+    int turned = child < sides ? (child + face->turn) % sides : child;
+    int64_t child_right = turned == 1 || turned == (loop ? 3 : 2);
+    int64_t child_up = turned >= 2;
+    return sdv_cell_at(2 * units, 2 * (x - right) + step * child_right,
+                       2 * (y - up) + step * child_up, child == 3 && loop ? -step : step);
+}
+
+// Has what is left of a face of a nest more points than its vertex? The grid's side has so many
+// pieces at most.
+static int sdv_nest_needs(const sdv_leaf_points *l, const sdv_nest_face *face, int depth)
+{
+    const sdv_tile *tile = &l->tile;
+    sdv_cell cell = sdv_nest_cell(l, face, depth, 0);
+    int64_t x = (int64_t)cell.x, y = (int64_t)cell.y;
+    int corner = (x == 0 || x == cell.units) && (y == 0 || y == cell.units);
+    int most = tile->grid.columns > tile->grid.rows ? tile->grid.columns : tile->grid.rows;
+    for (int i = 0; i < tile->sides; i++) {
+        int rate = (sdv_edge_rate(tile, i) + tile->ngon) / (1 + tile->ngon);
+        if (rate > most) most = rate;
+    }
+    int middle = cell.units <= 2;       // is it one of its sides?
+    return cell.units == 1 || most > cell.units ||
+           (most == cell.units && (tile->loop || !corner || middle));
+}
+
+static int sdv_any_needs(const sdv_samples *s, const sdv_nest_face *faces, int count, int depth)
+{
+    int needs = 0;
+    sdv_leaf_points l;
+    for (int i = 0; i < count && !needs; i++)
+        needs = sdv_begin_leaf(s, faces[i].place.h, &l) && sdv_nest_needs(&l, &faces[i], depth);
+    return needs;
+}
+
+// The points on patches of a nest's next level.
+static void sdv_put_nest_level(const sdv_samples *s, const sdv_nest_state *state,
+                               const sdv_nest_face *faces, int depth)
+{
+    for (int i = 0; i < 3 * state->kind->faces; i++) {
+        const sdv_nest_face *face = &faces[i / 3];
+        int child = i % 3 + 1, points[16];
+        sdv_patch patch;
+        sdv_leaf_points l;
+        if (!sdv_begin_leaf(s, face->place.h, &l)) continue;
+        sdv_nest_patch(state, i / 3, child, face->turn, &patch, points);
+        l.cell = sdv_nest_cell(&l, face, depth, child);
+        l.patch = &patch;
+        l.points = points;
+        l.work = state->w;
+        l.shrink = state->shrink;
+        for (int c = 0; c < 4; c++) l.base[c] = state->base[c];
+        sdv_put_cell(&l);
+    }
+}
+
+static void sdv_put_nest_points(const sdv_samples *s, int number, double *w)
+{
+    const subdiv_surface *surface = s->source->surface;
+    const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
+    int depth = 0;
+    sdv_nest_sample vertex;
+    sdv_nest_load(&vertex.state, surface, number, s->source->work, w);
+    int count = vertex.state.kind->faces;
+    for (; sdv_any_needs(s, faces, count, depth); depth++) {
+        sdv_nest_refine(&vertex.state);
+        sdv_put_nest_level(s, &vertex.state, faces, depth);
+        sdv_nest_descend(&vertex.state);
+    }
+    for (int i = 0; i < count; i++) {
+        sdv_leaf_points l;
+        if (!sdv_begin_leaf(s, faces[i].place.h, &l)) continue;
+        vertex.face = i;
+        l.cell = sdv_nest_cell(&l, &faces[i], depth, 0);
+        l.vertex = &vertex;
+        sdv_put_cell(&l);
+    }
+}
+
+// Patches of all levels, then nests.
 static void sdv_sample_job(void *context, int job)
 {
     sdv_samples *s = (sdv_samples *)context;
     const subdiv_surface *surface = s->source->surface;
-    subdiv_location at[SDV_SAMPLES];
-    int p = sdv_share(s->count, job, s->jobs), end = sdv_share(s->count, job + 1, s->jobs);
-    int channels = s->source->channels;
-    size_t width = (size_t)channels;
-    sdv_cursor cursor;
-    memset(&cursor, 0, sizeof cursor);
-    cursor.item = sdv_find_item(s->tiling, p);
-    cursor.vertex = p;                  // to be moved
-    for (int n; p < end && !s->results[job]; p += n) {
-        subdiv_derivatives out;
-        memset(&out, 0, sizeof out);
-        out.points = s->points + width * (size_t)p;
-        if (s->normals) out.normals = s->normals + width * (size_t)p;
-        n = end - p < SDV_SAMPLES ? end - p : SDV_SAMPLES;
-        n = sdv_find_locations(s->tiling, &cursor, p, n, at);
-        if (n) {
-            s->results[job] = subdiv_evaluate_at(surface, channels, s->source->work, n, at, &out,
-                                                 &s->alone);
-            continue;
-        }
-        int from = surface->source ? surface->source[p] : p;    // a vertex without faces
-        memcpy(out.points, s->source->in + width * (size_t)from, width * sizeof(float));
-        if (out.normals) memset(out.normals, 0, width * sizeof(float));
-        n = 1;
+    const sdv_exact *exact = surface->exact;
+    int patches = exact->patch_count, count = patches + exact->nest_count;
+    int i = sdv_share(count, job, s->jobs), end = sdv_share(count, job + 1, s->jobs);
+    sdv_context here = { SUBDIV_OK, NULL, s->user, NULL };
+    sdv_arena arena = sdv_new_arena(0);
+    double small[4 * SDV_NEST_STACK], *large = NULL;
+    sdv_patch_at at = sdv_find_patch(surface, i);
+    for (; i < end && i < patches; i++, at.i++) {
+        sdv_next_level(surface, &at);
+        sdv_put_patch_points(s, at);
     }
+    for (; i < end && !here.result; i++) {
+        int few = sdv_nest_work(exact, i - patches) <= SDV_NEST_STACK;
+        if (!few && !large) large = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
+        if (!here.result) sdv_put_nest_points(s, i - patches, few ? small : large);
+    }
+    s->failed[job] = here.result != SUBDIV_OK;
+    sdv_arena_free(&arena);
 }
 
 static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sdv_tiling *tiling,
                        const sdv_source *source, float *points, float *normals, int count)
 {
+    const subdiv_surface *surface = source->surface;
+    size_t width = (size_t)source->channels;
     sdv_samples s;
+    if (context->result) return;
     memset(&s, 0, sizeof s);
     s.tiling = tiling;
     s.source = source;
     s.points = points;
     s.normals = normals;
     s.count = count;
-    s.jobs = sdv_jobs(count, 1024);
-    s.alone.user = context->user;
-    if (!context->result) sdv_run(opt, sdv_sample_job, &s, s.jobs);
-    for (int i = 0; i < s.jobs; i++)
-        if (s.results[i]) sdv_fail(context, s.results[i], subdiv_result_string(s.results[i]));
+    s.user = context->user;
+    s.jobs = sdv_jobs((int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
+    sdv_run(opt, sdv_sample_job, &s, s.jobs);
+    if (memchr(s.failed, 1, sizeof s.failed)) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
+    for (int v = 0; v < tiling->cage->vertex_count; v++) {      // those without faces
+        int from = surface->source ? surface->source[v] : v;
+        if (tiling->home[v] >= 0) continue;
+        memcpy(points + width * (size_t)v, source->in + width * (size_t)from, width * sizeof(float));
+        if (normals) memset(normals + width * (size_t)v, 0, width * sizeof(float));
+    }
 }
 
 // Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
