@@ -9633,32 +9633,53 @@ static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
     sdv_put_triangle(out, a, c, d);
 }
 
-// A row of faces between columns first and last of its lower points:
-//
-//     d c        quads a b c d; or triangles a b d, and c d b turned by half, with none at the end
-//     a b
-static void sdv_put_row(const sdv_tile *tile, int i, int row, int first, int last,
-                        sdv_faces_at *out)
+// Columns first to last of a row of the grid's points, as >>order has them.
+static sdv_row sdv_tile_row(const sdv_tile *tile, int i, int row, int first, int last)
 {
-    int a = sdv_tile_point(tile, i, row, first), d = sdv_tile_point(tile, i, row + 1, first);
-    for (int column = first + 1; column <= last; column++) {
-        int b = sdv_tile_point(tile, i, row, column), c = -1;
-        if (!tile->loop || column < last) c = sdv_tile_point(tile, i, row + 1, column);
-        if (!tile->loop) sdv_put_quad(out, a, b, c, d);
-        if (tile->loop) sdv_put_triangle(out, a, b, d);
-        if (tile->loop && c >= 0) sdv_put_triangle(out, c, d, b);
-        a = b;
-        d = c;
+    sdv_row points = { { 0, 0 }, last - first, sdv_tile_point(tile, i, row, first), 0 };
+    points.right = last > first ? sdv_tile_point(tile, i, row, last) : points.left;
+    if (points.size < 2) return points;
+    int second = sdv_tile_point(tile, i, row, first + 1);
+    points.line.step = points.size > 2 ? sdv_tile_point(tile, i, row, first + 2) - second : 0;
+    points.line.first = second - points.line.step;
+    return points;
+}
+
+// Quads of sdv_quad_faces, as many as a row of points has segments, cut in two: from the last on.
+static void sdv_cut_quads(int *faces, int count)
+{
+    for (int i = count - 1; i >= 0; i--) {
+        const int *q = faces + 4 * (size_t)i;
+        int a = q[0], b = q[1], c = q[2], d = q[3], *out = faces + 6 * (size_t)i;
+        out[0] = out[3] = a;
+        out[1] = b;
+        out[2] = out[4] = c;
+        out[5] = d;
     }
 }
 
 static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
-    int first = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
-    int far = tile->ngon ? 0 : first, last = tile->grid.columns - far;
-    for (int i = 0; i < grids; i++)
-        for (int row = first; row < tile->grid.rows - far; row++)
-            sdv_put_row(tile, i, row, first, tile->loop ? last - row : last, out);
+    int margin = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
+    int far = tile->ngon ? 0 : margin, last = tile->grid.columns - far;
+    int *faces = out->vertices + out->face_vertices;
+    for (int i = 0; i < grids; i++) {
+        sdv_row low = { { 0, 0 }, 0, 0, 0 };
+        for (int row = margin; row <= tile->grid.rows - far; row++) {
+            int end = tile->loop ? last - row : last;
+            if (end < margin) break;
+            sdv_row high = sdv_tile_row(tile, i, row, margin, end);
+            if (row > margin && tile->loop) {
+                faces = sdv_triangle_faces(&low, &high, faces);
+            } else if (row > margin) {
+                sdv_quad_faces(&low, &high, faces);
+                if (out->triangles) sdv_cut_quads(faces, low.size);
+                faces += (out->triangles ? 6 : 4) * (size_t)low.size;
+            }
+            low = high;
+        }
+    }
+    out->face_vertices = (size_t)(faces - out->vertices);
 }
 
 // The same without their vertices.
@@ -9827,7 +9848,7 @@ typedef struct sdv_samples {
 //     | > | < |       upper one
 //     +---+---+
 typedef struct sdv_cell {
-    int64_t units;                      // of a side of the grid: it is, in these,
+    int     bits;                       // 2^bits units are a side of the grid: it is, in these,
     int64_t left, right, bottom, top;   // from left to right and from bottom to top
     int     step;                       // -1: turned
     double  scale, x, y;                // coordinates of its polynomial: step (scale t - x),
@@ -9849,15 +9870,17 @@ typedef struct sdv_leaf_points {
     sdv_polynomial   q, rise;
 } sdv_leaf_points;
 
-// The square (or triangle) whose vertex 0 is at (x, y).
-static sdv_cell sdv_cell_at(int64_t units, int64_t x, int64_t y, int step)
+static int64_t sdv_units(const sdv_cell *cell)
 {
-    sdv_cell cell = { units, x, x + 1, y, y + 1, step, (double)units, (double)x, (double)y };
-    if (step > 0) return cell;
-    cell.left = x - 1;
-    cell.right = x;
-    cell.bottom = y - 1;
-    cell.top = y;
+    return (int64_t)1 << cell->bits;
+}
+
+// The square (or triangle) whose vertex 0 is at (x, y).
+static sdv_cell sdv_cell_at(int bits, int64_t x, int64_t y, int step)
+{
+    int64_t left = step > 0 ? x : x - 1, bottom = step > 0 ? y : y - 1;
+    sdv_cell cell = { bits, left, left + 1, bottom, bottom + 1, step,
+                      (double)((int64_t)1 << bits), (double)x, (double)y };
     return cell;
 }
 
@@ -9866,7 +9889,7 @@ static sdv_cell sdv_cell_of_strips(sdv_cell cell, const sdv_strip *along, const 
 {
     const int64_t whole = 1 << SDV_STRIP_LEVELS;
     int64_t x = cell.left * whole, y = cell.bottom * whole;
-    cell.units *= whole;
+    cell.bits += SDV_STRIP_LEVELS;
     cell.left = x + along->from;
     cell.right = x + along->to;
     cell.bottom = y + up->from;
@@ -9966,14 +9989,15 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 }
 
 // Of the points k step / rate of a side the first one behind low and the last one before high, both
-// in units of a cell, and of those at low and high themselves the ones that belong to it.
-static void sdv_find_ticks(const sdv_leaf_points *l, int64_t low, int64_t high, int64_t step,
+// in units of a cell, and of those at low and high themselves the ones that belong to it. step: 1, 2.
+static void sdv_find_ticks(const sdv_leaf_points *l, int64_t low, int64_t high, int step,
                            int64_t rate, int64_t most, sdv_line_points *line)
 {
-    int64_t units = l->cell.units, size = step * units, first = low * rate, last = high * rate;
-    int loop = l->tile.loop, own_low = loop || 2 * low <= units, own_high = !loop && 2 * high > units;
-    line->first = first / size + !(own_low && first % size == 0);
-    line->last = last / size - !(own_high || last % size);
+    int shift = l->cell.bits + step - 1, loop = l->tile.loop;
+    int64_t units = sdv_units(&l->cell), rest = (units << (step - 1)) - 1;
+    int own_low = loop || 2 * low <= units, own_high = !loop && 2 * high > units;
+    line->first = (low * rate >> shift) + !(own_low && !(low * rate & rest));
+    line->last = (high * rate >> shift) - !(own_high || (high * rate & rest));
     if (line->first < 1) line->first = 1;
     if (line->last > most) line->last = most;
 }
@@ -9992,7 +10016,7 @@ static void sdv_put_cell_inside(sdv_leaf_points *l)
     line.step = 1;
     sdv_line_points row = line;
     int64_t slant = (cell->left + cell->bottom + 1) * columns;      // column + row on the diagonal
-    slant = slant / cell->units + (slant % cell->units > 0);        // or the next behind it
+    slant = (slant + sdv_units(cell) - 1) >> cell->bits;            // or the next behind it
     for (int64_t j = up.first; j <= up.last; j++) {
         if (tile->loop && row.last > columns - 1 - j) row.last = columns - 1 - j;
         if (tile->loop && cell->step > 0 && row.last > slant - 1 - j) row.last = slant - 1 - j;
@@ -10007,11 +10031,12 @@ static void sdv_put_cell_inside(sdv_leaf_points *l)
 // The points on a side of a face that is an edge, if this is where they are made: point k of them is
 // at k step / rate of the grid's side, from the first vertex of the side or, backwards, the other.
 static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t low, int64_t high,
-                         int step, sdv_line_points line)
+                         int step, const sdv_line_points *side_line)
 {
     const sdv_tile *tile = &l->tile;
     const sdv_level *cage = tile->tiling->cage;
     int rate = sdv_edge_rate(tile, side), h = tile->first + side;
+    sdv_line_points line = *side_line;
     if (tile->tiling->home[cage->vertex_count + cage->face_edges[h]] != h) return;
     sdv_find_ticks(l, low, high, step, rate, step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
     if (line.first > line.last) return;
@@ -10035,19 +10060,19 @@ static void sdv_put_spoke(sdv_leaf_points *l)
 
 static void sdv_put_cell_sides(sdv_leaf_points *l)
 {
+    static const sdv_line_points bottom = { 0, 0, 0, 0, 1, 0, 0, 0 }, top = { 0, 0, 0, 1, 1, 0, 0, 0 };
+    static const sdv_line_points left = { 0, 0, 0, 0, 0, 1, 0, 0 }, right = { 0, 0, 1, 0, 0, 1, 0, 0 };
+    static const sdv_line_points slanted = { 0, 0, 1, 0, -1, 1, 0, 0 };
     const sdv_cell *c = &l->cell;
-    const sdv_tile *tile = &l->tile;
-    int last = tile->sides - 1, before = l->corner ? l->corner - 1 : last, ngon = tile->ngon;
-    int64_t end = tile->loop ? c->left + c->bottom + 1 : c->right;
-    sdv_line_points bottom = { 0, 0, 0, 0, 1, 0, 0, 0 }, left = { 0, 0, 0, 0, 0, 1, 0, 0 };
-    sdv_line_points right = { 0, 0, 1, 0, 0, 1, 0, 0 }, top = { 0, 0, 0, 1, 1, 0, 0, 0 };
-    if (tile->loop) right.du = -1;
-    if (c->bottom == 0) sdv_put_edge(l, ngon ? l->corner : 0, 0, c->left, c->right, 1 + ngon, bottom);
-    if (c->left == 0) sdv_put_edge(l, ngon ? before : last, 1, c->bottom, c->top, 1 + ngon, left);
-    if (ngon && end == c->units) sdv_put_spoke(l);
+    int loop = l->tile.loop, ngon = l->tile.ngon, last = l->tile.sides - 1;
+    int before = ngon ? l->corner ? l->corner - 1 : last : last;
+    int64_t units = sdv_units(c), end = loop ? c->left + c->bottom + 1 : c->right;
+    if (c->bottom == 0) sdv_put_edge(l, l->corner, 0, c->left, c->right, 1 + ngon, &bottom);
+    if (c->left == 0) sdv_put_edge(l, before, 1, c->bottom, c->top, 1 + ngon, &left);
+    if (ngon && end == units) sdv_put_spoke(l);
     if (ngon) return;
-    if (end == c->units) sdv_put_edge(l, 1, 0, c->bottom, c->top, 1, right);
-    if (!tile->loop && c->top == c->units) sdv_put_edge(l, 2, 1, c->left, c->right, 1, top);
+    if (end == units) sdv_put_edge(l, 1, 0, c->bottom, c->top, 1, loop ? &slanted : &right);
+    if (!loop && c->top == units) sdv_put_edge(l, 2, 1, c->left, c->right, 1, &top);
 }
 
 // The vertices of the face, and the centre of an n-gon.
@@ -10056,8 +10081,11 @@ static void sdv_put_cell_corners(sdv_leaf_points *l)
     const sdv_cell *cell = &l->cell;
     const sdv_tile *tile = &l->tile;
     const int (*at)[2] = tile->loop ? sdv_corner_triangle : sdv_corner_quad;
+    int64_t units = sdv_units(cell);
     for (int i = 0; i < (tile->loop ? 3 : 4); i++) {
         int up = at[i][0] > 0, right = at[i][1] > 0;
+        if (!(right ? cell->right == units : cell->left == 0) ||
+            !(up ? cell->top == units : cell->bottom == 0)) continue;
         int h = tile->first + (tile->ngon ? l->corner : i), v = tile->tiling->cage->face_vertices[h];
         sdv_line_points point = { 0, 0, right, up, 0, 0, v, 0 };
         int here = tile->tiling->home[v] == h;
@@ -10065,8 +10093,7 @@ static void sdv_put_cell_corners(sdv_leaf_points *l)
             here = i == 2 && l->corner == 0;
             point.index = tile->inside;
         }
-        if (here && (right ? cell->right == cell->units : cell->left == 0) &&
-            (up ? cell->top == cell->units : cell->bottom == 0)) sdv_put_line(l, &point);
+        if (here) sdv_put_line(l, &point);
     }
 }
 
@@ -10079,18 +10106,20 @@ static void sdv_put_cell(sdv_leaf_points *l)
     sdv_put_cell_corners(l);
 }
 
-// A leaf on the grid of face-vertex h. Returns the units of level 0 a side of it, or 0 if the face has
-// no surface.
+// A leaf on the grid of face-vertex h. 0: the face has no surface.
 static int sdv_begin_leaf(const sdv_samples *s, int h, sdv_leaf_points *l)
 {
     const sdv_tiling *tiling = s->tiling;
     int f = sdv_face_of(tiling->cage, h);
     if (tiling->hole[tiling->number ? tiling->number[f] : f] == SDV_DROPPED) return 0;
-    memset(l, 0, sizeof *l);
     l->samples = s;
     l->tile = sdv_tile_at(tiling, f);
     l->corner = l->tile.ngon ? h - l->tile.first : 0;
+    l->work = s->source->work;
+    for (int c = 0; c < 4; c++) l->base[c] = 0;
     l->shrink = 1;
+    l->vertex = NULL;
+    l->loaded = l->part = 0;
     return 1;
 }
 
@@ -10101,12 +10130,10 @@ static void sdv_put_patch_points(const sdv_samples *s, sdv_patch_at at)
     const sdv_patch *patch = sdv_patch_of(surface, at, &points);
     sdv_leaf_points l;
     if (!sdv_begin_leaf(s, patch->h, &l)) return;
-    sdv_cell cell = sdv_cell_at((int64_t)1 << (at.level - l.tile.ngon), patch->column, patch->row,
-                                patch->step);
+    sdv_cell cell = sdv_cell_at(at.level - l.tile.ngon, patch->column, patch->row, patch->step);
     l.cell = cell;
     l.patch = patch;
     l.points = points;
-    l.work = s->source->work;
     if (!patch->up) {
         sdv_put_cell(&l);
         return;
@@ -10121,73 +10148,66 @@ static void sdv_put_patch_points(const sdv_samples *s, sdv_patch_at at)
 }
 
 // The cell of a face of a nest after so many levels, and where its vertex is; or that of its child.
-static sdv_cell sdv_nest_cell(const sdv_leaf_points *l, const sdv_nest_face *face, int depth,
-                              int child)
+static sdv_cell sdv_nest_cell(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
 {
     const sdv_place *place = &face->place;
-    int loop = l->tile.loop, sides = loop ? 3 : 4, step = place->step;
+    int loop = tile->loop, sides = loop ? 3 : 4, step = place->step;
+    int bits = face->level - tile->ngon + depth;
     const int (*at)[2] = loop ? sdv_corner_triangle : sdv_corner_quad;
-    int64_t units = (int64_t)1 << (face->level - l->tile.ngon + depth), size = (int64_t)1 << depth;
+    int64_t size = (int64_t)1 << depth;
     int64_t right = step * at[face->turn][1] / 2, up = step * at[face->turn][0] / 2;
     int64_t x = (place->column + right) * size, y = (place->row + up) * size;
     if (child == 0) {
-        sdv_cell own = sdv_cell_at(units, x - right, y - up, step);
+        sdv_cell own = sdv_cell_at(bits, x - right, y - up, step);
         own.x = (double)x;
         own.y = (double)y;
         return own;
     }
     int turned = child < sides ? (child + face->turn) % sides : child;
-    int64_t child_right = turned == 1 || turned == (loop ? 3 : 2);
-    int64_t child_up = turned >= 2;
-    return sdv_cell_at(2 * units, 2 * (x - right) + step * child_right,
+    int64_t child_right = turned == 1 || turned == (loop ? 3 : 2), child_up = turned >= 2;
+    return sdv_cell_at(bits + 1, 2 * (x - right) + step * child_right,
                        2 * (y - up) + step * child_up, child == 3 && loop ? -step : step);
 }
 
-// Has what is left of a face of a nest more points than its vertex? The grid's side has so many
-// pieces at most.
-static int sdv_nest_needs(const sdv_leaf_points *l, const sdv_nest_face *face, int depth)
+// After how many levels what is left of a face of a nest has no points but its vertex.
+static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
-    const sdv_tile *tile = &l->tile;
-    sdv_cell cell = sdv_nest_cell(l, face, depth, 0);
-    int64_t x = (int64_t)cell.x, y = (int64_t)cell.y;
-    int corner = (x == 0 || x == cell.units) && (y == 0 || y == cell.units);
     int most = tile->grid.columns > tile->grid.rows ? tile->grid.columns : tile->grid.rows;
     for (int i = 0; i < tile->sides; i++) {
         int rate = (sdv_edge_rate(tile, i) + tile->ngon) / (1 + tile->ngon);
         if (rate > most) most = rate;
     }
-    int middle = cell.units <= 2;       // is it one of its sides?
-    return cell.units == 1 || most > cell.units ||
-           (most == cell.units && (tile->loop || !corner || middle));
-}
-
-static int sdv_any_needs(const sdv_samples *s, const sdv_nest_face *faces, int count, int depth)
-{
-    int needs = 0;
-    sdv_leaf_points l;
-    for (int i = 0; i < count && !needs; i++)
-        needs = sdv_begin_leaf(s, faces[i].place.h, &l) && sdv_nest_needs(&l, &faces[i], depth);
-    return needs;
+    for (int depth = 0;; depth++) {
+        sdv_cell cell = sdv_nest_cell(tile, face, depth, 0);
+        int64_t units = sdv_units(&cell), x = (int64_t)cell.x, y = (int64_t)cell.y;
+        int corner = (x == 0 || x == units) && (y == 0 || y == units);
+        int middle = units <= 2;                // is it one of its sides?
+        if (units > most || (units == most && units > 1 && corner && !middle && !tile->loop))
+            return depth;
+    }
 }
 
 // The points on patches of a nest's next level.
 static void sdv_put_nest_level(const sdv_samples *s, const sdv_nest_state *state,
                                const sdv_nest_face *faces, int depth)
 {
-    for (int i = 0; i < 3 * state->kind->faces; i++) {
-        const sdv_nest_face *face = &faces[i / 3];
-        int child = i % 3 + 1, points[16];
-        sdv_patch patch;
-        sdv_leaf_points l;
+    sdv_leaf_points l;
+    for (int i = 0; i < state->kind->faces; i++) {
+        const sdv_nest_face *face = &faces[i];
         if (!sdv_begin_leaf(s, face->place.h, &l)) continue;
-        sdv_nest_patch(state, i / 3, child, face->turn, &patch, points);
-        l.cell = sdv_nest_cell(&l, face, depth, child);
-        l.patch = &patch;
-        l.points = points;
         l.work = state->w;
         l.shrink = state->shrink;
         for (int c = 0; c < 4; c++) l.base[c] = state->base[c];
-        sdv_put_cell(&l);
+        for (int child = 1; child <= 3; child++) {
+            sdv_patch patch;
+            int points[16];
+            sdv_nest_patch(state, i, child, face->turn, &patch, points);
+            l.cell = sdv_nest_cell(&l.tile, face, depth, child);
+            l.patch = &patch;
+            l.points = points;
+            l.loaded = 0;
+            sdv_put_cell(&l);
+        }
     }
 }
 
@@ -10195,11 +10215,16 @@ static void sdv_put_nest_points(const sdv_samples *s, int number, double *w)
 {
     const subdiv_surface *surface = s->source->surface;
     const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
-    int depth = 0;
+    int most = 0;
     sdv_nest_sample vertex;
     sdv_nest_load(&vertex.state, surface, number, s->source->work, w);
     int count = vertex.state.kind->faces;
-    for (; sdv_any_needs(s, faces, count, depth); depth++) {
+    for (int i = 0; i < count; i++) {
+        sdv_tile tile = sdv_tile_at(s->tiling, sdv_face_of(s->tiling->cage, faces[i].place.h));
+        int depth = sdv_nest_depth(&tile, &faces[i]);
+        if (depth > most) most = depth;
+    }
+    for (int depth = 0; depth < most; depth++) {
         sdv_nest_refine(&vertex.state);
         sdv_put_nest_level(s, &vertex.state, faces, depth);
         sdv_nest_descend(&vertex.state);
@@ -10208,7 +10233,7 @@ static void sdv_put_nest_points(const sdv_samples *s, int number, double *w)
         sdv_leaf_points l;
         if (!sdv_begin_leaf(s, faces[i].place.h, &l)) continue;
         vertex.face = i;
-        l.cell = sdv_nest_cell(&l, &faces[i], depth, 0);
+        l.cell = sdv_nest_cell(&l.tile, &faces[i], most, 0);
         l.vertex = &vertex;
         sdv_put_cell(&l);
     }
