@@ -356,6 +356,46 @@ static int random_rate(void)
     return rates[below(12)];
 }
 
+// A point of a face beside exact evaluation where it has to be: the same place and, inside, where
+// the surface has one, the same normal.
+static void check_place(const subdiv_mesh *fine, const plan *p, const subdiv_surface *surface,
+                        const void *scratch, int f, int point, double size)
+{
+    float place[3], normal[3];
+    subdiv_derivatives out = { place, NULL, NULL, NULL, NULL, NULL, normal, 0 };
+    spot s = { 0, 0, 0 };
+    CHECK(find_spot(p, f, point, &s));
+    subdiv_location at = { f, s.quad, (float)s.u, (float)s.v };
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, 1, &at, &out, NULL), SUBDIV_OK);
+    double off = 0, along = 0, length = 0;
+    for (int k = 0; k < 3; k++) {
+        length += (double)normal[k] * (double)normal[k];
+        off = fmax(off, fabs((double)fine->positions[3 * point + k] - (double)place[k]));
+        along += (double)fine->normals[3 * point + k] * (double)normal[k];
+    }
+    if (off > 2e-6 * size || (point >= p->inside_first[0] && along < length - 1e-3))
+        TEST_REPORT("point %d of face %d, quad %d at %g %g: off by %g, normals by %g", point, f, s.quad, s.u, s.v, off / size, 1 - along);
+}
+
+static void check_places(const subdiv_mesh *fine, const plan *p, const subdiv_surface *surface)
+{
+    void *scratch = malloc(subdiv_scratch_size(surface, 3));
+    double size = 0;
+    for (int i = 0; i < 3 * p->cage->vertex_count; i++)
+        size = fmax(size, fabs((double)p->cage->positions[i]));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, 3, p->cage->positions, 0, scratch, NULL), SUBDIV_OK);
+    for (int f = 0; f < p->cage->face_count; f++) {
+        if (p->dropped[f]) continue;
+        int end = f + 1 < p->cage->face_count ? p->inside_first[f + 1] : p->point_count;
+        for (int i = p->inside_first[f]; i < end; i++)
+            check_place(fine, p, surface, scratch, f, i, size);
+        for (int i = 0; i < order_face_size(&p->order, f); i++)
+            for (int k = 0; k < side_rate(p, f, i); k++)
+                check_place(fine, p, surface, scratch, f, plan_side_point(p, f, i, k), size);
+    }
+    free(scratch);
+}
+
 static void check_cage(const subdiv_mesh *cage, int with_faces)
 {
     unsigned char hidden[RANDOM_MAX_FACES];
@@ -380,6 +420,7 @@ static void check_cage(const subdiv_mesh *cage, int with_faces)
         CHECK_EQUAL(r, SUBDIV_OK);
         if (triangles) CHECK_EQUAL(fine.face_size, 3);
         check_tessellation(&fine, &any, hidden);
+        if (!triangles) check_places(&fine, &any, surface);
         subdiv_mesh_free(&fine);
     }
     plan_free(&any);
