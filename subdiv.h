@@ -7237,7 +7237,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 // A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
-#define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
+#define SDV_NEST_DEPTH 5                // levels of a nest whose polynomials are kept
 #define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
@@ -7260,6 +7260,7 @@ typedef struct sdv_nest_kind {
     sdv_step step;                      // which its rows make
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
+    int      turns, width;              // patches: of each turn of the face; control points of each
     sdv_patches patches;
     double  *limit;                     // [3 * points] weights of the limit and of two tangents,
                                         // of a smooth ring and a crease; NULL: none
@@ -7426,6 +7427,44 @@ static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const
         kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
 }
 
+// A patch as seen by the face that it is turned in: control point k there is the nest's own number
+// sdv_turned_points[k], for every turn once more.
+static const unsigned char sdv_turned_points[2][16] = {
+    { 12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3 },
+    { 9, 6, 3, 10, 8, 4, 11, 0, 5, 7, 2, 1, 0, 0, 0, 0 } };
+
+static void sdv_turn_patch(const sdv_rules *rules, const sdv_patch *from, const int *points,
+                           sdv_patch *patch, int *out)
+{
+    const unsigned char *turned = sdv_turned_points[rules->loop];
+    int sides = rules->loop ? 3 : 4, sharp = from->sharp;
+    *patch = *from;
+    for (int i = 0; i < sdv_control_points(rules); i++) out[i] = points[turned[i]];
+    patch->sharp = (unsigned char)((sharp << 1 | sharp >> (sides - 1)) & ((1 << sides) - 1));
+    for (int i = 0; i < 3; i++) patch->fan[(i + 1) % 3] = from->fan[i];
+}
+
+// Behind the patches of a nest the same in all other turns.
+static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rules *rules,
+                           sdv_nest_kind *kind)
+{
+    sdv_patches made = kind->patches;
+    size_t width = (size_t)sdv_control_points(rules), count = (size_t)made.count;
+    kind->width = (int)width;
+    kind->turns = rules->loop ? 3 : 4;
+    made.count *= kind->turns;
+    made.items = SDV_NEW(context, arena, sdv_patch, made.count);
+    made.points = SDV_NEW(context, arena, int, width * (size_t)made.count);
+    if (context->result) return;
+    sdv_copy(made.items, kind->patches.items, count, sizeof(sdv_patch));
+    sdv_copy(made.points, kind->patches.points, width * count, sizeof(int));
+    for (size_t i = count; i < (size_t)made.count; i++)
+        sdv_turn_patch(rules, &made.items[i - count], made.points + width * (i - count),
+                       &made.items[i], made.points + width * i);
+    kind->patches = made;
+}
+
+
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
 // not one that both and their neighbours share as in the cage of a mesh.
 static void sdv_part_triangles(sdv_level *level, int dart)
@@ -7486,12 +7525,12 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
         sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
     if (!context->result) {
         kind->work_count = next.first_point + next.vertex_count;
-        sdv_find_patches(maker->writer, &surface->arena, &next, rules, SDV_FOREVER,
-                         &kind->patches);
+        sdv_find_patches(maker->writer, &scratch, &next, rules, SDV_FOREVER, &kind->patches);
     }
     if (!context->result) {
         sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
         sdv_nest_children(maker, kind, &split, &next, &scratch);
+        sdv_nest_turns(context, &surface->arena, rules, kind);
     }
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
         sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
@@ -7962,34 +8001,13 @@ static void sdv_nest_descend(sdv_nest_state *s)
     s->shrink /= 2;
 }
 
-// A patch as seen by the face that it is turned in: control point k there is the nest's own number
-// sdv_turned_points[k], for every turn once more.
-static const unsigned char sdv_turned_points[2][16] = {
-    { 12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3 },
-    { 9, 6, 3, 10, 8, 4, 11, 0, 5, 7, 2, 1, 0, 0, 0, 0 } };
-
-static void sdv_turn_patch(const sdv_rules *rules, sdv_patch *patch, int *points)
+// The patch of a child of a nest's face, after a refinement, and its control points.
+static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int child, int turn,
+                                       const int **points)
 {
-    const unsigned char *turned = sdv_turned_points[rules->loop];
-    int old[16], count = sdv_control_points(rules), sides = rules->loop ? 3 : 4;
-    unsigned char first = patch->fan[0], sharp = patch->sharp;
-    for (int i = 0; i < count; i++) old[i] = points[i];
-    for (int i = 0; i < count; i++) points[i] = old[turned[i]];
-    patch->sharp = (unsigned char)((sharp << 1 | sharp >> (sides - 1)) & ((1 << sides) - 1));
-    patch->fan[0] = patch->fan[2];
-    patch->fan[2] = patch->fan[1];
-    patch->fan[1] = first;
-}
-
-// The patch of a child of a nest's face, after a refinement, and its control points [16].
-static void sdv_nest_patch(const sdv_nest_state *s, int face, int child, int turn,
-                           sdv_patch *patch, int *points)
-{
-    const sdv_rules *rules = &s->surface->rules;
-    int number = s->kind->children[4 * face + child], count = sdv_control_points(rules);
-    *patch = s->kind->patches.items[number];
-    for (int i = 0; i < count; i++) points[i] = s->kind->patches.points[count * number + i];
-    for (int i = 0; i < turn; i++) sdv_turn_patch(rules, patch, points);
+    int i = turn * (kind->patches.count / kind->turns) + kind->children[4 * face + child];
+    *points = kind->patches.points + (size_t)kind->width * (size_t)i;
+    return &kind->patches.items[i];
 }
 
 // The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
@@ -8101,13 +8119,12 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
             if (depth > 0) sdv_nest_descend(&s);
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
-                int face = i / 3, child = i % 3 + 1, points[16];
-                sdv_patch patch;
+                int face = i / 3, child = i % 3 + 1, turn = exact->nest_faces[first + face].turn;
+                const int *points;
+                const sdv_patch *patch = sdv_nest_patch(s.kind, face, child, turn, &points);
                 sdv_deep_patch deep;
                 sdv_polynomial q;
-                sdv_nest_patch(&s, face, child, exact->nest_faces[first + face].turn, &patch,
-                               points);
-                sdv_load_deep(e->surface, &patch, points, w, &deep);
+                sdv_load_deep(e->surface, patch, points, w, &deep);
                 sdv_deep_polynomial(&deep, 0, &q);
                 for (int k = 0; k < 4; k++)
                     deep.origin[k] = s.base[k] + s.shrink * deep.origin[k];
@@ -8311,14 +8328,6 @@ static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, i
                       c, i);
 }
 
-static inline void sdv_put_patch(const sdv_exact_evaluation *e, const float *data, int loop,
-                                 float x, float y, float s, size_t i)
-{
-    if (e->channels != 3 || e->order == 2) sdv_put_channels(e, data, loop, x, y, s, i);
-    else if (e->order == 0) sdv_put_lanes(e, data, loop, 3, 0, x, y, s, 0, i);
-    else sdv_put_lanes(e, data, loop, 3, 1, x, y, s, 0, i);
-}
-
 // Which child of a face, and where on it; a middle triangle is turned by half.
 static inline int sdv_descend_quad(double *x, double *y)
 {
@@ -8352,13 +8361,12 @@ typedef struct sdv_nest_sample {
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
     const sdv_nest_state *state = &s->state;
-    int loop = state->surface->rules.loop, count = loop ? 12 : 16;
+    int loop = state->surface->rules.loop, count = state->kind->width;
     double scale = 2;
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
-    int number = state->kind->children[4 * s->face + child];
-    const int *points = state->kind->patches.points + count * number;
-    sdv_deep_patch unit = { &state->surface->rules, &state->kind->patches.items[number], NULL, NULL,
-                            { 0, 0, 0, 0 }, { 0 } };
+    const int *points;
+    const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
+    sdv_deep_patch unit = { &state->surface->rules, patch, NULL, NULL, { 0, 0, 0, 0 }, { 0 } };
     sdv_nest_refine(&s->state);
     memset(s->values, 0, sizeof s->values);
     for (int first = 0; first < count; first += 4) {
@@ -8529,9 +8537,10 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
 }
 
 // A coordinate without its rounding.
-static inline double sdv_on_face(float u)
+static inline float sdv_on_face(float u)
 {
-    return u < 0 ? 0 : u > 1 ? 1 : (double)u;
+    u = u > 0 ? u : 0;
+    return u < 1 ? u : 1;
 }
 
 // Where a location is: on a leaf of the tree, and on a polynomial of that.
@@ -8547,8 +8556,8 @@ static inline void sdv_locate_quad(const int *nodes, int node, double u, double 
 {
     const int cells = 1 << SDV_EXACT_LEVELS;
     int x = (int)(u * cells), y = (int)(v * cells), level = SDV_EXACT_LEVELS;
-    if (x == cells) x--;
-    if (y == cells) y--;
+    x -= x == cells;
+    y -= y == cells;
     for (int turn = x ^ y; node >= 0; ) {
         level--;
         node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
@@ -8575,7 +8584,7 @@ static inline void sdv_locate_triangle(const int *nodes, int node, double x, dou
 static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
                               sdv_leaf *leaf)
 {
-    double x = sdv_on_face(at->u), y = sdv_on_face(at->v);
+    double x = (double)sdv_on_face(at->u), y = (double)sdv_on_face(at->v);
     int f = at->face;
     leaf->slot = leaf->deep = 0;
     if (surface->exact->absent && surface->exact->absent[f]) return;
@@ -8634,25 +8643,30 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
     if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
 }
 
-static inline void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job,
-                                size_t i)
+// fast: the order of derivatives if there are three channels and an order of 0 or 1; else -1.
+static inline void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int fast,
+                                int job, size_t i)
 {
-    size_t width = SDV_SLOTS * (size_t)e->channels;
+    size_t width = SDV_SLOTS * (size_t)(fast < 0 ? e->channels : 3);
+    const float *data = e->memory.polynomials + width * leaf->polynomial;
+    float x = (float)leaf->x, y = (float)leaf->y, scale = (float)leaf->scale;
     if (leaf->slot == 0)
         sdv_put_zeros(e, i);
     else if (leaf->deep)
         e->failed[job] |= !sdv_put_nest(e, ~leaf->slot >> 2, leaf->x, leaf->y, leaf->scale, i);
+    else if (fast >= 0)
+        sdv_put_lanes(e, data, loop, 3, fast, x, y, scale, 0, i);
     else
-        sdv_put_patch(e, e->memory.polynomials + width * leaf->polynomial, loop, (float)leaf->x,
-                      (float)leaf->y, (float)leaf->scale, i);
+        sdv_put_channels(e, data, loop, x, y, scale, i);
 }
 
 // All are located before the first is evaluated: what they need of memory comes at the same time.
-static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
+static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int fast, int job)
 {
     enum { block = 32 };
     sdv_leaf leaves[block];
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t width = SDV_SLOTS * (size_t)(fast < 0 ? e->channels : 3);
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     while (i < end) {
         int count = end - i < block ? (int)(end - i) : block;
@@ -8664,18 +8678,23 @@ static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
             const float *data = e->memory.polynomials + width * leaf->polynomial;
             for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
         }
-        for (int k = 0; k < count; k++, i++) sdv_put_leaf(e, &leaves[k], loop, job, i);
+        for (int k = 0; k < count; k++, i++) sdv_put_leaf(e, &leaves[k], loop, fast, job, i);
     }
 }
 
-static void sdv_quads_job(void *context, int job)
+static void sdv_locations_job(void *context, int job)
 {
-    sdv_put_locations((sdv_exact_evaluation *)context, 0, job);
-}
-
-static void sdv_triangles_job(void *context, int job)
-{
-    sdv_put_locations((sdv_exact_evaluation *)context, 1, job);
+    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    int fast = e->channels == 3 && e->order < 2 ? e->order : -1;
+    if (e->surface->rules.loop) {
+        if (fast < 0) sdv_put_locations(e, 1, -1, job);
+        else if (fast == 0) sdv_put_locations(e, 1, 0, job);
+        else sdv_put_locations(e, 1, 1, job);
+    } else {
+        if (fast < 0) sdv_put_locations(e, 0, -1, job);
+        else if (fast == 0) sdv_put_locations(e, 0, 0, job);
+        else sdv_put_locations(e, 0, 1, job);
+    }
 }
 
 // Is a location there?
@@ -8684,7 +8703,7 @@ static inline int sdv_is_location(const subdiv_surface *surface, const subdiv_lo
     const float under = -1e-6f, over = 1 + 1e-6f;
     const sdv_level *cage = &surface->order.cage;
     int loop = surface->rules.loop, f = at->face;
-    if (f < 0 || f >= surface->face_count) return 0;
+    if ((unsigned)f >= (unsigned)surface->face_count) return 0;
     if (!(at->u >= under && at->v >= under && at->u <= over && at->v <= over)) return 0;
     if (loop && at->u + at->v > over) return 0;
     if (at->corner == 0) return 1;
@@ -8762,7 +8781,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
-    sdv_run(opt, surface->rules.loop ? sdv_triangles_job : sdv_quads_job, &e, e.jobs);
+    sdv_run(opt, sdv_locations_job, &e, e.jobs);
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
@@ -9369,7 +9388,7 @@ static void sdv_probe_leaf(sdv_context *context, sdv_probe *probe, sdv_leaf leaf
                               cut ? (size_t)surface->exact->cuts[~leaf.slot >> 2].polynomial
                                   : leaf.polynomial);
     }
-    sdv_put_leaf(&e, &leaf, surface->rules.loop, 0, 0);
+    sdv_put_leaf(&e, &leaf, surface->rules.loop, -1, 0, 0);
     if (e.failed[0]) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
 }
 
@@ -10199,12 +10218,8 @@ static void sdv_put_nest_level(const sdv_samples *s, const sdv_nest_state *state
         l.shrink = state->shrink;
         for (int c = 0; c < 4; c++) l.base[c] = state->base[c];
         for (int child = 1; child <= 3; child++) {
-            sdv_patch patch;
-            int points[16];
-            sdv_nest_patch(state, i, child, face->turn, &patch, points);
+            l.patch = sdv_nest_patch(state->kind, i, child, face->turn, &l.points);
             l.cell = sdv_nest_cell(&l.tile, face, depth, child);
-            l.patch = &patch;
-            l.points = points;
             l.loaded = 0;
             sdv_put_cell(&l);
         }
