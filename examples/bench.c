@@ -50,7 +50,7 @@ static const double stage_seconds = 2;    // a stage ends after this time, or af
 // The rows and columns of the table. PEAK is in bytes, all others in seconds.
 enum {
     COLD, WARM, PREPARE, FACES, CHAINED, STENCILS, FLOAT4, THREADED, NORMALS, NORMALS_CHAINED,
-    SURFACES, SAMPLE, SAMPLE_DERIVATIVES, TESSELLATE, TESSELLATE_DERIVATIVES, PEAK, ROW_COUNT
+    SURFACES, SAMPLE, SAMPLE_DERIVATIVES, TESSELLATE, PEAK, ROW_COUNT
 };
 enum { OURS, THEIRS, LIMIT, COLUMN_COUNT };
 
@@ -58,7 +58,7 @@ static const char *row_names[ROW_COUNT] = {
     "one-shot, fresh memory", "one-shot, re-used memory", "prepare", "faces",
     "evaluate xyz | chained", "evaluate xyz | stencils", "evaluate xyzw | stencils",
     "evaluate xyz, 2 threads", "limit + normals | Limit", "limit + normals | chained",
-    "surfaces ready", "sample P", "sample P, du, dv", "tessellate P", "tessellate P, du, dv",
+    "surfaces ready", "sample P", "sample P, du, dv", "tessellate",
     "peak memory, bytes"
 };
 
@@ -259,25 +259,12 @@ static int cage_face_size(const subdiv_mesh *cage, int f)
     return cage->face_size ? cage->face_size : cage->face_sizes[f];
 }
 
-// The grid on face f, on each quad of an n-gon; at may be NULL. Returns how many points.
-static int tessellate_face(const bench *b, int f, subdiv_location *at)
+// The points of a grid on face f, or on each quad of an n-gon, edges and vertices included.
+static int count_grid(const bench *b, int f)
 {
-    int size = cage_face_size(&b->cage, f), ngon = b->face_size == 4 && size != 4, count = 0;
-    int steps = ngon ? TESSELLATION_RATE / 2 : TESSELLATION_RATE;
-    for (int corner = 0; corner < (ngon ? size : 1); corner++) {
-        for (int row = 0; row <= steps; row++) {
-            for (int column = 0; column <= (b->face_size == 3 ? steps - row : steps); column++) {
-                subdiv_location here = {0};
-                here.face = f;
-                here.corner = corner;
-                here.u = (float)column / (float)steps;
-                here.v = (float)row / (float)steps;
-                if (at) at[count] = here;
-                count++;
-            }
-        }
-    }
-    return count;
+    int size = cage_face_size(&b->cage, f), n = TESSELLATION_RATE;
+    if (b->face_size == 3) return (n + 1) * (n + 2) / 2;
+    return size == 4 ? (n + 1) * (n + 1) : size * (n / 2 + 1) * (n / 2 + 1);
 }
 
 // Takes so many levels, and counts what the result has. Returns 0 when it is more than the most.
@@ -303,7 +290,7 @@ static int take_levels(bench *b, int levels, int most)
     b->face_size = loop ? 3 : 4;
     b->tessellated_count = 0;
     for (int f = 0; f < b->cage.face_count; f++)
-        b->tessellated_count += tessellate_face(b, f, NULL);
+        b->tessellated_count += count_grid(b, f);
     return 1;
 }
 
@@ -733,27 +720,37 @@ static void sample_surfaces(bench *b)
     free_places(&p);
 }
 
-static void tessellate_ours(bench *b, const places *p, int row)
+static void tessellate_ours(bench *b)
+{
+    subdiv_mesh fine;
+    subdiv_tessellation how = {0};
+    how.rate = TESSELLATION_RATE;
+    double start = now();
+    expect(b, subdiv_tessellate(&fine, &b->cage, &how, NULL));
+    add_sample(b, TESSELLATE, OURS, now() - start);
+    subdiv_mesh_free(&fine);
+}
+
+static void surfaces_ours(bench *b)
 {
     subdiv_surface *surface;
     double start = now();
     void *scratch = open_surface(b, &surface);
-    double ready = now();
-    for (int f = 0, count = 0; f < b->cage.face_count; f++)
-        count += tessellate_face(b, f, p->at + count);
-    evaluate_places(b, surface, scratch, p, row == TESSELLATE_DERIVATIVES);
-    add_sample(b, row, OURS, now() - start);
-    add_sample(b, SURFACES, OURS, ready - start);
+    add_sample(b, SURFACES, OURS, now() - start);
     close_surface(surface, scratch);
 }
 
-static void tessellate_theirs(bench *b, const places *p, int row)
+static void tessellate_theirs(bench *b, const places *p)
 {
-    float *du = row == TESSELLATE_DERIVATIVES ? p->out[1] : NULL;
     double start = now();
-    library->tessellate(b->rival, TESSELLATION_RATE, p->out[0], du, p->out[2]);
-    add_sample(b, row, THEIRS, now() - start);
+    library->tessellate(b->rival, TESSELLATION_RATE, p->out[0], p->out[1], p->out[2]);
+    add_sample(b, TESSELLATE, THEIRS, now() - start);
     library->discard(b->rival);
+    start = now();
+    if (library->surfaces(b->rival)) {
+        add_sample(b, SURFACES, THEIRS, now() - start);
+        library->discard(b->rival);
+    }
 }
 
 static void tessellate(bench *b)
@@ -764,15 +761,9 @@ static void tessellate(bench *b)
     double begin = wall();
     for (int round = -1; go_on(round, begin); round++) {
         b->warming_up = round < 0;
-        for (int row = TESSELLATE; row <= TESSELLATE_DERIVATIVES; row++) {
-            tessellate_ours(b, &p, row);
-            if (b->rival) tessellate_theirs(b, &p, row);
-        }
-        double start = now();
-        if (b->rival && library->surfaces(b->rival)) {
-            add_sample(b, SURFACES, THEIRS, now() - start);
-            library->discard(b->rival);
-        }
+        tessellate_ours(b);
+        surfaces_ours(b);
+        if (b->rival) tessellate_theirs(b, &p);
     }
     free_places(&p);
 }
@@ -803,8 +794,8 @@ static void print_heading(void)
         "  normals   PrimvarRefiner::Limit with two tangents and their product, from the refined\n"
         "            points alone, or from the cage by chained Interpolate as well\n"
         "sample      the limit surface at random places, per place, surfaces ready; theirs: Bfr\n"
-        "tessellate  the same on a grid of %d steps along each edge of the cage, per point, and with\n"
-        "            what makes the surfaces ready\n"
+        "tessellate  from the cage, %d steps along each edge of it: ours, a mesh with normals; theirs,\n"
+        "            points and two tangents on each face; both per point of a face's own grid\n"
         "memory      rise of the resident set of a new process at its peak, the result included\n"
         "speed-up    theirs / ours\n"
         "limit       memset of the bytes that ours writes, in memory of the same kind\n"
@@ -826,7 +817,7 @@ static double median(const bench *b, int row, int column)
 
 static void print_row(bench *b, int row)
 {
-    int tessellated = row == SURFACES || row == TESSELLATE || row == TESSELLATE_DERIVATIVES;
+    int tessellated = row == SURFACES || row == TESSELLATE;
     int sampled = row == SAMPLE || row == SAMPLE_DERIVATIVES;
     double scale = (row == PEAK ? 1 : 1e9) / (sampled ? SAMPLE_COUNT : tessellated
                                               ? b->tessellated_count : b->vertex_count);
