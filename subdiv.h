@@ -8551,22 +8551,22 @@ typedef struct sdv_leaf {
     double x, y, scale;                 // of the coordinates on the face
 } sdv_leaf;
 
-// From the cell of the deepest level a location is in.
-static inline void sdv_locate_quad(const int *nodes, int node, double u, double v, sdv_leaf *leaf)
+// From the cell of the deepest level a location is in. Nothing is rounded.
+static inline void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
 {
     const int cells = 1 << SDV_EXACT_LEVELS;
-    int x = (int)(u * cells), y = (int)(v * cells), level = SDV_EXACT_LEVELS;
-    x -= x == cells;
-    y -= y == cells;
+    int x = (int)(u * (float)cells), y = (int)(v * (float)cells), level = SDV_EXACT_LEVELS;
+    x -= x >> SDV_EXACT_LEVELS;                         // 1 is in the last one
+    y -= y >> SDV_EXACT_LEVELS;
     for (int turn = x ^ y; node >= 0; ) {
         level--;
         node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
     }
-    int scale = cells >> level;
+    float scale = (float)(cells >> level);
     leaf->slot = node;
-    leaf->scale = scale;
-    leaf->x = u * scale - (x >> level);
-    leaf->y = v * scale - (y >> level);
+    leaf->scale = (double)scale;
+    leaf->x = (double)(u * scale - (float)(x >> level));
+    leaf->y = (double)(v * scale - (float)(y >> level));
 }
 
 static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
@@ -8584,14 +8584,14 @@ static inline void sdv_locate_triangle(const int *nodes, int node, double x, dou
 static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
                               sdv_leaf *leaf)
 {
-    double x = (double)sdv_on_face(at->u), y = (double)sdv_on_face(at->v);
+    float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
     int f = at->face;
     leaf->slot = leaf->deep = 0;
     if (surface->exact->absent && surface->exact->absent[f]) return;
     if (surface->own_face) f = surface->own_face[f];
     int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop) sdv_locate_triangle(surface->exact->nodes, node, x, y, leaf);
-    else sdv_locate_quad(surface->exact->nodes, node, x, y, leaf);
+    if (loop) sdv_locate_triangle(surface->exact->nodes, node, (double)u, (double)v, leaf);
+    else sdv_locate_quad(surface->exact->nodes, node, u, v, leaf);
 }
 
 // The strip that a coordinate is on; it then counts from the strip's origin.
@@ -8643,30 +8643,30 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
     if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
 }
 
-// fast: the order of derivatives if there are three channels and an order of 0 or 1; else -1.
-static inline void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int fast,
-                                int job, size_t i)
+// Loops of their own for what is asked for most: points, and first derivatives, of three channels.
+static inline void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job,
+                                size_t i)
 {
-    size_t width = SDV_SLOTS * (size_t)(fast < 0 ? e->channels : 3);
-    const float *data = e->memory.polynomials + width * leaf->polynomial;
+    const float *data = e->memory.polynomials + SDV_SLOTS * (size_t)e->channels * leaf->polynomial;
     float x = (float)leaf->x, y = (float)leaf->y, scale = (float)leaf->scale;
     if (leaf->slot == 0)
         sdv_put_zeros(e, i);
     else if (leaf->deep)
         e->failed[job] |= !sdv_put_nest(e, ~leaf->slot >> 2, leaf->x, leaf->y, leaf->scale, i);
-    else if (fast >= 0)
-        sdv_put_lanes(e, data, loop, 3, fast, x, y, scale, 0, i);
-    else
+    else if (e->channels != 3 || e->order == 2)
         sdv_put_channels(e, data, loop, x, y, scale, i);
+    else if (e->order == 0)
+        sdv_put_lanes(e, data, loop, 3, 0, x, y, scale, 0, i);
+    else
+        sdv_put_lanes(e, data, loop, 3, 1, x, y, scale, 0, i);
 }
 
 // All are located before the first is evaluated: what they need of memory comes at the same time.
-static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int fast, int job)
+static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
 {
     enum { block = 32 };
     sdv_leaf leaves[block];
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
-    size_t width = SDV_SLOTS * (size_t)(fast < 0 ? e->channels : 3);
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     while (i < end) {
         int count = end - i < block ? (int)(end - i) : block;
@@ -8676,25 +8676,23 @@ static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int fast
             if (leaf->slot) sdv_find_polynomial(e->surface, loop, leaf);
             if (leaf->slot == 0 || leaf->deep) continue;
             const float *data = e->memory.polynomials + width * leaf->polynomial;
-            for (size_t line = 0; line < width; line += 16) sdv_prefetch(data + line);
+            sdv_prefetch(data);
+            sdv_prefetch(data + width / 3);
+            sdv_prefetch(data + width / 3 * 2);
+            sdv_prefetch(data + width - 1);
         }
-        for (int k = 0; k < count; k++, i++) sdv_put_leaf(e, &leaves[k], loop, fast, job, i);
+        for (int k = 0; k < count; k++, i++) sdv_put_leaf(e, &leaves[k], loop, job, i);
     }
 }
 
-static void sdv_locations_job(void *context, int job)
+static void sdv_quads_job(void *context, int job)
 {
-    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
-    int fast = e->channels == 3 && e->order < 2 ? e->order : -1;
-    if (e->surface->rules.loop) {
-        if (fast < 0) sdv_put_locations(e, 1, -1, job);
-        else if (fast == 0) sdv_put_locations(e, 1, 0, job);
-        else sdv_put_locations(e, 1, 1, job);
-    } else {
-        if (fast < 0) sdv_put_locations(e, 0, -1, job);
-        else if (fast == 0) sdv_put_locations(e, 0, 0, job);
-        else sdv_put_locations(e, 0, 1, job);
-    }
+    sdv_put_locations((sdv_exact_evaluation *)context, 0, job);
+}
+
+static void sdv_triangles_job(void *context, int job)
+{
+    sdv_put_locations((sdv_exact_evaluation *)context, 1, job);
 }
 
 // Is a location there?
@@ -8781,7 +8779,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
-    sdv_run(opt, sdv_locations_job, &e, e.jobs);
+    sdv_run(opt, surface->rules.loop ? sdv_triangles_job : sdv_quads_job, &e, e.jobs);
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
@@ -9388,7 +9386,7 @@ static void sdv_probe_leaf(sdv_context *context, sdv_probe *probe, sdv_leaf leaf
                               cut ? (size_t)surface->exact->cuts[~leaf.slot >> 2].polynomial
                                   : leaf.polynomial);
     }
-    sdv_put_leaf(&e, &leaf, surface->rules.loop, -1, 0, 0);
+    sdv_put_leaf(&e, &leaf, surface->rules.loop, 0, 0);
     if (e.failed[0]) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
 }
 
