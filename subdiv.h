@@ -8064,7 +8064,7 @@ typedef struct sdv_exact_evaluation {
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// The coefficients of polynomial number i, channels c and on, of a patch that shrinks around origin.
+// The coefficients of polynomial number i, channels c and on: of q, shrunk, around origin.
 static void sdv_keep_polynomial(const sdv_exact_evaluation *e, size_t i, int c,
                                 const sdv_polynomial *q, const double *origin, double shrink)
 {
@@ -8355,8 +8355,8 @@ typedef struct sdv_nest_sample {
     double  normal[2][4];               // tangents for the normal
 } sdv_nest_sample;
 
-// From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time, show
-// how it weighs its control points. (Across a sharp edge, those on one side not at all: there the
+// From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time,
+// show how it weighs its control points. (On a sharp edge, those beside it not at all: there the
 // surface may grow without bound as seen from the vertex, while along the edge it does not.)
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
@@ -9571,9 +9571,9 @@ static int sdv_side_point(const sdv_tile *tile, int side, int k)
 // Where column 0 of a row inside the grid (of an n-gon: its quad at vertex i) would stand.
 static int sdv_row_inside(const sdv_tile *tile, int i, int row)
 {
-    int columns = tile->grid.columns;
-    if (tile->ngon) return tile->inside + (tile->sides + i * (columns - 1) + row - 1) * (columns - 1);
-    return tile->inside - 1 + (row - 1) * (columns - 1) - (tile->loop ? row * (row - 1) / 2 : 0);
+    int length = tile->grid.columns - 1, cut = tile->loop ? row * (row - 1) / 2 : 0;
+    if (tile->ngon) return tile->inside + (tile->sides + i * length + row - 1) * length;
+    return tile->inside - 1 + (row - 1) * length - cut;
 }
 
 // A point of the quad at vertex i of an n-gon: its last column is the spoke to edge i, backwards,
@@ -9856,8 +9856,8 @@ typedef struct sdv_samples {
     unsigned char failed[SDV_MOST_JOBS];
 } sdv_samples;
 
-// A leaf of the exact surface covers a cell of the grid of its face (a turned triangle the upper half
-// of one, any other triangle the lower), and makes the points that are there:
+// A leaf of the exact surface covers a cell of the grid of its face (a turned triangle the upper
+// half of one, any other triangle the lower), and makes the points that are there:
 //
 //     +---+---+       those between cells belong to the cell that is nearer to the middle of the
 //     | > | < |       grid, so that what remains of a nest has no points but its vertex as soon as
@@ -9922,7 +9922,6 @@ static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
     int degree = vertex->state.surface->rules.loop ? 4 : 3;
     float p[3][4];
     sdv_nest_vertex(vertex);
-    memset(q, 0, sizeof *q);
     for (int c = 0; c < 4; c++) {
         p[0][c] = (float)vertex->values[0][c];
         p[1][c] = (float)vertex->normal[0][c];
@@ -10006,7 +10005,7 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 }
 
 // Of the points k step / rate of a side the first one behind low and the last one before high, both
-// in units of a cell, and of those at low and high themselves the ones that belong to it. step: 1, 2.
+// in units of a cell, and of those at low and high the ones that belong to it. step: 1 or 2.
 static void sdv_find_ticks(const sdv_leaf_points *l, int64_t low, int64_t high, int step,
                            int64_t rate, int64_t most, sdv_line_points *line)
 {
@@ -10045,8 +10044,8 @@ static void sdv_put_cell_inside(sdv_leaf_points *l)
     }
 }
 
-// The points on a side of a face that is an edge, if this is where they are made: point k of them is
-// at k step / rate of the grid's side, from the first vertex of the side or, backwards, the other.
+// The points on a side of a face that is an edge, if this is where they are made: point k of them
+// is at k step / rate of the grid's side, from its first vertex or, backwards, the other.
 static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t low, int64_t high,
                          int step, const sdv_line_points *side_line)
 {
@@ -10057,9 +10056,9 @@ static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t lo
     if (tile->tiling->home[cage->vertex_count + cage->face_edges[h]] != h) return;
     sdv_find_ticks(l, low, high, step, rate, step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
     if (line.first > line.last) return;
-    int k = (int)line.first;
+    int k = (int)line.first, a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
     line.index = sdv_side_point(tile, side, backwards ? rate - k : k);
-    line.step = (cage->face_vertices[h] > cage->face_vertices[sdv_next(cage, h)]) != backwards ? -1 : 1;
+    line.step = (a > b) != backwards ? -1 : 1;
     line.du *= (double)step / rate;
     line.dv *= (double)step / rate;
     sdv_put_line(l, &line);
@@ -10077,9 +10076,11 @@ static void sdv_put_spoke(sdv_leaf_points *l)
 
 static void sdv_put_cell_sides(sdv_leaf_points *l)
 {
-    static const sdv_line_points bottom = { 0, 0, 0, 0, 1, 0, 0, 0 }, top = { 0, 0, 0, 1, 1, 0, 0, 0 };
-    static const sdv_line_points left = { 0, 0, 0, 0, 0, 1, 0, 0 }, right = { 0, 0, 1, 0, 0, 1, 0, 0 };
+    static const sdv_line_points bottom  = { 0, 0, 0, 0,  1, 0, 0, 0 };
+    static const sdv_line_points right   = { 0, 0, 1, 0,  0, 1, 0, 0 };
     static const sdv_line_points slanted = { 0, 0, 1, 0, -1, 1, 0, 0 };
+    static const sdv_line_points top     = { 0, 0, 0, 1,  1, 0, 0, 0 };
+    static const sdv_line_points left    = { 0, 0, 0, 0,  0, 1, 0, 0 };
     const sdv_cell *c = &l->cell;
     int loop = l->tile.loop, ngon = l->tile.ngon, last = l->tile.sides - 1;
     int before = ngon ? l->corner ? l->corner - 1 : last : last;
@@ -10103,7 +10104,8 @@ static void sdv_put_cell_corners(sdv_leaf_points *l)
         int up = at[i][0] > 0, right = at[i][1] > 0;
         if (!(right ? cell->right == units : cell->left == 0) ||
             !(up ? cell->top == units : cell->bottom == 0)) continue;
-        int h = tile->first + (tile->ngon ? l->corner : i), v = tile->tiling->cage->face_vertices[h];
+        int h = tile->first + (tile->ngon ? l->corner : i);
+        int v = tile->tiling->cage->face_vertices[h];
         sdv_line_points point = { 0, 0, right, up, 0, 0, v, 0 };
         int here = tile->tiling->home[v] == h;
         if (tile->ngon && i > 0) {
@@ -10293,12 +10295,14 @@ static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sd
     s.user = context->user;
     s.jobs = sdv_jobs((int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
     sdv_run(opt, sdv_sample_job, &s, s.jobs);
-    if (memchr(s.failed, 1, sizeof s.failed)) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
+    if (memchr(s.failed, 1, sizeof s.failed))
+        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
     for (int v = 0; v < tiling->cage->vertex_count; v++) {      // those without faces
-        int from = surface->source ? surface->source[v] : v;
+        size_t to = width * (size_t)v;
         if (tiling->home[v] >= 0) continue;
-        memcpy(points + width * (size_t)v, source->in + width * (size_t)from, width * sizeof(float));
-        if (normals) memset(normals + width * (size_t)v, 0, width * sizeof(float));
+        const float *from = source->in + width * (size_t)(surface->source ? surface->source[v] : v);
+        memcpy(points + to, from, width * sizeof(float));
+        if (normals) memset(normals + to, 0, width * sizeof(float));
     }
 }
 

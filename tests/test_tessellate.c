@@ -374,7 +374,8 @@ static void check_place(const subdiv_mesh *fine, const plan *p, const subdiv_sur
         along += (double)fine->normals[3 * point + k] * (double)normal[k];
     }
     if (off > 2e-6 * size || (point >= p->inside_first[0] && along < length - 1e-3))
-        TEST_REPORT("point %d of face %d, quad %d at %g %g: off by %g, normals by %g", point, f, s.quad, s.u, s.v, off / size, 1 - along);
+        TEST_REPORT("point %d of face %d, quad %d at %g %g: off by %g, normals by %g", point, f,
+                    s.quad, s.u, s.v, off / size, 1 - along);
 }
 
 static void check_places(const subdiv_mesh *fine, const plan *p, const subdiv_surface *surface)
