@@ -69,9 +69,11 @@
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
-             >>exact-surface  and anywhere between the points
-             >>tiles     grids and strips of triangles, see >>tessellation
+             >>exact-surface  and anywhere between the points: >>nests around irregular vertices,
+                         the >>tree of all leaves, their >>polynomials, >>samples of them
              >>stencils  all of them as weights
+             >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
+                         >>tessellator that makes a mesh of them
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
              >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
@@ -7333,6 +7335,9 @@ static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
         slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
 }
 
+// --------------------------------------------------------------------------------- >>nests
+// Nests: what is the same at many vertices, made once from a small mesh, and where they are.
+
 // The points of a nest whose first face is that of h, a face-vertex at its vertex.
 static void sdv_nest_points(const sdv_level *level, int h, int faces, int ring, int loop, int *out)
 {
@@ -7673,6 +7678,9 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
     sdv_arena_free(&scratch);
 }
 
+// ---------------------------------------------------------------------------------- >>tree
+// The tree of the exact surface, level by level.
+
 // The nodes of the next level's faces.
 static void sdv_exact_children(sdv_exact_maker *maker, const sdv_level *level,
                                const sdv_split *split, const sdv_level *next, sdv_arena *arena)
@@ -7862,6 +7870,9 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
+
+// --------------------------------------------------------------------------- >>polynomials
+// What an evaluation of the exact surface begins with: the polynomials of all leaves.
 
 // A patch's control points, relative to one of them, and the strips that it is cut into.
 typedef struct sdv_deep_patch {
@@ -8206,6 +8217,9 @@ static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const sub
     for (int i = 0; i < exact->nest_count; i++)         // they are few, and there is room for one
         if (sdv_nest_work(exact, i) > SDV_NEST_STACK) sdv_nest_polynomials(&e, i, e.memory.nest);
 }
+
+// ------------------------------------------------------------------------------- >>samples
+// Samples: which polynomial a location is on, and what that has there; or down into a nest.
 
 // The lanes of up to four channels' sums.
 static inline sdv_four sdv_lane_sums(const sdv_four *sum, int lanes)
@@ -9744,34 +9758,6 @@ static void sdv_put_strips(const sdv_tile *tile, sdv_faces_at *out)
     for (int i = 0; i < tile->sides && tile->grid.margin; i++) sdv_put_strip(tile, i, out);
 }
 
-// Values that are evaluated: work points of SUBDIV_EXACT.
-typedef struct sdv_source {
-    const subdiv_surface *surface;
-    int          channels;              // 4 at most
-    const float *in;
-    double      *work;
-} sdv_source;
-
-// What a tessellation works on.
-typedef struct sdv_tessellator {
-    const subdiv_surface *surface;
-    const subdiv_tessellation *how;
-    const subdiv_options *opt;
-    sdv_arena  arena;
-    sdv_tiling points, uvs;
-    sdv_source positions;
-    int        triangles;
-    size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
-    size_t    *first_face_vertex;       // [face_count + 1] face_vertices
-    subdiv_mesh mesh;                   // the result
-    int        jobs;
-} sdv_tessellator;
-
-static int sdv_user_face(const subdiv_surface *surface, int f)
-{
-    return surface->cage_face ? surface->cage_face[f] : f;
-}
-
 static void sdv_new_tiling(sdv_context *context, sdv_arena *arena, sdv_tiling *tiling,
                            const sdv_level *cage, int loop)
 {
@@ -9830,19 +9816,31 @@ static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
     return (int)count;
 }
 
-static sdv_source sdv_begin_source(sdv_context *context, sdv_tessellator *t,
-                                   const subdiv_surface *surface, int channels, const float *in)
+// --------------------------------------------------------------------------- >>tile-points
+// The points of a tiling on the limit surface, leaf by leaf of the tree.
+
+// Values that are evaluated: work points of SUBDIV_EXACT.
+typedef struct sdv_source {
+    const subdiv_surface *surface;
+    int          channels;              // 4 at most
+    const float *in;
+    double      *work;
+} sdv_source;
+
+static sdv_source sdv_begin_source(sdv_context *context, sdv_arena *arena,
+                                   const subdiv_surface *surface, int channels, const float *in,
+                                   const subdiv_options *opt)
 {
     sdv_source source = { surface, channels, in, NULL };
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
-    source.work = (double *)sdv_new(context, &t->arena, sdv_exact_work_size(surface, channels), 1);
+    source.work = (double *)sdv_new(context, arena, sdv_exact_work_size(surface, channels), 1);
     evaluation.surface = surface;
     evaluation.channels = channels;
     evaluation.in = in;
     evaluation.in_stride = (size_t)channels;
     evaluation.deep = source.work;
-    if (source.work) sdv_make_work(&evaluation, t->opt);
+    if (source.work) sdv_make_work(&evaluation, opt);
     return source;
 }
 
@@ -10306,6 +10304,29 @@ static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sd
     }
 }
 
+// --------------------------------------------------------------------------- >>tessellator
+// From rates to a mesh.
+
+// What a tessellation works on.
+typedef struct sdv_tessellator {
+    const subdiv_surface *surface;
+    const subdiv_tessellation *how;
+    const subdiv_options *opt;
+    sdv_arena  arena;
+    sdv_tiling points, uvs;
+    sdv_source positions;
+    int        triangles;
+    size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
+    size_t    *first_face_vertex;       // [face_count + 1] face_vertices
+    subdiv_mesh mesh;                   // the result
+    int        jobs;
+} sdv_tessellator;
+
+static int sdv_user_face(const subdiv_surface *surface, int f)
+{
+    return surface->cage_face ? surface->cage_face[f] : f;
+}
+
 // Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
 static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float factor)
 {
@@ -10478,11 +10499,12 @@ static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
     sdv_sample(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
                mesh->vertex_count);
     if (surface->colors) {
-        sdv_source colors = sdv_begin_source(context, t, surface, 3, surface->colors);
+        sdv_source colors = sdv_begin_source(context, &t->arena, surface, 3, surface->colors,
+                                             t->opt);
         sdv_sample(context, t->opt, &t->points, &colors, mesh->colors, NULL, mesh->vertex_count);
     }
     if (uv) {
-        sdv_source uvs = sdv_begin_source(context, t, uv, 2, surface->uvs);
+        sdv_source uvs = sdv_begin_source(context, &t->arena, uv, 2, surface->uvs, t->opt);
         sdv_sample(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
     }
 }
@@ -10502,7 +10524,7 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
 {
     const subdiv_surface *surface = t->surface;
     sdv_new_tiling(context, &t->arena, &t->points, &surface->order.cage, surface->rules.loop);
-    t->positions = sdv_begin_source(context, t, surface, 3, positions);
+    t->positions = sdv_begin_source(context, &t->arena, surface, 3, positions, t->opt);
     if (context->result) return;
     sdv_find_homes(&t->points, surface->hole);
     sdv_set_edge_rates(context, t);
