@@ -8601,6 +8601,7 @@ static inline void sdv_locate(const subdiv_surface *surface, int loop, const sub
     float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
     int f = at->face;
     leaf->slot = leaf->deep = 0;
+    leaf->polynomial = 0;
     if (surface->exact->absent && surface->exact->absent[f]) return;
     if (surface->own_face) f = surface->own_face[f];
     int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
