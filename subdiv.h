@@ -821,6 +821,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 // Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
 // bits are the same with and without, unless the compiler fuses multiplications and additions.
+// (32-bit ARM's NEON does not: it has no numbers below FLT_MIN.)
 #if defined(SUBDIV_NO_SIMD)
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
@@ -833,20 +834,19 @@ static sdv_four sdv_of(float a, float b, float c, float d) { return _mm_setr_ps(
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
+static sdv_four sdv_over(sdv_four a, sdv_four b)       { return _mm_div_ps(a, b); }
+static sdv_four sdv_sqrt(sdv_four a)                   { return _mm_sqrt_ps(a); }
+static int      sdv_less(sdv_four a, sdv_four b)
+{
+    return _mm_movemask_ps(_mm_cmplt_ps(a, b)) == 15;
+}
 static void     sdv_store_three(float *p, sdv_four a)
 {
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
-    __m128 low = _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab));
-    ab = _mm_unpackhi_ps(a, b);
-    cd = _mm_unpackhi_ps(c, d);
-    return _mm_add_ps(low, _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab)));
-}
-#elif defined(__ARM_NEON) || defined(_M_ARM64)
+static void     sdv_transpose(sdv_four *a)             { _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]); }
+#elif defined(__aarch64__) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
 typedef float32x4_t sdv_four;
@@ -861,19 +861,21 @@ static sdv_four sdv_of(float a, float b, float c, float d)
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
+static sdv_four sdv_over(sdv_four a, sdv_four b)       { return vdivq_f32(a, b); }
+static sdv_four sdv_sqrt(sdv_four a)                   { return vsqrtq_f32(a); }
+static int      sdv_less(sdv_four a, sdv_four b)       { return vminvq_u32(vcltq_f32(a, b)) != 0; }
 static void     sdv_store_three(float *p, sdv_four a)
 {
     vst1_f32(p, vget_low_f32(a));
     vst1q_lane_f32(p + 2, a, 2);
 }
-static float32x2_t sdv_pairs(float32x4_t a)
+static void     sdv_transpose(sdv_four *a)
 {
-    return vpadd_f32(vget_low_f32(a), vget_high_f32(a));
-}
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    return vcombine_f32(vpadd_f32(sdv_pairs(a), sdv_pairs(b)),
-                        vpadd_f32(sdv_pairs(c), sdv_pairs(d)));
+    float32x4x2_t ab = vtrnq_f32(a[0], a[1]), cd = vtrnq_f32(a[2], a[3]);
+    for (int i = 0; i < 2; i++) {
+        a[i] = vcombine_f32(vget_low_f32(ab.val[i]), vget_low_f32(cd.val[i]));
+        a[2 + i] = vcombine_f32(vget_high_f32(ab.val[i]), vget_high_f32(cd.val[i]));
+    }
 }
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
@@ -886,19 +888,28 @@ static sdv_four sdv_of(float a, float b, float c, float d) { return wasm_f32x4_m
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
+static sdv_four sdv_over(sdv_four a, sdv_four b)       { return wasm_f32x4_div(a, b); }
+static sdv_four sdv_sqrt(sdv_four a)                   { return wasm_f32x4_sqrt(a); }
+static int      sdv_less(sdv_four a, sdv_four b)
+{
+    return wasm_i32x4_all_true(wasm_f32x4_lt(a, b));
+}
 static void     sdv_store_three(float *p, sdv_four a)
 {
     wasm_v128_store64_lane(p, a, 0);
     wasm_v128_store32_lane(p + 2, a, 2);
 }
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+static void     sdv_transpose(sdv_four *a)
 {
-    v128_t even = wasm_f32x4_add(wasm_i32x4_shuffle(a, b, 0, 2, 4, 6),
-                                 wasm_i32x4_shuffle(a, b, 1, 3, 5, 7));
-    v128_t odd = wasm_f32x4_add(wasm_i32x4_shuffle(c, d, 0, 2, 4, 6),
-                                wasm_i32x4_shuffle(c, d, 1, 3, 5, 7));
-    return wasm_f32x4_add(wasm_i32x4_shuffle(even, odd, 0, 2, 4, 6),
-                          wasm_i32x4_shuffle(even, odd, 1, 3, 5, 7));
+    v128_t low[2], high[2];
+    for (int i = 0; i < 2; i++) {
+        low[i] = wasm_i32x4_shuffle(a[2 * i], a[2 * i + 1], 0, 4, 1, 5);
+        high[i] = wasm_i32x4_shuffle(a[2 * i], a[2 * i + 1], 2, 6, 3, 7);
+    }
+    a[0] = wasm_i64x2_shuffle(low[0], low[1], 0, 2);
+    a[1] = wasm_i64x2_shuffle(low[0], low[1], 1, 3);
+    a[2] = wasm_i64x2_shuffle(high[0], high[1], 0, 2);
+    a[3] = wasm_i64x2_shuffle(high[0], high[1], 1, 3);
 }
 #endif
 
@@ -951,15 +962,42 @@ static sdv_four sdv_times(sdv_four a, sdv_four b)
     return a;
 }
 
+static sdv_four sdv_over(sdv_four a, sdv_four b)
+{
+    for (int i = 0; i < 4; i++) a.x[i] /= b.x[i];
+    return a;
+}
+
+static sdv_four sdv_sqrt(sdv_four a)
+{
+    for (int i = 0; i < 4; i++) a.x[i] = sqrtf(a.x[i]);
+    return a;
+}
+
+// In all lanes?
+static int sdv_less(sdv_four a, sdv_four b)
+{
+    int less = 1;
+    for (int i = 0; i < 4; i++) less &= a.x[i] < b.x[i];
+    return less;
+}
+
+// Lane j of vector i becomes lane i of vector j.
+static void sdv_transpose(sdv_four *a)
+{
+    sdv_four from[4] = { a[0], a[1], a[2], a[3] };
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) a[j].x[i] = from[i].x[j];
+}
+#endif
+
 // Lane i: the sum of all lanes of vector number i, (0 + 1) + (2 + 3).
 static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
 {
     sdv_four four[4] = { a, b, c, d };
-    for (int i = 0; i < 4; i++)
-        a.x[i] = (four[i].x[0] + four[i].x[1]) + (four[i].x[2] + four[i].x[3]);
-    return a;
+    sdv_transpose(four);
+    return sdv_plus(sdv_plus(four[0], four[1]), sdv_plus(four[2], four[3]));
 }
-#endif
 
 static void sdv_prefetch(const float *p)
 {
@@ -5655,11 +5693,15 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 // and in any order, since each point is made once and from work points alone.
 
 typedef struct sdv_window {             // a part of the result, four channels of it or fewer
-    float *values;                      // of point first
+    float *values;                      // of point first; NULL: not wanted
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
     int    first, count;                // so many points are written
+    struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
 } sdv_window;
+
+// See >>limit-surface.
+static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across);
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
 {
@@ -5678,7 +5720,7 @@ static void sdv_store_some(float *p, sdv_four a, int lanes)
 static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
     int i = index - out->first;
-    if (i >= 0 && i < out->count)
+    if (i >= 0 && i < out->count && out->values)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
@@ -5768,6 +5810,7 @@ static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const
     while (row < last) {
         const sdv_weights *mask = &masks->items[row[0]];
         sdv_put_point(out, row[1], sdv_row_sum(masks, mask, row + 2, work));
+        if (out->tangents) sdv_put_tangents(out, row[1], sdv_all(0), sdv_all(0));
         row += 2 + mask->count;
     }
 }
@@ -5802,9 +5845,10 @@ static void sdv_apply_limit(const subdiv_surface *surface, const float *work, in
     const int *row = limit->rows.items + limit->rows.starts[face];
     const int *last = limit->rows.items + limit->rows.starts[end];
     for (; row < last; row += 2 + limit->masks[row[0]].count) {
-        sdv_four p;
-        sdv_limit_sums(limit, row, work, &p, NULL);
+        sdv_four p, t[2];
+        sdv_limit_sums(limit, row, work, &p, out->tangents ? t : NULL);
         sdv_put_point(out, row[1], p);
+        if (out->tangents) sdv_put_tangents(out, row[1], t[0], t[1]);
     }
 }
 
@@ -5863,7 +5907,7 @@ typedef struct sdv_polynomial {
 // A patch, or the part of it between the lines that cut it into strips.
 typedef struct sdv_part {
     sdv_patch      patch;               // its place on the grid, and what it writes
-    sdv_polynomial q;
+    sdv_polynomial q, rise;             // rise: of tangents, its derivative across the rows
     int   columns, rows;                // segments
     float x, y, dx, dy;                 // where in the polynomial it starts, and its segments
 } sdv_part;
@@ -5896,21 +5940,64 @@ static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
     return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
+// With its tangents, if they are wanted: cubics in x, at most.
+typedef struct sdv_curves {
+    sdv_curve curve, along, across;
+} sdv_curves;
+
+// The derivative of a polynomial across its rows, of what sdv_row_curve looks at.
+static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
+{
+    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
+    const int *powers = q->degree == 3 ? cubic : quartic;
+    d->degree = q->degree;
+    d->origin = sdv_all(0);
+    for (int i = 0; i <= q->degree; i++) {
+        for (int j = 0; j < powers[i]; j++)
+            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
+        d->c[i][powers[i]] = sdv_all(0);
+    }
+}
+
+// And of a row along itself.
+static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
+{
+    d->degree = 3;
+    d->a[3] = sdv_all(0);
+    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
+}
+
+static inline void sdv_make_row(const sdv_window *out, const sdv_part *part, float y, sdv_curves *row)
+{
+    sdv_row_curve(&part->q, y, &row->curve);
+    if (!out->tangents) return;
+    sdv_row_curve(&part->rise, y, &row->across);
+    sdv_along_row(&row->curve, &row->along);
+}
+
+static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curves *row, float x)
+{
+    sdv_four t = sdv_all(x);
+    sdv_put_point(out, index, sdv_curve_point(&row->curve, t));
+    if (out->tangents)
+        sdv_put_tangents(out, index, sdv_horner3(row->along.a, t), sdv_horner3(row->across.a, t));
+}
+
+// See >>limit-surface.
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curves *row,
+                                float x, float h);
+
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
 // between points, four lanes are stored of each but the last.
-static inline void sdv_put_run(const sdv_window *out, int index, int count,
-                               const sdv_curve *curve, float x, float h)
+static inline void sdv_put_curve(const sdv_window *out, int index, int count,
+                                 const sdv_curve *curve, float x, float h)
 {
-    int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
-    if (last >= out->count) last = out->count - 1;
-    if (first + skip > last) return;
     const sdv_curve c = *curve;
     int lanes = out->lanes;
     size_t stride = out->stride;
-    float *p = out->values + stride * (size_t)(first + skip);
-    float *end = out->values + stride * (size_t)last;
-    sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
+    float *p = out->values + stride * (size_t)index, *end = p + stride * (size_t)(count - 1);
+    sdv_four t = sdv_all(x), step = sdv_all(h);
     if (lanes < 4 && (lanes < 3 || stride > 3))
         for (; p != end; p += stride, t = sdv_plus(t, step))
             sdv_store_some(p, sdv_curve_point(&c, t), lanes);
@@ -5919,6 +6006,19 @@ static inline void sdv_put_run(const sdv_window *out, int index, int count,
     else
         for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
     sdv_store_some(p, sdv_curve_point(&c, t), lanes);
+}
+
+static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curves *row,
+                               float x, float h)
+{
+    int first = index - out->first, skip = first < 0 ? -first : 0;
+    if (count > out->count - first) count = out->count - first;
+    if (skip >= count) return;
+    first += skip;
+    count -= skip;
+    x += (float)skip * h;
+    if (out->values) sdv_put_curve(out, first, count, &row->curve, x, h);
+    if (out->tangents) sdv_put_tangent_run(out, first, count, row, x, h);
 }
 
 // The first or last row of a patch.
@@ -5933,19 +6033,17 @@ static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const
     int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
     int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
     if (!(left | inside | right)) return;
-    sdv_curve curve;
+    sdv_curves made;
     float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
-    sdv_row_curve(&part->q, y, &curve);
-    if (left)
-        sdv_put_point(out, sdv_grid_index(grid, row, column),
-                      sdv_curve_point(&curve, sdv_all(part->x)));
+    sdv_make_row(out, part, y, &made);
+    if (left) sdv_put_row_point(out, sdv_grid_index(grid, row, column), &made, part->x);
     if (right)
-        sdv_put_point(out, sdv_grid_index(grid, row, column + step * count),
-                      sdv_curve_point(&curve, sdv_all(part->x + (float)part->columns * dx)));
+        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &made,
+                          part->x + (float)part->columns * dx);
     if (inside) {
         sdv_side line = sdv_grid_line(grid, row);
         int forward = line.step == step, i = forward ? 1 : count - 1;
-        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
+        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &made,
                     part->x + (float)i * dx, forward ? dx : -dx);
     }
 }
@@ -5975,15 +6073,14 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
         dx = turn = -h;
     }
     for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
-        sdv_curve curve;
-        sdv_row_curve(&part->q, y, &curve);
-        sdv_put_run(out, at, count, &curve, x, dx);
+        sdv_curves made;
+        sdv_make_row(out, part, y, &made);
+        sdv_put_run(out, at, count, &made, x, dx);
         if (left_side)
-            sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r),
-                          sdv_curve_point(&curve, sdv_all(start)));
+            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &made, start);
         if (right_side)
-            sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
-                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : end)));
+            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &made,
+                              triangle ? 1 - y : end);
         at += across;
         across -= triangle;
         count -= triangle;
@@ -6332,6 +6429,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
         for (int j = 0; j < parts.count; j++) {
             sdv_make_part(&parts, j, &part);
+            if (out->tangents) sdv_across_rows(&part.q, &part.rise);
             sdv_put_outer_row(out, &grid, &part, 0);
             sdv_put_inner_rows(out, &grid, &part);
             sdv_put_outer_row(out, &grid, &part, 1);
@@ -6459,21 +6557,16 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
-// A limit's points with their tangents and normals. Where a patch is, its polynomial has
-// derivatives, along the rows and across; elsewhere rows have weights for them.
+// What a limit's points have besides their place: tangents and normals. Where a patch is, its
+// polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
 
-typedef struct sdv_limit_window {       // a part of the result, as sdv_window
-    float *positions, *normals, *tangents;      // of point first, or NULL
+typedef struct sdv_tangents {           // a part of the result, as the sdv_window that it belongs to
+    float *normals, *tangents;          // or NULL
     size_t stride, tangent_stride;      // floats from point to point
-    int    first, end;
-} sdv_limit_window;
-
-static sdv_limit_window sdv_window_of_limit(const subdiv_limit *out, int first, int end)
-{
-    sdv_limit_window window = { out->positions, out->normals, out->tangents, 3, 6, first, end };
-    if (out->stride) window.stride = window.tangent_stride = (size_t)out->stride;
-    return window;
-}
+    int      count;                     // points that wait to be four:
+    int      at[4];                     // where in the part they stand,
+    sdv_four along[4], across[4];       // their tangents
+} sdv_tangents;
 
 // A vector made 1 long, or 0.
 static inline void sdv_make_unit(const double *n, float *unit)
@@ -6493,125 +6586,114 @@ static inline void sdv_unit_normal(const float *a, const float *b, float *normal
     sdv_make_unit(n, normal);
 }
 
-static inline void sdv_put_limit(const sdv_limit_window *out, int index, sdv_four p,
-                                 sdv_four along, sdv_four across)
+static inline sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
 {
-    float t[8];
-    if (index < out->first || index >= out->end) return;
-    size_t i = (size_t)(index - out->first);
-    if (out->positions) sdv_store_three(out->positions + out->stride * i, p);
-    sdv_store(t, along);
-    sdv_store(t + 4, across);
-    if (out->normals) sdv_unit_normal(t, t + 4, out->normals + out->stride * i);
-    if (!out->tangents) return;
-    sdv_store_three(out->tangents + out->tangent_stride * i, along);
-    sdv_store_three(out->tangents + out->tangent_stride * i + 3, across);
+    return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
-static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work, int face, int end,
-                               const sdv_limit_window *out)
+// The same for four vectors, channel by channel. Floats do unless products are too small or too
+// large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin loses digits.
+static inline void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
 {
-    const sdv_rows *copies = &surface->copies, *rows = &surface->limit.rows;
-    const int *row = copies->count ? copies->items + copies->starts[face] : NULL;
-    const int *last = copies->count ? copies->items + copies->starts[end] : NULL;
-    for (; row < last; row += 3)
-        sdv_put_limit(out, row[1], sdv_load(work + 4 * (size_t)row[2]), sdv_all(0), sdv_all(0));
-    row = rows->count ? rows->items + rows->starts[face] : NULL;
-    last = rows->count ? rows->items + rows->starts[end] : NULL;
-    for (; row < last; row += 2 + surface->limit.masks[row[0]].count) {
-        sdv_four p, t[2];
-        sdv_limit_sums(&surface->limit, row, work, &p, t);
-        sdv_put_limit(out, row[1], p, t[0], t[1]);
+    const float least = 1e-30f, least_sin2 = 1.0f / 64;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = sdv_minus(sdv_times(a[j], b[k]), sdv_times(a[k], b[j]));
     }
-}
-
-// The derivative of a polynomial across its rows, of what sdv_row_curve looks at. Both it and the
-// one along a row are cubics in x, at most.
-static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
-{
-    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
-    const int *powers = q->degree == 3 ? cubic : quartic;
-    d->degree = q->degree;
-    d->origin = sdv_all(0);
-    for (int i = 0; i <= q->degree; i++) {
-        for (int j = 0; j < powers[i]; j++)
-            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
-        d->c[i][powers[i]] = sdv_all(0);
+    sdv_four nn = sdv_dot(n, n), aabb = sdv_times(sdv_dot(a, a), sdv_dot(b, b));
+    sdv_four scale = sdv_over(sdv_all(1), sdv_sqrt(nn));
+    for (int i = 0; i < 3; i++) n[i] = sdv_times(n[i], scale);
+    if (sdv_less(sdv_all(least), aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn))
+        return;
+    float squares[2][4], vectors[3][3][4], lane[3][3];
+    const sdv_four *from[3] = { n, a, b };
+    sdv_store(squares[0], aabb);
+    sdv_store(squares[1], nn);
+    for (int i = 0; i < 9; i++) sdv_store(vectors[i / 3][i % 3], from[i / 3][i % 3]);
+    for (int k = 0; k < 4; k++) {
+        if (least < squares[0][k] && least_sin2 * squares[0][k] < squares[1][k]) continue;
+        for (int i = 0; i < 9; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
+        sdv_unit_normal(lane[1], lane[2], lane[0]);
+        for (int i = 0; i < 3; i++) vectors[0][i][k] = lane[0][i];
     }
+    for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// And of a row along itself.
-static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
+// Four points: their tangents, side by side; then their normals.
+static inline void sdv_four_normals(sdv_four *along, sdv_four *across, sdv_four *normal)
 {
-    d->degree = 3;
-    d->a[3] = sdv_all(0);
-    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
+    sdv_transpose(along);
+    sdv_transpose(across);
+    sdv_unit_normals(along, across, normal);
+    normal[3] = normal[2];
+    sdv_transpose(normal);
 }
 
-static inline void sdv_put_curve_limit(const sdv_limit_window *out, int index,
-                                       const sdv_curve *curve, const sdv_curve *along,
-                                       const sdv_curve *across, float x)
+// Writes the points that wait.
+static void sdv_flush_tangents(sdv_tangents *tangents)
 {
-    sdv_four at = sdv_all(x);
-    sdv_put_limit(out, index, sdv_curve_point(curve, at), sdv_horner3(along->a, at),
-                  sdv_horner3(across->a, at));
+    sdv_four normal[4];
+    for (int i = 0; i < tangents->count && tangents->tangents; i++) {
+        float *p = tangents->tangents + tangents->tangent_stride * (size_t)tangents->at[i];
+        sdv_store_three(p, tangents->along[i]);
+        sdv_store_three(p + 3, tangents->across[i]);
+    }
+    if (tangents->normals) sdv_four_normals(tangents->along, tangents->across, normal);
+    for (int i = 0; i < tangents->count && tangents->normals; i++)
+        sdv_store_three(tangents->normals + tangents->stride * (size_t)tangents->at[i], normal[i]);
+    tangents->count = 0;
 }
 
-// Row r of a patch: what the rows above write, with tangents.
-static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
-                              const sdv_part *part, const sdv_polynomial *rise, int r)
+static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across)
 {
-    const sdv_patch *patch = &part->patch;
-    int bottom = r == 0, top = r == part->rows, step = patch->step, owned = patch->owned;
-    int row = patch->row + step * r, column = patch->column;
-    int last = grid->triangle ? part->rows - r : part->columns;
-    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
-    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
-    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
-    float x = part->x, y = part->y + (float)r * part->dy;
-    sdv_side line = sdv_grid_line(grid, row);
-    sdv_curve curve, along, across;
-    sdv_row_curve(&part->q, y, &curve);
-    sdv_row_curve(rise, y, &across);
-    sdv_along_row(&curve, &along);
-    if (left)
-        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, x);
-    for (int i = 1; i < last && inside; i++)
-        sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
-                            &across, x + (float)i * part->dx);
-    if (right)
-        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column + step * last), &curve, &along,
-                            &across, x + (float)last * part->dx);
+    sdv_tangents *tangents = out->tangents;
+    int at = index - out->first, i = tangents->count;
+    if (at < 0 || at >= out->count) return;
+    tangents->at[i] = at;
+    tangents->along[i] = along;
+    tangents->across[i] = across;
+    tangents->count = i + 1;
+    if (i == 3) sdv_flush_tangents(tangents);
 }
 
-static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
-                              const float *work, int face, int end, const sdv_limit_window *out)
+// Those of a run of points, see sdv_put_run: four by four, and the others wait.
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curves *row,
+                                float x, float h)
 {
-    const sdv_order *order = &surface->order;
-    int h = -1, last = sdv_first_patch(order, patches, end);
-    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-    sdv_parts parts;
-    sdv_part part;
-    sdv_polynomial rise;
-    for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
-        const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
-        sdv_begin_parts(surface, patches, i, work, &parts, &part);
-        for (int j = 0; j < parts.count; j++) {
-            sdv_make_part(&parts, j, &part);
-            sdv_across_rows(&part.q, &rise);
-            for (int r = 0; r <= part.rows; r++)
-                sdv_put_limit_row(out, &grid, &part, &rise, r);
+    const sdv_tangents *tangents = out->tangents;
+    const size_t stride = tangents->stride;
+    const sdv_curve along = row->along, across = row->across;
+    sdv_four a[4], b[4], normal[4], t = sdv_all(x), step = sdv_all(h);
+    float *p = tangents->normals + stride * (size_t)at;
+    int i = 0;
+    for (; i + 4 <= count && !tangents->tangents; i += 4, p += 4 * stride) {
+        for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
+            a[k] = sdv_horner3(along.a, t);
+            b[k] = sdv_horner3(across.a, t);
         }
+        sdv_four_normals(a, b, normal);
+        for (int k = 0; k < 4; k++) sdv_store_three(p + stride * (size_t)k, normal[k]);
     }
+    for (; i < count; i++, t = sdv_plus(t, step))
+        sdv_put_tangents(out, out->first + at + i, sdv_horner3(along.a, t),
+                         sdv_horner3(across.a, t));
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
-                                 int end, const sdv_limit_window *out)
+                                 int end, const subdiv_limit *limit, int first, int count)
 {
-    for (int i = 0; i < surface->levels; i++)
-        sdv_limit_patches(surface, &surface->patches[i], work, face, end, out);
-    sdv_limit_rows_out(surface, work, face, end, out);
+    sdv_tangents tangents;
+    sdv_window out = { limit->positions, 3, 3, first, count, NULL };
+    memset(&tangents, 0, sizeof tangents);
+    tangents.normals = limit->normals;
+    tangents.tangents = limit->tangents;
+    tangents.stride = 3;
+    tangents.tangent_stride = 6;
+    if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
+                                                                        (size_t)limit->stride;
+    if (limit->normals || limit->tangents) out.tangents = &tangents;
+    sdv_make_faces(surface, work, face, end, &out);
+    sdv_flush_tangents(&tangents);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
@@ -6716,14 +6798,14 @@ static void sdv_face_job(void *context, int job)
     int face = e->first_face + sdv_share(faces, job, e->jobs);
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     if (e->limit) {
-        sdv_limit_window out = sdv_window_of_limit(e->limit, e->first_point, e->end_point);
-        sdv_make_limit_faces(surface, e->work, face, end, &out);
+        sdv_make_limit_faces(surface, e->work, face, end, e->limit, e->first_point,
+                             e->end_point - e->first_point);
         return;
     }
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
         sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point,
-                           e->end_point - e->first_point };
+                           e->end_point - e->first_point, NULL };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
@@ -8778,18 +8860,18 @@ static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_
 
 // One patch, whose control points have these values, writes into its points' records at this place.
 static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
-                           const float *values, size_t at, int tangents)
+                           const float *values, size_t at, int with_tangents)
 {
     float *out = makers->records + at;
-    if (makers->surface->rules.limit) {
-        sdv_limit_window window = { out, NULL, tangents ? out + 3 : NULL, makers->record,
-                                    makers->record, makers->first, makers->end };
-        sdv_limit_patches(makers->surface, patch, values, face, face + 1, &window);
-    } else {
-        sdv_window window = { out, makers->record, makers->lanes, makers->first,
-                              makers->end - makers->first };
-        sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
-    }
+    sdv_tangents tangents;
+    sdv_window window = { out, makers->record, makers->lanes, makers->first,
+                          makers->end - makers->first, NULL };
+    memset(&tangents, 0, sizeof tangents);
+    tangents.tangents = out + 3;
+    tangents.tangent_stride = makers->record;
+    if (with_tangents && makers->surface->rules.limit) window.tangents = &tangents;
+    sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
+    sdv_flush_tangents(&tangents);
 }
 
 // Each patch of a face: first its name, as a constant goes through unchanged.
