@@ -4177,8 +4177,8 @@ static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch,
 
 typedef struct sdv_net_matrix {             // of a kind
     int    points;                      // of the net
-    float *weights;                     // [blocks][points / 2 * 2][4] all but the first point's,
-} sdv_net_matrix;                           //                             and to make it even, 0
+    float *weights;                     // [blocks][parts][points / 2 * 2][4] all but the first
+} sdv_net_matrix;                       //              point's, and to make it even, 0
 
 typedef struct sdv_net {
     sdv_patch patch;                    // its place and what it writes
@@ -4189,6 +4189,7 @@ typedef struct sdv_net {
 
 typedef struct sdv_nets {               // of one level
     int         count, depth;           // depth: levels to go
+    int         parts;                  // 1, or in the limit 3: with two tangents
     sdv_net    *items;                  // [count] in the order of cage faces
     int        *points;                 // work points
     sdv_net_matrix *matrices;
@@ -4442,7 +4443,8 @@ static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_
         words = sdv_net_sharpness(size, valence, starts, i, words, &net);
     matrix->points = kind->points;
     matrix->weights = SDV_NEW(kinds->context, arena, float,
-                              4 * (size_t)nets->blocks * (size_t)(kind->points / 2 * 2));
+                              4 * (size_t)(nets->blocks * nets->parts) *
+                              (size_t)(kind->points / 2 * 2));
     if (!kinds->context->result) sdv_refine_net(kinds->context, &net, nets, matrix->weights);
 }
 
@@ -4541,7 +4543,7 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
                           const sdv_rules *rules, int levels, sdv_nets *nets)
 {
     int size = rules->loop ? 3 : 4, rough = 0;
-    if (rules->linear || rules->limit || rules->net) return;
+    if (rules->linear || rules->net) return;
     if (levels < SDV_LEAST_NET_DEPTH || levels > SDV_MOST_NET_DEPTH) return;
     for (int f = 0; f < level->face_count; f++) rough += level->rough[f];
     if (rough < SDV_NET_FACES) return;
@@ -4552,6 +4554,7 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
     kinds.level = level;
     kinds.rules = rules;
     kinds.levels = nets->depth = levels;
+    nets->parts = rules->limit ? 3 : 1;
     kinds.hashes = rough;
     kinds.heads = SDV_NEW(context, &scratch, int, rough);
     kinds.valence = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
@@ -5641,36 +5644,60 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     return context.result;
 }
 
-// The weights of a net's points in those that its face 0 makes on the last level: their values if
-// each has a channel of its own in which it is 1 and all others are 0.
+// The weights of a net's points in those that its face 0 makes, part by part: their values if each
+// has a channel of its own in which it is 1 and all others are 0. In the limit also those of their
+// tangents, which come three channels at a time.
+static void sdv_evaluate_net(sdv_context *context, const subdiv_surface *surface, int parts,
+                             float *out)
+{
+    sdv_arena scratch = sdv_scratch();
+    subdiv_options opt;
+    size_t points = (size_t)surface->cage_vertex_count, made = (size_t)surface->fine.vertex_count;
+    float *in = SDV_NEW(context, &scratch, float, points * (points + 3));
+    float *tangents = SDV_NEW(context, &scratch, float, parts > 1 ? 6 * made : 0);
+    subdiv_limit limit = { NULL, NULL, tangents, 0 };
+    memset(&opt, 0, sizeof opt);
+    opt.user = context->user;
+    opt.error = context->error;
+    for (size_t i = 0; i < points * points && !context->result; i++) in[i] = i % (points + 1) == 0;
+    if (!context->result)
+        context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
+    for (size_t c = 0; c < points && parts > 1 && !context->result; c += 3) {
+        float *three = in + points * points;
+        for (size_t i = 0; i < 3 * points; i++) three[i] = i / 3 == c + i % 3;
+        context->result = subdiv_evaluate_limit(surface, three, 0, &limit, NULL, &opt);
+        for (size_t i = 0; i < 6 * made; i++)
+            if (c + i % 3 < points)
+                out[((1 + i / 3 % 2) * made + i / 6) * points + c + i % 3] = tangents[i];
+    }
+    sdv_arena_free(&scratch);
+}
+
+// Makes the weights of a kind, from its net.
 static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const sdv_nets *nets,
                            float *weights)
 {
     sdv_arena scratch = sdv_scratch();
     subdiv_surface *surface = sdv_new_surface(context, nets->depth);
-    subdiv_options opt;
     sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
     sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
-    size_t points = (size_t)net->vertex_count;
-    memset(&opt, 0, sizeof opt);
-    opt.user = context->user;
-    opt.error = context->error;
+    size_t points = (size_t)net->vertex_count, parts = (size_t)nets->parts;
     if (surface) surface->rules.net = 1;
+    if (surface) surface->rules.limit = parts > 1;
     if (surface) sdv_prepare(context, surface, net, NULL, none, 0, NULL);
     size_t made = context->result ? 0 : (size_t)surface->fine.vertex_count;
-    float *in = SDV_NEW(context, &scratch, float, points * points);
-    float *out = SDV_NEW(context, &scratch, float, points * made);
-    for (size_t i = 0; i < points * points && !context->result; i++) in[i] = i % (points + 1) == 0;
-    if (!context->result)
-        context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
+    float *out = SDV_NEW(context, &scratch, float, points * made * parts);
+    if (!context->result) sdv_evaluate_net(context, surface, nets->parts, out);
     for (int i = 0; i < nets->blocks && !context->result; i++) {
         sdv_grid grid;
         sdv_grid_at(&surface->order, 0, &grid);
         int first = sdv_inside_index(&grid, 0, 0), index[4];
         sdv_spot_indices(&grid, &all, first, sdv_row_length(&grid, 0), nets->spots + 4 * i, index);
-        for (size_t j = 1; j <= points / 2 * 2; j++)
-            for (int k = 0; k < 4; k++)
-                *weights++ = j < points ? out[points * (size_t)index[k] + j] : 0;
+        for (size_t part = 0; part < parts; part++)
+            for (size_t j = 1; j <= points / 2 * 2; j++)
+                for (int k = 0; k < 4; k++)
+                    *weights++ = j < points ? out[points * (part * made + (size_t)index[k]) + j]
+                                            : 0;
     }
     subdiv_surface_free(surface);
     sdv_arena_free(&scratch);
@@ -6460,9 +6487,9 @@ static void sdv_load_net(const int *points, int count, const float *work, sdv_ne
     net->count = count / 2 * 2;
 }
 
-// Four points of the result, channel by channel: x[k][i] is channel k of point i.
+// Four sums, channel by channel: lane i of x[k] is channel k of sum i.
 static inline void sdv_net_sums(const sdv_net_values *net, const float *weights, int lanes,
-                                float (*x)[4])
+                                sdv_four *x)
 {
     sdv_four x0 = sdv_all(0), x1 = x0, x2 = x0, x3 = x0;
     const sdv_four (*d)[4] = net->d, (*end)[4] = net->d + net->count;
@@ -6474,20 +6501,22 @@ static inline void sdv_net_sums(const sdv_net_values *net, const float *weights,
         if (lanes == 4)
             x3 = sdv_plus(sdv_plus(x3, sdv_times(w, d[0][3])), sdv_times(w1, d[1][3]));
     }
-    sdv_store(x[0], sdv_plus(net->first[0], x0));
-    sdv_store(x[1], sdv_plus(net->first[1], x1));
-    sdv_store(x[2], sdv_plus(net->first[2], x2));
-    if (lanes == 4) sdv_store(x[3], sdv_plus(net->first[3], x3));
+    x[0] = x0;
+    x[1] = x1;
+    x[2] = x2;
+    x[3] = x3;
 }
 
-// Writes those of them that have an index in the window.
+// Writes those of four points that have an index in the window.
 static inline void sdv_put_four(const sdv_window *out, const sdv_net_values *net,
                                 const float *weights, const int *index)
 {
     float x[4][4];
+    sdv_four sums[4];
     int lanes = out->lanes;
-    if (lanes < 4) sdv_net_sums(net, weights, 3, x);
-    else sdv_net_sums(net, weights, 4, x);
+    if (lanes < 4) sdv_net_sums(net, weights, 3, sums);
+    else sdv_net_sums(net, weights, 4, sums);
+    for (int k = 0; k < 4; k++) sdv_store(x[k], sdv_plus(net->first[k], sums[k]));
     for (int i = 0; i < 4; i++) {
         int at = index[i] - out->first;
         if (index[i] < 0 || at < 0 || at >= out->count) continue;
@@ -6500,6 +6529,18 @@ static inline void sdv_put_four(const sdv_window *out, const sdv_net_values *net
         }
         for (int k = 1; k < lanes; k++) p[k] = x[k][i];
     }
+}
+
+static void sdv_put_four_tangents(const sdv_window *out, const sdv_net_values *net,
+                                  const float *weights, const int *index)
+{
+    sdv_four along[4], across[4];
+    sdv_net_sums(net, weights, 3, along);
+    sdv_net_sums(net, weights + 4 * net->count, 3, across);
+    sdv_transpose(along);
+    sdv_transpose(across);
+    for (int i = 0; i < 4; i++)
+        if (index[i] >= 0) sdv_put_tangents(out, index[i], along[i], across[i]);
 }
 
 // The first net of a cage face or one behind it.
@@ -6523,9 +6564,14 @@ static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_n
     int length = sdv_row_length(grid, patch->row);
     const sdv_spot *spot = sdv_net_spots(nets, net);
     const float *weights = nets->matrices[net->kind].weights;
-    for (int i = 0; i < nets->blocks; i++, weights += 4 * values->count, spot += 4)
-        if (sdv_spot_indices(grid, patch, first, length, spot, index))
-            sdv_put_four(out, values, weights, index);
+    for (int i = 0; i < nets->blocks; i++, spot += 4) {
+        if (sdv_spot_indices(grid, patch, first, length, spot, index)) {
+            if (out->values) sdv_put_four(out, values, weights, index);
+            if (out->tangents)
+                sdv_put_four_tangents(out, values, weights + 4 * values->count, index);
+        }
+        weights += 4 * nets->parts * values->count;
+    }
 }
 
 // The points that the nets of a level make for cage faces face to end - 1.
@@ -6661,22 +6707,21 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
                                 float x, float h)
 {
     const sdv_tangents *tangents = out->tangents;
-    const size_t stride = tangents->stride;
-    const sdv_curve along = row->along, across = row->across;
-    sdv_four a[4], b[4], normal[4], t = sdv_all(x), step = sdv_all(h);
-    float *p = tangents->normals + stride * (size_t)at;
+    sdv_four t = sdv_all(x), step = sdv_all(h);
     int i = 0;
-    for (; i + 4 <= count && !tangents->tangents; i += 4, p += 4 * stride) {
+    for (; i + 4 <= count && !tangents->tangents; i += 4) {
+        sdv_four a[4], b[4], normal[4];
         for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
-            a[k] = sdv_horner3(along.a, t);
-            b[k] = sdv_horner3(across.a, t);
+            a[k] = sdv_horner3(row->along.a, t);
+            b[k] = sdv_horner3(row->across.a, t);
         }
         sdv_four_normals(a, b, normal);
-        for (int k = 0; k < 4; k++) sdv_store_three(p + stride * (size_t)k, normal[k]);
+        float *p = tangents->normals + tangents->stride * (size_t)(at + i);
+        for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
     }
     for (; i < count; i++, t = sdv_plus(t, step))
-        sdv_put_tangents(out, out->first + at + i, sdv_horner3(along.a, t),
-                         sdv_horner3(across.a, t));
+        sdv_put_tangents(out, out->first + at + i, sdv_horner3(row->along.a, t),
+                         sdv_horner3(row->across.a, t));
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
@@ -9018,13 +9063,16 @@ static void sdv_add_net(sdv_stencil_maker *make, const float *record)
     const sdv_nets *nets = &make->surface->nets[-(int)record[0] - 1];
     const sdv_net *net = &nets->items[(size_t)record[1] * 65536 + (size_t)record[2]];
     const sdv_net_matrix *matrix = &nets->matrices[net->kind];
-    size_t spot = (size_t)record[3], row = spot / 4 * (size_t)(matrix->points / 2 * 2);
+    size_t spot = (size_t)record[3], size = (size_t)(matrix->points / 2 * 2);
     double weights[3 * SDV_NET_POINTS];
     for (int i = 0; i < 3 * matrix->points; i++) weights[i] = 0;
     weights[0] = 1;
-    for (int i = 1; i < matrix->points; i++) {
-        weights[3 * i] = (double)matrix->weights[4 * (row + (size_t)i - 1) + spot % 4];
-        weights[0] -= weights[3 * i];
+    for (int k = 0; k < nets->parts; k++) {
+        size_t row = (spot / 4 * (size_t)nets->parts + (size_t)k) * size;
+        for (int i = 1; i < matrix->points; i++) {
+            weights[3 * i + k] = (double)matrix->weights[4 * (row + (size_t)i - 1) + spot % 4];
+            weights[k] -= weights[3 * i + k];
+        }
     }
     sdv_add_rounded(make, nets->points + net->first, matrix->points, weights);
 }
