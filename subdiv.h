@@ -4098,9 +4098,10 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 //     |   |   |   |
 //     d---s---s---d
 
-// The points that a net makes stand in blocks of four, the last one of them repeated: the vertices,
-// side by side what is inside it, then what is within, row by row. All this is in the order of the
-// kind: the face may be turned against it.
+// The points that a net makes stand in blocks of four, the last one of them repeated: side by side
+// its first vertex and what is inside it, so that a side that another face writes takes no time;
+// then, row by row, those within. All this is in the order of the kind: the face may be turned
+// against it.
 typedef struct sdv_spot {
     short row, column;                  // from the face's vertex 0
     short owner;                        // its bit of sdv_patch's owned, or 0: within, where the
@@ -4137,13 +4138,12 @@ static void sdv_make_spots(int size, int n, int turn, int step, sdv_spot *first)
 {
     const int (*at)[2] = size == 3 ? sdv_corner_triangle : sdv_corner_quad;
     sdv_spots spots = { size, n, turn, step, first };
-    for (int bit = 4; bit >= 0; bit -= 4) {                     // vertices, then sides
-        for (int i = 0; i < size; i++) {
-            int own = (i + turn) % size, owner = 1 << (bit + (size == 3 && own == 2 ? 3 : own));
-            for (int t = bit ? 0 : 1; t < (bit ? 1 : n); t++)
-                sdv_add_spot(&spots, (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2,
-                             (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2, owner);
-        }
+    for (int i = 0; i < size; i++) {
+        int own = (i + turn) % size, side = size == 3 && own == 2 ? 3 : own;
+        for (int t = 0; t < n; t++)
+            sdv_add_spot(&spots, (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2,
+                         (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2,
+                         1 << (t ? side : 4 + side));
     }
     for (int y = 1; y < n; y++)
         for (int x = 1; x < (size == 3 ? n - y : n); x++) sdv_add_spot(&spots, x, y, 0);
@@ -4156,23 +4156,25 @@ static int sdv_row_length(const sdv_grid *grid, int row)
     return grid->size - 1 - (grid->triangle ? row : 0);
 }
 
-// The indices of a block of spots, -1 where the net does not write. Are there any?
-static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
-                                   int length, const sdv_spot *spot, int *index)
+// The indices of a block of spots, -1 where the net does not write.
+static inline void sdv_inner_indices(int first, int length, const sdv_spot *spot, int *index)
 {
-    int any = -1;
-    for (int i = 0; i < 4; i++, spot++) {
-        index[i] = first + spot->first + length * spot->row;
-        if (!spot->owner) {
-            any = 0;
-            continue;
-        }
-        index[i] = -1;
-        if (spot->owner & patch->owned)
-            index[i] = sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
-        any &= index[i];
-    }
-    return any >= 0;
+    for (int i = 0; i < 4; i++) index[i] = first + spot[i].first + length * spot[i].row;
+}
+
+static inline void sdv_outer_indices(const sdv_grid *grid, const sdv_patch *patch,
+                                     const sdv_spot *spot, int *index)
+{
+    for (int i = 0; i < 4; i++, spot++)
+        index[i] = !(spot->owner & patch->owned) ? -1 :
+            sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
+}
+
+static inline void sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
+                                    int length, const sdv_spot *spot, int *index)
+{
+    if (spot->owner) sdv_outer_indices(grid, patch, spot, index);
+    else sdv_inner_indices(first, length, spot, index);
 }
 
 typedef struct sdv_net_matrix {             // of a kind
@@ -5729,6 +5731,8 @@ typedef struct sdv_window {             // a part of the result, four channels o
 
 // See >>limit-surface.
 static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across);
+static void sdv_put_four_tangents(const struct sdv_tangents *tangents, const int *at,
+                                  sdv_four *along, sdv_four *across);
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
 {
@@ -6507,40 +6511,41 @@ static inline void sdv_net_sums(const sdv_net_values *net, const float *weights,
     x[3] = x3;
 }
 
-// Writes those of four points that have an index in the window.
-static inline void sdv_put_four(const sdv_window *out, const sdv_net_values *net,
-                                const float *weights, const int *index)
+// Writes those of four points that have a place, channel by channel as above.
+static inline void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
+                                const int *at)
 {
-    float x[4][4];
-    sdv_four sums[4];
-    int lanes = out->lanes;
-    if (lanes < 4) sdv_net_sums(net, weights, 3, sums);
-    else sdv_net_sums(net, weights, 4, sums);
-    for (int k = 0; k < 4; k++) sdv_store(x[k], sdv_plus(net->first[k], sums[k]));
-    for (int i = 0; i < 4; i++) {
-        int at = index[i] - out->first;
-        if (index[i] < 0 || at < 0 || at >= out->count) continue;
-        float *p = out->values + out->stride * (size_t)at;
-        p[0] = x[0][i];
-        if (lanes == 3) {
-            p[1] = x[1][i];
-            p[2] = x[2][i];
-            continue;
-        }
-        for (int k = 1; k < lanes; k++) p[k] = x[k][i];
-    }
+    sdv_transpose(x);
+    for (int i = 0; i < 4; i++)
+        if (at[i] >= 0) sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
 }
 
-static void sdv_put_four_tangents(const sdv_window *out, const sdv_net_values *net,
-                                  const float *weights, const int *index)
+static void sdv_put_block(const sdv_window *out, const sdv_net_values *net, const float *weights,
+                          const int *at)
 {
-    sdv_four along[4], across[4];
-    sdv_net_sums(net, weights, 3, along);
-    sdv_net_sums(net, weights + 4 * net->count, 3, across);
-    sdv_transpose(along);
-    sdv_transpose(across);
-    for (int i = 0; i < 4; i++)
-        if (index[i] >= 0) sdv_put_tangents(out, index[i], along[i], across[i]);
+    sdv_four x[4], across[4];
+    if (out->values) {
+        if (out->lanes < 4) sdv_net_sums(net, weights, 3, x);
+        else sdv_net_sums(net, weights, 4, x);
+        for (int k = 0; k < 4; k++) x[k] = sdv_plus(net->first[k], x[k]);
+        sdv_put_four(out->values, out->stride, out->lanes, x, at);
+    }
+    if (!out->tangents) return;
+    sdv_net_sums(net, weights + 4 * net->count, 3, x);
+    sdv_net_sums(net, weights + 8 * net->count, 3, across);
+    sdv_put_four_tangents(out->tangents, at, x, across);
+}
+
+// Indices become places in the window, or -1. Is there any?
+static inline int sdv_find_places(const sdv_window *out, int *index)
+{
+    int none = -1;
+    for (int i = 0; i < 4; i++) {
+        unsigned at = (unsigned)index[i] - (unsigned)out->first;
+        index[i] = at < (unsigned)out->count ? (int)at : -1;
+        none &= index[i];
+    }
+    return none >= 0;
 }
 
 // The first net of a cage face or one behind it.
@@ -6559,18 +6564,13 @@ static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_n
                         const sdv_net *net, const sdv_net_values *values)
 {
     const sdv_patch *patch = &net->patch;
-    int index[4];
-    int first = sdv_inside_index(grid, patch->row, patch->column);
-    int length = sdv_row_length(grid, patch->row);
-    const sdv_spot *spot = sdv_net_spots(nets, net);
+    int first = sdv_inside_index(grid, patch->row, patch->column), index[4];
+    int length = sdv_row_length(grid, patch->row), step = 4 * nets->parts * values->count;
+    const sdv_spot *spot = sdv_net_spots(nets, net), *end = spot + 4 * nets->blocks;
     const float *weights = nets->matrices[net->kind].weights;
-    for (int i = 0; i < nets->blocks; i++, spot += 4) {
-        if (sdv_spot_indices(grid, patch, first, length, spot, index)) {
-            if (out->values) sdv_put_four(out, values, weights, index);
-            if (out->tangents)
-                sdv_put_four_tangents(out, values, weights + 4 * values->count, index);
-        }
-        weights += 4 * nets->parts * values->count;
+    for (; spot < end; spot += 4, weights += step) {
+        sdv_spot_indices(grid, patch, first, length, spot, index);
+        if (sdv_find_places(out, index)) sdv_put_block(out, values, weights, index);
     }
 }
 
@@ -6665,28 +6665,28 @@ static inline void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_fo
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// Four points: their tangents, side by side; then their normals.
-static inline void sdv_four_normals(sdv_four *along, sdv_four *across, sdv_four *normal)
+// What is wanted of four points, channel by channel, at these places.
+static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at,
+                                  sdv_four *along, sdv_four *across)
 {
-    sdv_transpose(along);
-    sdv_transpose(across);
-    sdv_unit_normals(along, across, normal);
-    normal[3] = normal[2];
-    sdv_transpose(normal);
+    sdv_four normal[4];
+    if (tangents->normals) {
+        sdv_unit_normals(along, across, normal);
+        normal[3] = normal[2];
+        sdv_put_four(tangents->normals, tangents->stride, 3, normal, at);
+    }
+    if (!tangents->tangents) return;
+    sdv_put_four(tangents->tangents, tangents->tangent_stride, 3, along, at);
+    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at);
 }
 
 // Writes the points that wait.
 static void sdv_flush_tangents(sdv_tangents *tangents)
 {
-    sdv_four normal[4];
-    for (int i = 0; i < tangents->count && tangents->tangents; i++) {
-        float *p = tangents->tangents + tangents->tangent_stride * (size_t)tangents->at[i];
-        sdv_store_three(p, tangents->along[i]);
-        sdv_store_three(p + 3, tangents->across[i]);
-    }
-    if (tangents->normals) sdv_four_normals(tangents->along, tangents->across, normal);
-    for (int i = 0; i < tangents->count && tangents->normals; i++)
-        sdv_store_three(tangents->normals + tangents->stride * (size_t)tangents->at[i], normal[i]);
+    for (int i = tangents->count; i < 4; i++) tangents->at[i] = -1;
+    sdv_transpose(tangents->along);
+    sdv_transpose(tangents->across);
+    sdv_put_four_tangents(tangents, tangents->at, tangents->along, tangents->across);
     tangents->count = 0;
 }
 
@@ -6715,7 +6715,11 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
             a[k] = sdv_horner3(row->along.a, t);
             b[k] = sdv_horner3(row->across.a, t);
         }
-        sdv_four_normals(a, b, normal);
+        sdv_transpose(a);
+        sdv_transpose(b);
+        sdv_unit_normals(a, b, normal);
+        normal[3] = normal[2];
+        sdv_transpose(normal);
         float *p = tangents->normals + tangents->stride * (size_t)(at + i);
         for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
     }
