@@ -6374,6 +6374,51 @@ static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, 
     return (unsigned char)made;
 }
 
+// The limit curve of the control points p[0], p[step], ...: its point and derivative at t = i / 2.
+static inline void sdv_limit_curve(const sdv_four *p, int step, int i, sdv_four *point,
+                                   sdv_four *slope)
+{
+    if (i == 2) p += step;
+    sdv_four d0 = sdv_minus(p[step], p[0]), d1 = sdv_minus(p[2 * step], p[step]);
+    if (i == 1) {
+        sdv_four d2 = sdv_minus(p[3 * step], p[2 * step]);
+        sdv_four middle = sdv_plus(p[step], sdv_times(sdv_all(0.5f), d1));
+        *point = sdv_plus(middle, sdv_times(sdv_all(1.0f / 48), sdv_minus(d2, d0)));
+        *slope = sdv_plus(sdv_times(sdv_all(0.125f), sdv_plus(d0, d2)),
+                          sdv_times(sdv_all(0.75f), d1));
+    } else {
+        *point = sdv_plus(p[step], sdv_times(sdv_all(1.0f / 6), sdv_minus(d1, d0)));
+        *slope = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
+    }
+}
+
+// The same in the limit.
+static void sdv_put_limit_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                               const int *points, const float *work)
+{
+    static const unsigned char owners[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
+                                                { SDV_LEFT, 0, SDV_RIGHT },
+                                                { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
+    int owned = patch->owned;
+    sdv_four p[16], x[4], rise[4];
+    sdv_load_points(points, 16, work, p);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
+    for (int r = 0; r < 3; r++) {
+        if (r != 1 && !(owned & (owners[r][0] | owners[r][1] | owners[r][2]))) continue;
+        for (int i = 0; i < 4; i++) sdv_limit_curve(p + i, 4, r, &x[i], &rise[i]);
+        for (int c = 0; c < 3; c++) {
+            sdv_four point, along, across, mixed;
+            if (owners[r][c] && !(owned & owners[r][c])) continue;
+            int index = sdv_quad_index(grid, patch->row + r, patch->column + c);
+            sdv_limit_curve(x, 1, c, &point, &along);
+            sdv_put_point(out, index, point);
+            if (!out->tangents) continue;
+            sdv_limit_curve(rise, 1, c, &across, &mixed);
+            sdv_put_tangents(out, index, along, across);
+        }
+    }
+}
+
 // The parts of a patch, in the limit or, with h > 0, on the last level.
 typedef struct sdv_parts {
     const subdiv_surface *surface;
@@ -6445,7 +6490,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 {
     const sdv_order *order = &surface->order;
     int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
-    int nine = !order->loop && n == 2 && !surface->rules.limit;
+    int limit = surface->rules.limit, nine = !order->loop && n == 2 && !(limit && linear);
     int last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
     sdv_parts parts;
@@ -6454,7 +6499,9 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         const sdv_patch *patch = &patches->items[i];
         if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         if (nine && !patch->up) {
-            sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
+            const int *points = patches->points + 16 * (size_t)i;
+            if (limit) sdv_put_limit_nine(out, &grid, patch, points, work);
+            else sdv_put_nine(out, &grid, patch, points, linear, work);
             continue;
         }
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
