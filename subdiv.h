@@ -4156,25 +4156,25 @@ static int sdv_row_length(const sdv_grid *grid, int row)
     return grid->size - 1 - (grid->triangle ? row : 0);
 }
 
-// The indices of a block of spots, -1 where the net does not write.
-static inline void sdv_inner_indices(int first, int length, const sdv_spot *spot, int *index)
+// The indices of a block of spots, -1 where the net does not write. Are there any?
+static inline int sdv_outer_indices(const sdv_grid *grid, const sdv_patch *patch,
+                                    const sdv_spot *spot, int *index)
 {
-    for (int i = 0; i < 4; i++) index[i] = first + spot[i].first + length * spot[i].row;
-}
-
-static inline void sdv_outer_indices(const sdv_grid *grid, const sdv_patch *patch,
-                                     const sdv_spot *spot, int *index)
-{
-    for (int i = 0; i < 4; i++, spot++)
+    int any = -1;
+    for (int i = 0; i < 4; i++, spot++) {
         index[i] = !(spot->owner & patch->owned) ? -1 :
             sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
+        any &= index[i];
+    }
+    return any >= 0;
 }
 
-static inline void sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
-                                    int length, const sdv_spot *spot, int *index)
+static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
+                                   int length, const sdv_spot *spot, int *index)
 {
-    if (spot->owner) sdv_outer_indices(grid, patch, spot, index);
-    else sdv_inner_indices(first, length, spot, index);
+    if (spot->owner) return sdv_outer_indices(grid, patch, spot, index);
+    for (int i = 0; i < 4; i++) index[i] = first + spot[i].first + length * spot[i].row;
+    return 1;
 }
 
 typedef struct sdv_net_matrix {             // of a kind
@@ -5731,7 +5731,7 @@ typedef struct sdv_window {             // a part of the result, four channels o
 
 // See >>limit-surface.
 static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across);
-static void sdv_put_four_tangents(const struct sdv_tangents *tangents, const int *at,
+static void sdv_put_four_tangents(const struct sdv_tangents *tangents, const int *at, int count,
                                   sdv_four *along, sdv_four *across);
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
@@ -6558,13 +6558,15 @@ static inline void sdv_net_sums(const sdv_net_values *net, const float *weights,
     x[3] = x3;
 }
 
-// Writes those of four points that have a place, channel by channel as above.
+// Writes four points, channel by channel as above, to where they stand in the window: those that
+// are not in it have another place or, as an unsigned number, a larger one.
 static inline void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
-                                const int *at)
+                                const int *at, int count)
 {
     sdv_transpose(x);
     for (int i = 0; i < 4; i++)
-        if (at[i] >= 0) sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
+        if ((unsigned)at[i] < (unsigned)count)
+            sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
 }
 
 static void sdv_put_block(const sdv_window *out, const sdv_net_values *net, const float *weights,
@@ -6575,24 +6577,12 @@ static void sdv_put_block(const sdv_window *out, const sdv_net_values *net, cons
         if (out->lanes < 4) sdv_net_sums(net, weights, 3, x);
         else sdv_net_sums(net, weights, 4, x);
         for (int k = 0; k < 4; k++) x[k] = sdv_plus(net->first[k], x[k]);
-        sdv_put_four(out->values, out->stride, out->lanes, x, at);
+        sdv_put_four(out->values, out->stride, out->lanes, x, at, out->count);
     }
     if (!out->tangents) return;
     sdv_net_sums(net, weights + 4 * net->count, 3, x);
     sdv_net_sums(net, weights + 8 * net->count, 3, across);
-    sdv_put_four_tangents(out->tangents, at, x, across);
-}
-
-// Indices become places in the window, or -1. Is there any?
-static inline int sdv_find_places(const sdv_window *out, int *index)
-{
-    int none = -1;
-    for (int i = 0; i < 4; i++) {
-        unsigned at = (unsigned)index[i] - (unsigned)out->first;
-        index[i] = at < (unsigned)out->count ? (int)at : -1;
-        none &= index[i];
-    }
-    return none >= 0;
+    sdv_put_four_tangents(out->tangents, at, out->count, x, across);
 }
 
 // The first net of a cage face or one behind it.
@@ -6616,8 +6606,9 @@ static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_n
     const sdv_spot *spot = sdv_net_spots(nets, net), *end = spot + 4 * nets->blocks;
     const float *weights = nets->matrices[net->kind].weights;
     for (; spot < end; spot += 4, weights += step) {
-        sdv_spot_indices(grid, patch, first, length, spot, index);
-        if (sdv_find_places(out, index)) sdv_put_block(out, values, weights, index);
+        if (!sdv_spot_indices(grid, patch, first, length, spot, index)) continue;
+        for (int i = 0; i < 4; i++) index[i] -= out->first;
+        sdv_put_block(out, values, weights, index);
     }
 }
 
@@ -6712,19 +6703,19 @@ static inline void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_fo
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// What is wanted of four points, channel by channel, at these places.
-static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at,
+// What is wanted of four points, channel by channel, where they stand in the window.
+static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
                                   sdv_four *along, sdv_four *across)
 {
     sdv_four normal[4];
     if (tangents->normals) {
         sdv_unit_normals(along, across, normal);
         normal[3] = normal[2];
-        sdv_put_four(tangents->normals, tangents->stride, 3, normal, at);
+        sdv_put_four(tangents->normals, tangents->stride, 3, normal, at, count);
     }
     if (!tangents->tangents) return;
-    sdv_put_four(tangents->tangents, tangents->tangent_stride, 3, along, at);
-    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at);
+    sdv_put_four(tangents->tangents, tangents->tangent_stride, 3, along, at, count);
+    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at, count);
 }
 
 // Writes the points that wait.
@@ -6733,7 +6724,7 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     for (int i = tangents->count; i < 4; i++) tangents->at[i] = -1;
     sdv_transpose(tangents->along);
     sdv_transpose(tangents->across);
-    sdv_put_four_tangents(tangents, tangents->at, tangents->along, tangents->across);
+    sdv_put_four_tangents(tangents, tangents->at, INT_MAX, tangents->along, tangents->across);
     tangents->count = 0;
 }
 
