@@ -823,6 +823,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 // Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
 // bits are the same with and without, unless the compiler fuses multiplications and additions.
+// (32-bit ARM's NEON does not: it has no numbers below FLT_MIN.)
 #if defined(SUBDIV_NO_SIMD)
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
@@ -835,20 +836,19 @@ static sdv_four sdv_of(float a, float b, float c, float d) { return _mm_setr_ps(
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
+static sdv_four sdv_over(sdv_four a, sdv_four b)       { return _mm_div_ps(a, b); }
+static sdv_four sdv_sqrt(sdv_four a)                   { return _mm_sqrt_ps(a); }
+static int      sdv_less(sdv_four a, sdv_four b)
+{
+    return _mm_movemask_ps(_mm_cmplt_ps(a, b)) == 15;
+}
 static void     sdv_store_three(float *p, sdv_four a)
 {
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
-    __m128 low = _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab));
-    ab = _mm_unpackhi_ps(a, b);
-    cd = _mm_unpackhi_ps(c, d);
-    return _mm_add_ps(low, _mm_add_ps(_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab)));
-}
-#elif defined(__ARM_NEON) || defined(_M_ARM64)
+static void     sdv_transpose(sdv_four *a)             { _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]); }
+#elif defined(__aarch64__) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
 typedef float32x4_t sdv_four;
@@ -863,19 +863,21 @@ static sdv_four sdv_of(float a, float b, float c, float d)
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
+static sdv_four sdv_over(sdv_four a, sdv_four b)       { return vdivq_f32(a, b); }
+static sdv_four sdv_sqrt(sdv_four a)                   { return vsqrtq_f32(a); }
+static int      sdv_less(sdv_four a, sdv_four b)       { return vminvq_u32(vcltq_f32(a, b)) != 0; }
 static void     sdv_store_three(float *p, sdv_four a)
 {
     vst1_f32(p, vget_low_f32(a));
     vst1q_lane_f32(p + 2, a, 2);
 }
-static float32x2_t sdv_pairs(float32x4_t a)
+static void     sdv_transpose(sdv_four *a)
 {
-    return vpadd_f32(vget_low_f32(a), vget_high_f32(a));
-}
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    return vcombine_f32(vpadd_f32(sdv_pairs(a), sdv_pairs(b)),
-                        vpadd_f32(sdv_pairs(c), sdv_pairs(d)));
+    float32x4x2_t ab = vtrnq_f32(a[0], a[1]), cd = vtrnq_f32(a[2], a[3]);
+    for (int i = 0; i < 2; i++) {
+        a[i] = vcombine_f32(vget_low_f32(ab.val[i]), vget_low_f32(cd.val[i]));
+        a[2 + i] = vcombine_f32(vget_high_f32(ab.val[i]), vget_high_f32(cd.val[i]));
+    }
 }
 #elif defined(__wasm_simd128__)
 #include <wasm_simd128.h>
@@ -888,19 +890,28 @@ static sdv_four sdv_of(float a, float b, float c, float d) { return wasm_f32x4_m
 static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
 static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
 static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
+static sdv_four sdv_over(sdv_four a, sdv_four b)       { return wasm_f32x4_div(a, b); }
+static sdv_four sdv_sqrt(sdv_four a)                   { return wasm_f32x4_sqrt(a); }
+static int      sdv_less(sdv_four a, sdv_four b)
+{
+    return wasm_i32x4_all_true(wasm_f32x4_lt(a, b));
+}
 static void     sdv_store_three(float *p, sdv_four a)
 {
     wasm_v128_store64_lane(p, a, 0);
     wasm_v128_store32_lane(p + 2, a, 2);
 }
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+static void     sdv_transpose(sdv_four *a)
 {
-    v128_t even = wasm_f32x4_add(wasm_i32x4_shuffle(a, b, 0, 2, 4, 6),
-                                 wasm_i32x4_shuffle(a, b, 1, 3, 5, 7));
-    v128_t odd = wasm_f32x4_add(wasm_i32x4_shuffle(c, d, 0, 2, 4, 6),
-                                wasm_i32x4_shuffle(c, d, 1, 3, 5, 7));
-    return wasm_f32x4_add(wasm_i32x4_shuffle(even, odd, 0, 2, 4, 6),
-                          wasm_i32x4_shuffle(even, odd, 1, 3, 5, 7));
+    v128_t low[2], high[2];
+    for (int i = 0; i < 2; i++) {
+        low[i] = wasm_i32x4_shuffle(a[2 * i], a[2 * i + 1], 0, 4, 1, 5);
+        high[i] = wasm_i32x4_shuffle(a[2 * i], a[2 * i + 1], 2, 6, 3, 7);
+    }
+    a[0] = wasm_i64x2_shuffle(low[0], low[1], 0, 2);
+    a[1] = wasm_i64x2_shuffle(low[0], low[1], 1, 3);
+    a[2] = wasm_i64x2_shuffle(high[0], high[1], 0, 2);
+    a[3] = wasm_i64x2_shuffle(high[0], high[1], 1, 3);
 }
 #endif
 
@@ -953,15 +964,42 @@ static sdv_four sdv_times(sdv_four a, sdv_four b)
     return a;
 }
 
+static sdv_four sdv_over(sdv_four a, sdv_four b)
+{
+    for (int i = 0; i < 4; i++) a.x[i] /= b.x[i];
+    return a;
+}
+
+static sdv_four sdv_sqrt(sdv_four a)
+{
+    for (int i = 0; i < 4; i++) a.x[i] = sqrtf(a.x[i]);
+    return a;
+}
+
+// In all lanes?
+static int sdv_less(sdv_four a, sdv_four b)
+{
+    int less = 1;
+    for (int i = 0; i < 4; i++) less &= a.x[i] < b.x[i];
+    return less;
+}
+
+// Lane j of vector i becomes lane i of vector j.
+static void sdv_transpose(sdv_four *a)
+{
+    sdv_four from[4] = { a[0], a[1], a[2], a[3] };
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) a[j].x[i] = from[i].x[j];
+}
+#endif
+
 // Lane i: the sum of all lanes of vector number i, (0 + 1) + (2 + 3).
 static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
 {
     sdv_four four[4] = { a, b, c, d };
-    for (int i = 0; i < 4; i++)
-        a.x[i] = (four[i].x[0] + four[i].x[1]) + (four[i].x[2] + four[i].x[3]);
-    return a;
+    sdv_transpose(four);
+    return sdv_plus(sdv_plus(four[0], four[1]), sdv_plus(four[2], four[3]));
 }
-#endif
 
 static void sdv_prefetch(const float *p)
 {
@@ -4065,9 +4103,10 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 //     |   |   |   |
 //     d---s---s---d
 
-// The points that a net makes stand in blocks of four, the last one of them repeated: the vertices,
-// side by side what is inside it, then what is within, row by row. All this is in the order of the
-// kind: the face may be turned against it.
+// The points that a net makes stand in blocks of four, the last one of them repeated: side by side
+// its first vertex and what is inside it, so that a side that another face writes takes no time;
+// then, row by row, those within. All this is in the order of the kind: the face may be turned
+// against it.
 typedef struct sdv_spot {
     short row, column;                  // from the face's vertex 0
     short owner;                        // its bit of sdv_patch's owned, or 0: within, where the
@@ -4104,13 +4143,12 @@ static void sdv_make_spots(int size, int n, int turn, int step, sdv_spot *first)
 {
     const int (*at)[2] = size == 3 ? sdv_corner_triangle : sdv_corner_quad;
     sdv_spots spots = { size, n, turn, step, first };
-    for (int bit = 4; bit >= 0; bit -= 4) {                     // vertices, then sides
-        for (int i = 0; i < size; i++) {
-            int own = (i + turn) % size, owner = 1 << (bit + (size == 3 && own == 2 ? 3 : own));
-            for (int t = bit ? 0 : 1; t < (bit ? 1 : n); t++)
-                sdv_add_spot(&spots, (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2,
-                             (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2, owner);
-        }
+    for (int i = 0; i < size; i++) {
+        int own = (i + turn) % size, side = size == 3 && own == 2 ? 3 : own;
+        for (int t = 0; t < n; t++)
+            sdv_add_spot(&spots, (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2,
+                         (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2,
+                         1 << (t ? side : 4 + side));
     }
     for (int y = 1; y < n; y++)
         for (int x = 1; x < (size == 3 ? n - y : n); x++) sdv_add_spot(&spots, x, y, 0);
@@ -4124,28 +4162,30 @@ static int sdv_row_length(const sdv_grid *grid, int row)
 }
 
 // The indices of a block of spots, -1 where the net does not write. Are there any?
-static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
-                                   int length, const sdv_spot *spot, int *index)
+static inline int sdv_outer_indices(const sdv_grid *grid, const sdv_patch *patch,
+                                    const sdv_spot *spot, int *index)
 {
     int any = -1;
     for (int i = 0; i < 4; i++, spot++) {
-        index[i] = first + spot->first + length * spot->row;
-        if (!spot->owner) {
-            any = 0;
-            continue;
-        }
-        index[i] = -1;
-        if (spot->owner & patch->owned)
-            index[i] = sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
+        index[i] = !(spot->owner & patch->owned) ? -1 :
+            sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
         any &= index[i];
     }
     return any >= 0;
 }
 
+static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
+                                   int length, const sdv_spot *spot, int *index)
+{
+    if (spot->owner) return sdv_outer_indices(grid, patch, spot, index);
+    for (int i = 0; i < 4; i++) index[i] = first + spot[i].first + length * spot[i].row;
+    return 1;
+}
+
 typedef struct sdv_net_matrix {             // of a kind
     int    points;                      // of the net
-    float *weights;                     // [blocks][points / 2 * 2][4] all but the first point's,
-} sdv_net_matrix;                           //                             and to make it even, 0
+    float *weights;                     // [blocks][parts][points / 2 * 2][4] all but the first
+} sdv_net_matrix;                       //              point's, and to make it even, 0
 
 typedef struct sdv_net {
     sdv_patch patch;                    // its place and what it writes
@@ -4156,6 +4196,7 @@ typedef struct sdv_net {
 
 typedef struct sdv_nets {               // of one level
     int         count, depth;           // depth: levels to go
+    int         parts;                  // 1, or in the limit 3: with two tangents
     sdv_net    *items;                  // [count] in the order of cage faces
     int        *points;                 // work points
     sdv_net_matrix *matrices;
@@ -4409,7 +4450,8 @@ static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_
         words = sdv_net_sharpness(size, valence, starts, i, words, &net);
     matrix->points = kind->points;
     matrix->weights = SDV_NEW(kinds->context, arena, float,
-                              4 * (size_t)nets->blocks * (size_t)(kind->points / 2 * 2));
+                              4 * (size_t)(nets->blocks * nets->parts) *
+                              (size_t)(kind->points / 2 * 2));
     if (!kinds->context->result) sdv_refine_net(kinds->context, &net, nets, matrix->weights);
 }
 
@@ -4508,7 +4550,7 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
                           const sdv_rules *rules, int levels, sdv_nets *nets)
 {
     int size = rules->loop ? 3 : 4, rough = 0;
-    if (rules->linear || rules->limit || rules->net) return;
+    if (rules->linear || rules->net) return;
     if (levels < SDV_LEAST_NET_DEPTH || levels > SDV_MOST_NET_DEPTH) return;
     for (int f = 0; f < level->face_count; f++) rough += level->rough[f];
     if (rough < SDV_NET_FACES) return;
@@ -4519,6 +4561,7 @@ static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *lev
     kinds.level = level;
     kinds.rules = rules;
     kinds.levels = nets->depth = levels;
+    nets->parts = rules->limit ? 3 : 1;
     kinds.hashes = rough;
     kinds.heads = SDV_NEW(context, &scratch, int, rough);
     kinds.valence = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
@@ -5608,36 +5651,60 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     return context.result;
 }
 
-// The weights of a net's points in those that its face 0 makes on the last level: their values if
-// each has a channel of its own in which it is 1 and all others are 0.
+// The weights of a net's points in those that its face 0 makes, part by part: their values if each
+// has a channel of its own in which it is 1 and all others are 0. In the limit also those of their
+// tangents, which come three channels at a time.
+static void sdv_evaluate_net(sdv_context *context, const subdiv_surface *surface, int parts,
+                             float *out)
+{
+    sdv_arena scratch = sdv_scratch();
+    subdiv_options opt;
+    size_t points = (size_t)surface->cage_vertex_count, made = (size_t)surface->fine.vertex_count;
+    float *in = SDV_NEW(context, &scratch, float, points * (points + 3));
+    float *tangents = SDV_NEW(context, &scratch, float, parts > 1 ? 6 * made : 0);
+    subdiv_limit limit = { NULL, NULL, tangents, 0 };
+    memset(&opt, 0, sizeof opt);
+    opt.user = context->user;
+    opt.error = context->error;
+    for (size_t i = 0; i < points * points && !context->result; i++) in[i] = i % (points + 1) == 0;
+    if (!context->result)
+        context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
+    for (size_t c = 0; c < points && parts > 1 && !context->result; c += 3) {
+        float *three = in + points * points;
+        for (size_t i = 0; i < 3 * points; i++) three[i] = i / 3 == c + i % 3;
+        context->result = subdiv_evaluate_limit(surface, three, 0, &limit, NULL, &opt);
+        for (size_t i = 0; i < 6 * made; i++)
+            if (c + i % 3 < points)
+                out[((1 + i / 3 % 2) * made + i / 6) * points + c + i % 3] = tangents[i];
+    }
+    sdv_arena_free(&scratch);
+}
+
+// Makes the weights of a kind, from its net.
 static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const sdv_nets *nets,
                            float *weights)
 {
     sdv_arena scratch = sdv_scratch();
     subdiv_surface *surface = sdv_new_surface(context, nets->depth);
-    subdiv_options opt;
     sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
     sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
-    size_t points = (size_t)net->vertex_count;
-    memset(&opt, 0, sizeof opt);
-    opt.user = context->user;
-    opt.error = context->error;
+    size_t points = (size_t)net->vertex_count, parts = (size_t)nets->parts;
     if (surface) surface->rules.net = 1;
+    if (surface) surface->rules.limit = parts > 1;
     if (surface) sdv_prepare(context, surface, net, NULL, none, 0, NULL);
     size_t made = context->result ? 0 : (size_t)surface->fine.vertex_count;
-    float *in = SDV_NEW(context, &scratch, float, points * points);
-    float *out = SDV_NEW(context, &scratch, float, points * made);
-    for (size_t i = 0; i < points * points && !context->result; i++) in[i] = i % (points + 1) == 0;
-    if (!context->result)
-        context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
+    float *out = SDV_NEW(context, &scratch, float, points * made * parts);
+    if (!context->result) sdv_evaluate_net(context, surface, nets->parts, out);
     for (int i = 0; i < nets->blocks && !context->result; i++) {
         sdv_grid grid;
         sdv_grid_at(&surface->order, 0, &grid);
         int first = sdv_inside_index(&grid, 0, 0), index[4];
         sdv_spot_indices(&grid, &all, first, sdv_row_length(&grid, 0), nets->spots + 4 * i, index);
-        for (size_t j = 1; j <= points / 2 * 2; j++)
-            for (int k = 0; k < 4; k++)
-                *weights++ = j < points ? out[points * (size_t)index[k] + j] : 0;
+        for (size_t part = 0; part < parts; part++)
+            for (size_t j = 1; j <= points / 2 * 2; j++)
+                for (int k = 0; k < 4; k++)
+                    *weights++ = j < points ? out[points * (part * made + (size_t)index[k]) + j]
+                                            : 0;
     }
     subdiv_surface_free(surface);
     sdv_arena_free(&scratch);
@@ -5660,11 +5727,17 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 // and in any order, since each point is made once and from work points alone.
 
 typedef struct sdv_window {             // a part of the result, four channels of it or fewer
-    float *values;                      // of point first
+    float *values;                      // of point first; NULL: not wanted
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
     int    first, count;                // so many points are written
+    struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
 } sdv_window;
+
+// See >>limit-surface.
+static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across);
+static void sdv_put_four_tangents(const struct sdv_tangents *tangents, const int *at, int count,
+                                  sdv_four *along, sdv_four *across);
 
 static void sdv_store_some(float *p, sdv_four a, int lanes)
 {
@@ -5683,7 +5756,7 @@ static void sdv_store_some(float *p, sdv_four a, int lanes)
 static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
     int i = index - out->first;
-    if (i >= 0 && i < out->count)
+    if (i >= 0 && i < out->count && out->values)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
@@ -5773,6 +5846,7 @@ static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const
     while (row < last) {
         const sdv_weights *mask = &masks->items[row[0]];
         sdv_put_point(out, row[1], sdv_row_sum(masks, mask, row + 2, work));
+        if (out->tangents) sdv_put_tangents(out, row[1], sdv_all(0), sdv_all(0));
         row += 2 + mask->count;
     }
 }
@@ -5807,9 +5881,10 @@ static void sdv_apply_limit(const subdiv_surface *surface, const float *work, in
     const int *row = limit->rows.items + limit->rows.starts[face];
     const int *last = limit->rows.items + limit->rows.starts[end];
     for (; row < last; row += 2 + limit->masks[row[0]].count) {
-        sdv_four p;
-        sdv_limit_sums(limit, row, work, &p, NULL);
+        sdv_four p, t[2];
+        sdv_limit_sums(limit, row, work, &p, out->tangents ? t : NULL);
         sdv_put_point(out, row[1], p);
+        if (out->tangents) sdv_put_tangents(out, row[1], t[0], t[1]);
     }
 }
 
@@ -5868,7 +5943,7 @@ typedef struct sdv_polynomial {
 // A patch, or the part of it between the lines that cut it into strips.
 typedef struct sdv_part {
     sdv_patch      patch;               // its place on the grid, and what it writes
-    sdv_polynomial q;
+    sdv_polynomial q, rise;             // rise: of tangents, its derivative across the rows
     int   columns, rows;                // segments
     float x, y, dx, dy;                 // where in the polynomial it starts, and its segments
 } sdv_part;
@@ -5901,21 +5976,64 @@ static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
     return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
+// With its tangents, if they are wanted: cubics in x, at most.
+typedef struct sdv_curves {
+    sdv_curve curve, along, across;
+} sdv_curves;
+
+// The derivative of a polynomial across its rows, of what sdv_row_curve looks at.
+static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
+{
+    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
+    const int *powers = q->degree == 3 ? cubic : quartic;
+    d->degree = q->degree;
+    d->origin = sdv_all(0);
+    for (int i = 0; i <= q->degree; i++) {
+        for (int j = 0; j < powers[i]; j++)
+            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
+        d->c[i][powers[i]] = sdv_all(0);
+    }
+}
+
+// And of a row along itself.
+static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
+{
+    d->degree = 3;
+    d->a[3] = sdv_all(0);
+    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
+}
+
+static inline void sdv_make_row(const sdv_window *out, const sdv_part *part, float y, sdv_curves *row)
+{
+    sdv_row_curve(&part->q, y, &row->curve);
+    if (!out->tangents) return;
+    sdv_row_curve(&part->rise, y, &row->across);
+    sdv_along_row(&row->curve, &row->along);
+}
+
+static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curves *row, float x)
+{
+    sdv_four t = sdv_all(x);
+    sdv_put_point(out, index, sdv_curve_point(&row->curve, t));
+    if (out->tangents)
+        sdv_put_tangents(out, index, sdv_horner3(row->along.a, t), sdv_horner3(row->across.a, t));
+}
+
+// See >>limit-surface.
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curves *row,
+                                float x, float h);
+
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
 // between points, four lanes are stored of each but the last.
-static inline void sdv_put_run(const sdv_window *out, int index, int count,
-                               const sdv_curve *curve, float x, float h)
+static inline void sdv_put_curve(const sdv_window *out, int index, int count,
+                                 const sdv_curve *curve, float x, float h)
 {
-    int first = index - out->first, last = first + count - 1, skip = first < 0 ? -first : 0;
-    if (last >= out->count) last = out->count - 1;
-    if (first + skip > last) return;
     const sdv_curve c = *curve;
     int lanes = out->lanes;
     size_t stride = out->stride;
-    float *p = out->values + stride * (size_t)(first + skip);
-    float *end = out->values + stride * (size_t)last;
-    sdv_four t = sdv_all(x + (float)skip * h), step = sdv_all(h);
+    float *p = out->values + stride * (size_t)index, *end = p + stride * (size_t)(count - 1);
+    sdv_four t = sdv_all(x), step = sdv_all(h);
     if (lanes < 4 && (lanes < 3 || stride > 3))
         for (; p != end; p += stride, t = sdv_plus(t, step))
             sdv_store_some(p, sdv_curve_point(&c, t), lanes);
@@ -5924,6 +6042,19 @@ static inline void sdv_put_run(const sdv_window *out, int index, int count,
     else
         for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
     sdv_store_some(p, sdv_curve_point(&c, t), lanes);
+}
+
+static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curves *row,
+                               float x, float h)
+{
+    int first = index - out->first, skip = first < 0 ? -first : 0;
+    if (count > out->count - first) count = out->count - first;
+    if (skip >= count) return;
+    first += skip;
+    count -= skip;
+    x += (float)skip * h;
+    if (out->values) sdv_put_curve(out, first, count, &row->curve, x, h);
+    if (out->tangents) sdv_put_tangent_run(out, first, count, row, x, h);
 }
 
 // The first or last row of a patch.
@@ -5938,19 +6069,17 @@ static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const
     int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
     int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
     if (!(left | inside | right)) return;
-    sdv_curve curve;
+    sdv_curves made;
     float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
-    sdv_row_curve(&part->q, y, &curve);
-    if (left)
-        sdv_put_point(out, sdv_grid_index(grid, row, column),
-                      sdv_curve_point(&curve, sdv_all(part->x)));
+    sdv_make_row(out, part, y, &made);
+    if (left) sdv_put_row_point(out, sdv_grid_index(grid, row, column), &made, part->x);
     if (right)
-        sdv_put_point(out, sdv_grid_index(grid, row, column + step * count),
-                      sdv_curve_point(&curve, sdv_all(part->x + (float)part->columns * dx)));
+        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &made,
+                          part->x + (float)part->columns * dx);
     if (inside) {
         sdv_side line = sdv_grid_line(grid, row);
         int forward = line.step == step, i = forward ? 1 : count - 1;
-        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
+        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &made,
                     part->x + (float)i * dx, forward ? dx : -dx);
     }
 }
@@ -5980,15 +6109,14 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
         dx = turn = -h;
     }
     for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
-        sdv_curve curve;
-        sdv_row_curve(&part->q, y, &curve);
-        sdv_put_run(out, at, count, &curve, x, dx);
+        sdv_curves made;
+        sdv_make_row(out, part, y, &made);
+        sdv_put_run(out, at, count, &made, x, dx);
         if (left_side)
-            sdv_put_point(out, sdv_side_index(grid, 3, patch->row + r),
-                          sdv_curve_point(&curve, sdv_all(start)));
+            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &made, start);
         if (right_side)
-            sdv_put_point(out, sdv_side_index(grid, 1, patch->row + r),
-                          sdv_curve_point(&curve, sdv_all(triangle ? 1 - y : end)));
+            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &made,
+                              triangle ? 1 - y : end);
         at += across;
         across -= triangle;
         count -= triangle;
@@ -6251,6 +6379,51 @@ static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, 
     return (unsigned char)made;
 }
 
+// The limit curve of the control points p[0], p[step], ...: its point and derivative at t = i / 2.
+static inline void sdv_limit_curve(const sdv_four *p, int step, int i, sdv_four *point,
+                                   sdv_four *slope)
+{
+    if (i == 2) p += step;
+    sdv_four d0 = sdv_minus(p[step], p[0]), d1 = sdv_minus(p[2 * step], p[step]);
+    if (i == 1) {
+        sdv_four d2 = sdv_minus(p[3 * step], p[2 * step]);
+        sdv_four middle = sdv_plus(p[step], sdv_times(sdv_all(0.5f), d1));
+        *point = sdv_plus(middle, sdv_times(sdv_all(1.0f / 48), sdv_minus(d2, d0)));
+        *slope = sdv_plus(sdv_times(sdv_all(0.125f), sdv_plus(d0, d2)),
+                          sdv_times(sdv_all(0.75f), d1));
+    } else {
+        *point = sdv_plus(p[step], sdv_times(sdv_all(1.0f / 6), sdv_minus(d1, d0)));
+        *slope = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
+    }
+}
+
+// The same in the limit.
+static void sdv_put_limit_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
+                               const int *points, const float *work)
+{
+    static const unsigned char owners[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
+                                                { SDV_LEFT, 0, SDV_RIGHT },
+                                                { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
+    int owned = patch->owned;
+    sdv_four p[16], x[4], rise[4];
+    sdv_load_points(points, 16, work, p);
+    if (patch->sharp) sdv_mirror_quad(patch, p);
+    for (int r = 0; r < 3; r++) {
+        if (r != 1 && !(owned & (owners[r][0] | owners[r][1] | owners[r][2]))) continue;
+        for (int i = 0; i < 4; i++) sdv_limit_curve(p + i, 4, r, &x[i], &rise[i]);
+        for (int c = 0; c < 3; c++) {
+            sdv_four point, along, across, mixed;
+            if (owners[r][c] && !(owned & owners[r][c])) continue;
+            int index = sdv_quad_index(grid, patch->row + r, patch->column + c);
+            sdv_limit_curve(x, 1, c, &point, &along);
+            sdv_put_point(out, index, point);
+            if (!out->tangents) continue;
+            sdv_limit_curve(rise, 1, c, &across, &mixed);
+            sdv_put_tangents(out, index, along, across);
+        }
+    }
+}
+
 // The parts of a patch, in the limit or, with h > 0, on the last level.
 typedef struct sdv_parts {
     const subdiv_surface *surface;
@@ -6322,7 +6495,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 {
     const sdv_order *order = &surface->order;
     int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
-    int nine = !order->loop && n == 2 && !surface->rules.limit;
+    int limit = surface->rules.limit, nine = !order->loop && n == 2 && !(limit && linear);
     int last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
     sdv_parts parts;
@@ -6331,12 +6504,15 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         const sdv_patch *patch = &patches->items[i];
         if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         if (nine && !patch->up) {
-            sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
+            const int *points = patches->points + 16 * (size_t)i;
+            if (limit) sdv_put_limit_nine(out, &grid, patch, points, work);
+            else sdv_put_nine(out, &grid, patch, points, linear, work);
             continue;
         }
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
         for (int j = 0; j < parts.count; j++) {
             sdv_make_part(&parts, j, &part);
+            if (out->tangents) sdv_across_rows(&part.q, &part.rise);
             sdv_put_outer_row(out, &grid, &part, 0);
             sdv_put_inner_rows(out, &grid, &part);
             sdv_put_outer_row(out, &grid, &part, 1);
@@ -6367,9 +6543,9 @@ static void sdv_load_net(const int *points, int count, const float *work, sdv_ne
     net->count = count / 2 * 2;
 }
 
-// Four points of the result, channel by channel: x[k][i] is channel k of point i.
+// Four sums, channel by channel: lane i of x[k] is channel k of sum i.
 static inline void sdv_net_sums(const sdv_net_values *net, const float *weights, int lanes,
-                                float (*x)[4])
+                                sdv_four *x)
 {
     sdv_four x0 = sdv_all(0), x1 = x0, x2 = x0, x3 = x0;
     const sdv_four (*d)[4] = net->d, (*end)[4] = net->d + net->count;
@@ -6381,32 +6557,37 @@ static inline void sdv_net_sums(const sdv_net_values *net, const float *weights,
         if (lanes == 4)
             x3 = sdv_plus(sdv_plus(x3, sdv_times(w, d[0][3])), sdv_times(w1, d[1][3]));
     }
-    sdv_store(x[0], sdv_plus(net->first[0], x0));
-    sdv_store(x[1], sdv_plus(net->first[1], x1));
-    sdv_store(x[2], sdv_plus(net->first[2], x2));
-    if (lanes == 4) sdv_store(x[3], sdv_plus(net->first[3], x3));
+    x[0] = x0;
+    x[1] = x1;
+    x[2] = x2;
+    x[3] = x3;
 }
 
-// Writes those of them that have an index in the window.
-static inline void sdv_put_four(const sdv_window *out, const sdv_net_values *net,
-                                const float *weights, const int *index)
+// Writes four points, channel by channel as above, to where they stand in the window: those that
+// are not in it have another place or, as an unsigned number, a larger one.
+static inline void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
+                                const int *at, int count)
 {
-    float x[4][4];
-    int lanes = out->lanes;
-    if (lanes < 4) sdv_net_sums(net, weights, 3, x);
-    else sdv_net_sums(net, weights, 4, x);
-    for (int i = 0; i < 4; i++) {
-        int at = index[i] - out->first;
-        if (index[i] < 0 || at < 0 || at >= out->count) continue;
-        float *p = out->values + out->stride * (size_t)at;
-        p[0] = x[0][i];
-        if (lanes == 3) {
-            p[1] = x[1][i];
-            p[2] = x[2][i];
-            continue;
-        }
-        for (int k = 1; k < lanes; k++) p[k] = x[k][i];
+    sdv_transpose(x);
+    for (int i = 0; i < 4; i++)
+        if ((unsigned)at[i] < (unsigned)count)
+            sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
+}
+
+static void sdv_put_block(const sdv_window *out, const sdv_net_values *net, const float *weights,
+                          const int *at)
+{
+    sdv_four x[4], across[4];
+    if (out->values) {
+        if (out->lanes < 4) sdv_net_sums(net, weights, 3, x);
+        else sdv_net_sums(net, weights, 4, x);
+        for (int k = 0; k < 4; k++) x[k] = sdv_plus(net->first[k], x[k]);
+        sdv_put_four(out->values, out->stride, out->lanes, x, at, out->count);
     }
+    if (!out->tangents) return;
+    sdv_net_sums(net, weights + 4 * net->count, 3, x);
+    sdv_net_sums(net, weights + 8 * net->count, 3, across);
+    sdv_put_four_tangents(out->tangents, at, out->count, x, across);
 }
 
 // The first net of a cage face or one behind it.
@@ -6425,14 +6606,15 @@ static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_n
                         const sdv_net *net, const sdv_net_values *values)
 {
     const sdv_patch *patch = &net->patch;
-    int index[4];
-    int first = sdv_inside_index(grid, patch->row, patch->column);
-    int length = sdv_row_length(grid, patch->row);
-    const sdv_spot *spot = sdv_net_spots(nets, net);
+    int first = sdv_inside_index(grid, patch->row, patch->column), index[4];
+    int length = sdv_row_length(grid, patch->row), step = 4 * nets->parts * values->count;
+    const sdv_spot *spot = sdv_net_spots(nets, net), *end = spot + 4 * nets->blocks;
     const float *weights = nets->matrices[net->kind].weights;
-    for (int i = 0; i < nets->blocks; i++, weights += 4 * values->count, spot += 4)
-        if (sdv_spot_indices(grid, patch, first, length, spot, index))
-            sdv_put_four(out, values, weights, index);
+    for (; spot < end; spot += 4, weights += step) {
+        if (!sdv_spot_indices(grid, patch, first, length, spot, index)) continue;
+        for (int i = 0; i < 4; i++) index[i] -= out->first;
+        sdv_put_block(out, values, weights, index);
+    }
 }
 
 // The points that the nets of a level make for cage faces face to end - 1.
@@ -6464,21 +6646,16 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
-// A limit's points with their tangents and normals. Where a patch is, its polynomial has
-// derivatives, along the rows and across; elsewhere rows have weights for them.
+// What a limit's points have besides their place: tangents and normals. Where a patch is, its
+// polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
 
-typedef struct sdv_limit_window {       // a part of the result, as sdv_window
-    float *positions, *normals, *tangents;      // of point first, or NULL
+typedef struct sdv_tangents {           // a part of the result, as the sdv_window that it belongs to
+    float *normals, *tangents;          // or NULL
     size_t stride, tangent_stride;      // floats from point to point
-    int    first, end;
-} sdv_limit_window;
-
-static sdv_limit_window sdv_window_of_limit(const subdiv_limit *out, int first, int end)
-{
-    sdv_limit_window window = { out->positions, out->normals, out->tangents, 3, 6, first, end };
-    if (out->stride) window.stride = window.tangent_stride = (size_t)out->stride;
-    return window;
-}
+    int      count;                     // points that wait to be four:
+    int      at[4];                     // where in the part they stand,
+    sdv_four along[4], across[4];       // their tangents
+} sdv_tangents;
 
 // A vector made 1 long, or 0.
 static inline void sdv_make_unit(const double *n, float *unit)
@@ -6498,125 +6675,117 @@ static inline void sdv_unit_normal(const float *a, const float *b, float *normal
     sdv_make_unit(n, normal);
 }
 
-static inline void sdv_put_limit(const sdv_limit_window *out, int index, sdv_four p,
-                                 sdv_four along, sdv_four across)
+static inline sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
 {
-    float t[8];
-    if (index < out->first || index >= out->end) return;
-    size_t i = (size_t)(index - out->first);
-    if (out->positions) sdv_store_three(out->positions + out->stride * i, p);
-    sdv_store(t, along);
-    sdv_store(t + 4, across);
-    if (out->normals) sdv_unit_normal(t, t + 4, out->normals + out->stride * i);
-    if (!out->tangents) return;
-    sdv_store_three(out->tangents + out->tangent_stride * i, along);
-    sdv_store_three(out->tangents + out->tangent_stride * i + 3, across);
+    return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
-static void sdv_limit_rows_out(const subdiv_surface *surface, const float *work, int face, int end,
-                               const sdv_limit_window *out)
+// The same for four vectors, channel by channel. Floats do unless products are too small or too
+// large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin loses digits.
+static inline void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
 {
-    const sdv_rows *copies = &surface->copies, *rows = &surface->limit.rows;
-    const int *row = copies->count ? copies->items + copies->starts[face] : NULL;
-    const int *last = copies->count ? copies->items + copies->starts[end] : NULL;
-    for (; row < last; row += 3)
-        sdv_put_limit(out, row[1], sdv_load(work + 4 * (size_t)row[2]), sdv_all(0), sdv_all(0));
-    row = rows->count ? rows->items + rows->starts[face] : NULL;
-    last = rows->count ? rows->items + rows->starts[end] : NULL;
-    for (; row < last; row += 2 + surface->limit.masks[row[0]].count) {
-        sdv_four p, t[2];
-        sdv_limit_sums(&surface->limit, row, work, &p, t);
-        sdv_put_limit(out, row[1], p, t[0], t[1]);
+    const float least = 1e-30f, least_sin2 = 1.0f / 64;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = sdv_minus(sdv_times(a[j], b[k]), sdv_times(a[k], b[j]));
     }
-}
-
-// The derivative of a polynomial across its rows, of what sdv_row_curve looks at. Both it and the
-// one along a row are cubics in x, at most.
-static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
-{
-    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
-    const int *powers = q->degree == 3 ? cubic : quartic;
-    d->degree = q->degree;
-    d->origin = sdv_all(0);
-    for (int i = 0; i <= q->degree; i++) {
-        for (int j = 0; j < powers[i]; j++)
-            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
-        d->c[i][powers[i]] = sdv_all(0);
+    sdv_four nn = sdv_dot(n, n), aabb = sdv_times(sdv_dot(a, a), sdv_dot(b, b));
+    sdv_four scale = sdv_over(sdv_all(1), sdv_sqrt(nn));
+    for (int i = 0; i < 3; i++) n[i] = sdv_times(n[i], scale);
+    if (sdv_less(sdv_all(least), aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn))
+        return;
+    float squares[2][4], vectors[3][3][4], lane[3][3];
+    const sdv_four *from[3] = { n, a, b };
+    sdv_store(squares[0], aabb);
+    sdv_store(squares[1], nn);
+    for (int i = 0; i < 9; i++) sdv_store(vectors[i / 3][i % 3], from[i / 3][i % 3]);
+    for (int k = 0; k < 4; k++) {
+        if (least < squares[0][k] && least_sin2 * squares[0][k] < squares[1][k]) continue;
+        for (int i = 0; i < 9; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
+        sdv_unit_normal(lane[1], lane[2], lane[0]);
+        for (int i = 0; i < 3; i++) vectors[0][i][k] = lane[0][i];
     }
+    for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// And of a row along itself.
-static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
+// What is wanted of four points, channel by channel, where they stand in the window.
+static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
+                                  sdv_four *along, sdv_four *across)
 {
-    d->degree = 3;
-    d->a[3] = sdv_all(0);
-    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
+    sdv_four normal[4];
+    if (tangents->normals) {
+        sdv_unit_normals(along, across, normal);
+        normal[3] = normal[2];
+        sdv_put_four(tangents->normals, tangents->stride, 3, normal, at, count);
+    }
+    if (!tangents->tangents) return;
+    sdv_put_four(tangents->tangents, tangents->tangent_stride, 3, along, at, count);
+    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at, count);
 }
 
-static inline void sdv_put_curve_limit(const sdv_limit_window *out, int index,
-                                       const sdv_curve *curve, const sdv_curve *along,
-                                       const sdv_curve *across, float x)
+// Writes the points that wait.
+static void sdv_flush_tangents(sdv_tangents *tangents)
 {
-    sdv_four at = sdv_all(x);
-    sdv_put_limit(out, index, sdv_curve_point(curve, at), sdv_horner3(along->a, at),
-                  sdv_horner3(across->a, at));
+    for (int i = tangents->count; i < 4; i++) tangents->at[i] = -1;
+    sdv_transpose(tangents->along);
+    sdv_transpose(tangents->across);
+    sdv_put_four_tangents(tangents, tangents->at, INT_MAX, tangents->along, tangents->across);
+    tangents->count = 0;
 }
 
-// Row r of a patch: what the rows above write, with tangents.
-static void sdv_put_limit_row(const sdv_limit_window *out, const sdv_grid *grid,
-                              const sdv_part *part, const sdv_polynomial *rise, int r)
+static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across)
 {
-    const sdv_patch *patch = &part->patch;
-    int bottom = r == 0, top = r == part->rows, step = patch->step, owned = patch->owned;
-    int row = patch->row + step * r, column = patch->column;
-    int last = grid->triangle ? part->rows - r : part->columns;
-    int left = owned & (bottom ? SDV_BOTTOM_LEFT : top ? SDV_TOP_LEFT : SDV_LEFT);
-    int inside = bottom ? owned & SDV_BOTTOM : top ? owned & SDV_TOP : 1;
-    int right = owned & (bottom ? SDV_BOTTOM_RIGHT : top ? SDV_TOP_RIGHT : SDV_RIGHT);
-    float x = part->x, y = part->y + (float)r * part->dy;
-    sdv_side line = sdv_grid_line(grid, row);
-    sdv_curve curve, along, across;
-    sdv_row_curve(&part->q, y, &curve);
-    sdv_row_curve(rise, y, &across);
-    sdv_along_row(&curve, &along);
-    if (left)
-        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column), &curve, &along, &across, x);
-    for (int i = 1; i < last && inside; i++)
-        sdv_put_curve_limit(out, line.first + line.step * (column + step * i), &curve, &along,
-                            &across, x + (float)i * part->dx);
-    if (right)
-        sdv_put_curve_limit(out, sdv_grid_index(grid, row, column + step * last), &curve, &along,
-                            &across, x + (float)last * part->dx);
+    sdv_tangents *tangents = out->tangents;
+    int at = index - out->first, i = tangents->count;
+    if (at < 0 || at >= out->count) return;
+    tangents->at[i] = at;
+    tangents->along[i] = along;
+    tangents->across[i] = across;
+    tangents->count = i + 1;
+    if (i == 3) sdv_flush_tangents(tangents);
 }
 
-static void sdv_limit_patches(const subdiv_surface *surface, const sdv_patches *patches,
-                              const float *work, int face, int end, const sdv_limit_window *out)
+// Those of a run of points, see sdv_put_run: four by four, and the others wait.
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curves *row,
+                                float x, float h)
 {
-    const sdv_order *order = &surface->order;
-    int h = -1, last = sdv_first_patch(order, patches, end);
-    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
-    sdv_parts parts;
-    sdv_part part;
-    sdv_polynomial rise;
-    for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
-        const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
-        sdv_begin_parts(surface, patches, i, work, &parts, &part);
-        for (int j = 0; j < parts.count; j++) {
-            sdv_make_part(&parts, j, &part);
-            sdv_across_rows(&part.q, &rise);
-            for (int r = 0; r <= part.rows; r++)
-                sdv_put_limit_row(out, &grid, &part, &rise, r);
+    const sdv_tangents *tangents = out->tangents;
+    sdv_four t = sdv_all(x), step = sdv_all(h);
+    int i = 0;
+    for (; i + 4 <= count && !tangents->tangents; i += 4) {
+        sdv_four a[4], b[4], normal[4];
+        for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
+            a[k] = sdv_horner3(row->along.a, t);
+            b[k] = sdv_horner3(row->across.a, t);
         }
+        sdv_transpose(a);
+        sdv_transpose(b);
+        sdv_unit_normals(a, b, normal);
+        normal[3] = normal[2];
+        sdv_transpose(normal);
+        float *p = tangents->normals + tangents->stride * (size_t)(at + i);
+        for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
     }
+    for (; i < count; i++, t = sdv_plus(t, step))
+        sdv_put_tangents(out, out->first + at + i, sdv_horner3(row->along.a, t),
+                         sdv_horner3(row->across.a, t));
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
-                                 int end, const sdv_limit_window *out)
+                                 int end, const subdiv_limit *limit, int first, int count)
 {
-    for (int i = 0; i < surface->levels; i++)
-        sdv_limit_patches(surface, &surface->patches[i], work, face, end, out);
-    sdv_limit_rows_out(surface, work, face, end, out);
+    sdv_tangents tangents;
+    sdv_window out = { limit->positions, 3, 3, first, count, NULL };
+    memset(&tangents, 0, sizeof tangents);
+    tangents.normals = limit->normals;
+    tangents.tangents = limit->tangents;
+    tangents.stride = 3;
+    tangents.tangent_stride = 6;
+    if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
+                                                                        (size_t)limit->stride;
+    if (limit->normals || limit->tangents) out.tangents = &tangents;
+    sdv_make_faces(surface, work, face, end, &out);
+    sdv_flush_tangents(&tangents);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
@@ -6721,14 +6890,14 @@ static void sdv_face_job(void *context, int job)
     int face = e->first_face + sdv_share(faces, job, e->jobs);
     int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
     if (e->limit) {
-        sdv_limit_window out = sdv_window_of_limit(e->limit, e->first_point, e->end_point);
-        sdv_make_limit_faces(surface, e->work, face, end, &out);
+        sdv_make_limit_faces(surface, e->work, face, end, e->limit, e->first_point,
+                             e->end_point - e->first_point);
         return;
     }
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
         sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point,
-                           e->end_point - e->first_point };
+                           e->end_point - e->first_point, NULL };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
@@ -9095,18 +9264,18 @@ static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_
 
 // One patch, whose control points have these values, writes into its points' records at this place.
 static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
-                           const float *values, size_t at, int tangents)
+                           const float *values, size_t at, int with_tangents)
 {
     float *out = makers->records + at;
-    if (makers->surface->rules.limit) {
-        sdv_limit_window window = { out, NULL, tangents ? out + 3 : NULL, makers->record,
-                                    makers->record, makers->first, makers->end };
-        sdv_limit_patches(makers->surface, patch, values, face, face + 1, &window);
-    } else {
-        sdv_window window = { out, makers->record, makers->lanes, makers->first,
-                              makers->end - makers->first };
-        sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
-    }
+    sdv_tangents tangents;
+    sdv_window window = { out, makers->record, makers->lanes, makers->first,
+                          makers->end - makers->first, NULL };
+    memset(&tangents, 0, sizeof tangents);
+    tangents.tangents = out + 3;
+    tangents.tangent_stride = makers->record;
+    if (with_tangents && makers->surface->rules.limit) window.tangents = &tangents;
+    sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
+    sdv_flush_tangents(&tangents);
 }
 
 // Each patch of a face: first its name, as a constant goes through unchanged.
@@ -9253,13 +9422,16 @@ static void sdv_add_net(sdv_stencil_maker *make, const float *record)
     const sdv_nets *nets = &make->surface->nets[-(int)record[0] - 1];
     const sdv_net *net = &nets->items[(size_t)record[1] * 65536 + (size_t)record[2]];
     const sdv_net_matrix *matrix = &nets->matrices[net->kind];
-    size_t spot = (size_t)record[3], row = spot / 4 * (size_t)(matrix->points / 2 * 2);
+    size_t spot = (size_t)record[3], size = (size_t)(matrix->points / 2 * 2);
     double weights[3 * SDV_NET_POINTS];
     for (int i = 0; i < 3 * matrix->points; i++) weights[i] = 0;
     weights[0] = 1;
-    for (int i = 1; i < matrix->points; i++) {
-        weights[3 * i] = (double)matrix->weights[4 * (row + (size_t)i - 1) + spot % 4];
-        weights[0] -= weights[3 * i];
+    for (int k = 0; k < nets->parts; k++) {
+        size_t row = (spot / 4 * (size_t)nets->parts + (size_t)k) * size;
+        for (int i = 1; i < matrix->points; i++) {
+            weights[3 * i + k] = (double)matrix->weights[4 * (row + (size_t)i - 1) + spot % 4];
+            weights[k] -= weights[3 * i + k];
+        }
     }
     sdv_add_rounded(make, nets->points + net->first, matrix->points, weights);
 }
@@ -9873,6 +10045,7 @@ typedef struct sdv_cell {
 // Makes them. The polynomial is made for the first point that asks for it.
 typedef struct sdv_leaf_points {
     const sdv_samples *samples;
+    const sdv_window  *out;
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
     sdv_cell cell;
@@ -9881,9 +10054,9 @@ typedef struct sdv_leaf_points {
     const double    *work;
     double   base[4], shrink;
     sdv_nest_sample *vertex;            // or what is left of a nest
-    int      loaded, part, ready;
+    int      loaded, number, ready;     // number: of the part, if it is cut
     sdv_deep_patch   deep;
-    sdv_polynomial   q, rise;
+    sdv_part part;                      // its polynomial
 } sdv_leaf_points;
 
 static int64_t sdv_units(const sdv_cell *cell)
@@ -9936,24 +10109,25 @@ static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
 
 static void sdv_need_polynomial(sdv_leaf_points *l)
 {
+    sdv_polynomial *q = &l->part.q;
     float origin[4];
     if (l->ready) return;
     l->ready = 1;
     if (l->vertex) {
-        sdv_vertex_plane(l->vertex, &l->q);
+        sdv_vertex_plane(l->vertex, q);
     } else {
         if (!l->loaded)
             sdv_load_deep(l->samples->source->surface, l->patch, l->points, l->work, &l->deep);
         l->loaded = 1;
-        sdv_deep_polynomial(&l->deep, l->part, &l->q);
+        sdv_deep_polynomial(&l->deep, l->number, q);
         sdv_four shrink = sdv_all((float)l->shrink);
         for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * l->deep.origin[c]);
-        l->q.origin = sdv_load(origin);
-        for (int i = 0; i <= l->q.degree && l->shrink < 1; i++)
-            for (int j = 0; j + (l->q.degree == 4 ? i : 0) <= l->q.degree; j++)
-                l->q.c[i][j] = sdv_times(shrink, l->q.c[i][j]);
+        q->origin = sdv_load(origin);
+        for (int i = 0; i <= q->degree && l->shrink < 1; i++)
+            for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
+                q->c[i][j] = sdv_times(shrink, q->c[i][j]);
     }
-    if (l->samples->normals) sdv_across_rows(&l->q, &l->rise);
+    if (l->out->tangents) sdv_across_rows(q, &l->part.rise);
 }
 
 // Points k from first to last on a line of the grid, at (u + k du, v + k dv).
@@ -9966,25 +10140,15 @@ typedef struct sdv_line_points {
 // Those of a row: v is the same for all.
 static void sdv_put_tile_row(const sdv_leaf_points *l, const sdv_line_points *line)
 {
-    const sdv_samples *s = l->samples;
     const sdv_cell *cell = &l->cell;
-    sdv_window out = { s->points, (size_t)s->source->channels, s->source->channels, 0, s->count };
-    sdv_limit_window limit = { s->points, s->normals, NULL, 3, 6, 0, s->count };
     double scale = cell->step * cell->scale * line->du;
     double x = cell->step * (cell->scale * line->u - cell->x);
     int index = line->index;
-    sdv_curve curve, along, across;
-    float y = (float)(cell->step * (cell->scale * line->v - cell->y));
-    sdv_row_curve(&l->q, y, &curve);
-    if (s->normals) {
-        sdv_row_curve(&l->rise, y, &across);
-        sdv_along_row(&curve, &along);
-    }
-    for (int64_t k = line->first; k <= line->last; k++, index += line->step) {
-        float at = (float)(x + (double)k * scale);
-        if (s->normals) sdv_put_curve_limit(&limit, index, &curve, &along, &across, at);
-        else sdv_put_point(&out, index, sdv_curve_point(&curve, sdv_all(at)));
-    }
+    sdv_curves row;
+    memset(&row, 0, sizeof row);        // gcc cannot know that tangents are set where they are used
+    sdv_make_row(l->out, &l->part, (float)(cell->step * (cell->scale * line->v - cell->y)), &row);
+    for (int64_t k = line->first; k <= line->last; k++, index += line->step)
+        sdv_put_row_point(l->out, index, &row, (float)(x + (double)k * scale));
 }
 
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
@@ -10125,29 +10289,30 @@ static void sdv_put_cell(sdv_leaf_points *l)
 }
 
 // A leaf on the grid of face-vertex h. 0: the face has no surface.
-static int sdv_begin_leaf(const sdv_samples *s, int h, sdv_leaf_points *l)
+static int sdv_begin_leaf(const sdv_samples *s, const sdv_window *out, int h, sdv_leaf_points *l)
 {
     const sdv_tiling *tiling = s->tiling;
     int f = sdv_face_of(tiling->cage, h);
     if (tiling->hole[tiling->number ? tiling->number[f] : f] == SDV_DROPPED) return 0;
     l->samples = s;
+    l->out = out;
     l->tile = sdv_tile_at(tiling, f);
     l->corner = l->tile.ngon ? h - l->tile.first : 0;
     l->work = s->source->work;
     for (int c = 0; c < 4; c++) l->base[c] = 0;
     l->shrink = 1;
     l->vertex = NULL;
-    l->loaded = l->part = 0;
+    l->loaded = l->number = 0;
     return 1;
 }
 
-static void sdv_put_patch_points(const sdv_samples *s, sdv_patch_at at)
+static void sdv_put_patch_points(const sdv_samples *s, const sdv_window *out, sdv_patch_at at)
 {
     const subdiv_surface *surface = s->source->surface;
     const int *points;
     const sdv_patch *patch = sdv_patch_of(surface, at, &points);
     sdv_leaf_points l;
-    if (!sdv_begin_leaf(s, patch->h, &l)) return;
+    if (!sdv_begin_leaf(s, out, patch->h, &l)) return;
     sdv_cell cell = sdv_cell_at(at.level - l.tile.ngon, patch->column, patch->row, patch->step);
     l.cell = cell;
     l.patch = patch;
@@ -10158,9 +10323,9 @@ static void sdv_put_patch_points(const sdv_samples *s, sdv_patch_at at)
     }
     const sdv_strips *along = &surface->strips[patch->along - 1];
     const sdv_strips *up = &surface->strips[patch->up - 1];
-    for (; l.part < along->count * up->count; l.part++) {
-        l.cell = sdv_cell_of_strips(cell, &along->items[l.part % along->count],
-                                    &up->items[l.part / along->count]);
+    for (; l.number < along->count * up->count; l.number++) {
+        l.cell = sdv_cell_of_strips(cell, &along->items[l.number % along->count],
+                                    &up->items[l.number / along->count]);
         sdv_put_cell(&l);
     }
 }
@@ -10206,13 +10371,13 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 }
 
 // The points on patches of a nest's next level.
-static void sdv_put_nest_level(const sdv_samples *s, const sdv_nest_state *state,
-                               const sdv_nest_face *faces, int depth)
+static void sdv_put_nest_level(const sdv_samples *s, const sdv_window *out,
+                               const sdv_nest_state *state, const sdv_nest_face *faces, int depth)
 {
     sdv_leaf_points l;
     for (int i = 0; i < state->kind->faces; i++) {
         const sdv_nest_face *face = &faces[i];
-        if (!sdv_begin_leaf(s, face->place.h, &l)) continue;
+        if (!sdv_begin_leaf(s, out, face->place.h, &l)) continue;
         l.work = state->w;
         l.shrink = state->shrink;
         for (int c = 0; c < 4; c++) l.base[c] = state->base[c];
@@ -10225,7 +10390,7 @@ static void sdv_put_nest_level(const sdv_samples *s, const sdv_nest_state *state
     }
 }
 
-static void sdv_put_nest_points(const sdv_samples *s, int number, double *w)
+static void sdv_put_nest_points(const sdv_samples *s, const sdv_window *out, int number, double *w)
 {
     const subdiv_surface *surface = s->source->surface;
     const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
@@ -10240,12 +10405,12 @@ static void sdv_put_nest_points(const sdv_samples *s, int number, double *w)
     }
     for (int depth = 0; depth < most; depth++) {
         sdv_nest_refine(&vertex.state);
-        sdv_put_nest_level(s, &vertex.state, faces, depth);
+        sdv_put_nest_level(s, out, &vertex.state, faces, depth);
         sdv_nest_descend(&vertex.state);
     }
     for (int i = 0; i < count; i++) {
         sdv_leaf_points l;
-        if (!sdv_begin_leaf(s, faces[i].place.h, &l)) continue;
+        if (!sdv_begin_leaf(s, out, faces[i].place.h, &l)) continue;
         vertex.face = i;
         l.cell = sdv_nest_cell(&l.tile, &faces[i], most, 0);
         l.vertex = &vertex;
@@ -10264,16 +10429,23 @@ static void sdv_sample_job(void *context, int job)
     sdv_context here = { SUBDIV_OK, NULL, s->user, NULL };
     sdv_arena arena = sdv_new_arena(0);
     double small[4 * SDV_NEST_STACK], *large = NULL;
+    int lanes = s->source->channels;
+    sdv_tangents tangents;
+    sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, s->normals ? &tangents : NULL };
+    memset(&tangents, 0, sizeof tangents);
+    tangents.normals = s->normals;
+    tangents.stride = 3;
     sdv_patch_at at = sdv_find_patch(surface, i);
     for (; i < end && i < patches; i++, at.i++) {
         sdv_next_level(surface, &at);
-        sdv_put_patch_points(s, at);
+        sdv_put_patch_points(s, &out, at);
     }
     for (; i < end && !here.result; i++) {
         int few = sdv_nest_work(exact, i - patches) <= SDV_NEST_STACK;
         if (!few && !large) large = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
-        if (!here.result) sdv_put_nest_points(s, i - patches, few ? small : large);
+        if (!here.result) sdv_put_nest_points(s, &out, i - patches, few ? small : large);
     }
+    sdv_flush_tangents(&tangents);
     s->failed[job] = here.result != SUBDIV_OK;
     sdv_arena_free(&arena);
 }
