@@ -1597,6 +1597,8 @@ typedef struct sdv_level {
     unsigned char *creased;             // [vertex_count]       has a sharp edge
     int *partner;                       // [vertex_count]       fades as that vertex does; -1: by
                                         //                      itself; NULL: all do
+    float *seam;                        // [vertex_count]       of those with a partner: the largest
+                                        //                      sharpness of a semi-sharp seam there
     int *origin, origin_count;          // [vertex_count]       vertex of the cage, or -1; NULL:
     float *sums;                        // [2 * origin_count]   not needed (see >>face-varying)
 
@@ -2142,10 +2144,23 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
+// What is left, one level down, of the seam at a vertex with a partner.
+static float sdv_seam_left(const sdv_level *level, int v)
+{
+    float s = level->seam[v];
+    if (!level->half_sharpness) return sdv_fade(s);
+    const float *sums = level->sums + 2 * (size_t)level->origin[v];
+    return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
+}
+
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
     sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    if (level->partner && level->partner[v] >= 0) v = level->partner[v];
+    int dependent = level->partner && level->partner[v] >= 0, waits = 0;
+    if (dependent) {
+        waits = sdv_seam_left(level, v) > 0;        // fades where its partner has, at once [OSD]
+        v = level->partner[v];
+    }
     float sharpness = level->vertex_sharpness[v], left = sdv_fade(sharpness), sum = 0;
     int now = 0, next = 0, count = 0;
     if (!level->creased[v] && sharpness <= 0) return fading;
@@ -2168,7 +2183,7 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
     }
     float mean = count ? sum / (float)count : 0;
     fading.rule = sdv_vertex_rule(sharpness, now);
-    fading.next = sdv_vertex_rule(left, next);
+    fading.next = waits ? fading.rule : sdv_vertex_rule(left, next);
     fading.weight = mean < 1 ? mean : 1;
     return fading;
 }
@@ -3055,6 +3070,7 @@ static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv
                                const sdv_split *split, sdv_level *next)
 {
     if (level->partner) next->partner = SDV_NEW(context, arena, int, next->vertex_count);
+    if (level->partner) next->seam = SDV_NEW(context, arena, float, next->vertex_count);
     if (level->origin) next->origin = SDV_NEW(context, arena, int, next->vertex_count);
     if (context->result) return;
     next->origin_count = level->origin_count;
@@ -3067,8 +3083,9 @@ static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv
         int point = split->vertex[v];
         if (point < 0) continue;
         if (next->origin) next->origin[point] = level->origin[v];
-        if (next->partner && level->partner[v] >= 0)
-            next->partner[point] = split->vertex[level->partner[v]];
+        if (!next->partner || level->partner[v] < 0) continue;
+        next->partner[point] = split->vertex[level->partner[v]];
+        next->seam[point] = sdv_seam_left(level, v);
     }
 }
 
@@ -3454,7 +3471,8 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 // creases that go straight on, or end where a crease that stays runs across. All else is rough.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
-    int sharp = 0, stay = 0, last = 0, dependent = level->partner && level->partner[v] >= 0;
+    int sharp = 0, stay = 0, last = 0, semi = 0;
+    int dependent = level->partner && level->partner[v] >= 0;
     if (rules->linear) return SDV_FREE;
     if (dependent) v = level->partner[v];
     float s = level->vertex_sharpness[v];
@@ -3465,12 +3483,15 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
             float t = level->sharpness[two[i]];
             if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
             sharp++;
+            semi += t < SUBDIV_INFINITE;
             stay += sdv_stays(t, levels, rules);
             last += sdv_lasts(t, levels, rules);
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
-    if (stay < sharp && !dependent && levels != SDV_FOREVER) {
+    int others = level->origin && level->origin[v] >= 0 &&      // across a seam
+                 level->sums[2 * (size_t)level->origin[v] + 1] > (float)semi;
+    if (stay < sharp && !dependent && !others && levels != SDV_FOREVER) {
         int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
         if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
     }
@@ -3954,6 +3975,18 @@ static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_surroundings *arou
     return both && sdv_is_shared_corner(seams, around);
 }
 
+// The largest sharpness of the semi-sharp seams at a vertex of the cage.
+static float sdv_semi_sharp_seam(const sdv_seams *seams, int v)
+{
+    const sdv_level *cage = &seams->cage->level;
+    float largest = 0;
+    for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
+        float s = cage->sharpness[h];
+        if (seams->seam[cage->face_edges[h]] && s < SUBDIV_INFINITE && s > largest) largest = s;
+    }
+    return largest;
+}
+
 static void sdv_seam_sharpness(sdv_seams *seams)
 {
     const sdv_level *cage = &seams->cage->level;
@@ -3973,8 +4006,9 @@ static void sdv_seam_sharpness(sdv_seams *seams)
         int a = around.own[0], b = around.own[1];
         int of_a = sdv_inner_crease(level, a) < 0, of_b = sdv_inner_crease(level, b) < 0;
         int without = of_a ? b : a;
-        if (of_a != of_b && level->vertex_sharpness[without] <= 0)
-            level->partner[without] = of_a ? a : b;
+        if (of_a == of_b || level->vertex_sharpness[without] > 0) continue;
+        level->partner[without] = of_a ? a : b;
+        level->seam[without] = sdv_semi_sharp_seam(seams, v);
     }
 }
 
@@ -4032,6 +4066,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_seam_vertices(context, keep, scratch, seams);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->seam = SDV_NEW(context, scratch, float, level->vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;

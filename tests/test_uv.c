@@ -329,6 +329,82 @@ static void test_steps(void)
     for_cages(150, RANDOM_MANIFOLD | RANDOM_UVS, check_steps);
 }
 
+// ------------------------------------------------------------------------------- seams that fade
+
+typedef struct split_cage {
+    test_cage cage;
+    float uvs[36];
+    int   face_uvs[16];
+} split_cage;
+
+// Four quads with a seam from left to right; the edge between the upper two is semi-sharp.
+//
+//      6---7---8       values 9 more than the vertices
+//      |   s   |
+//      3===4===5       below: values as the vertices
+//      |   |   |
+//      0---1---2
+//
+static void build_split(split_cage *c, double sharpness, double seam)
+{
+    build_grid(&c->cage, SUBDIV_CATMULL_CLARK, 2, 2);
+    cage_crease(&c->cage, 4, 7, sharpness);
+    cage_crease(&c->cage, 3, 4, seam);
+    for (int i = 0; i < 18; i++) {
+        c->uvs[2 * i] = (float)(i % 3 + 0.1 * (i % 5));
+        c->uvs[2 * i + 1] = (float)(i / 3 + 0.1 * (i % 7));
+    }
+    for (int h = 0; h < 16; h++)
+        c->face_uvs[h] = c->cage.face_vertices[h] + (h < 8 ? 0 : 9);
+    c->cage.mesh.uv_count = 18;
+    c->cage.mesh.uvs = c->uvs;
+    c->cage.mesh.face_uvs = c->face_uvs;
+}
+
+// Half of the sharpness is gone: the value is a blend, half corner and half crease.
+static double half_faded(const subdiv_mesh *m, int value, int d)
+{
+    return 0.875 * (double)m->uvs[2 * value + d] +
+           0.0625 * ((double)m->uvs[2 * value - 2 + d] + (double)m->uvs[2 * value + 2 + d]);
+}
+
+// The upper value of vertex 4 is sharp by the crease, the lower one along with it by "plus 1". It
+// fades as the upper one does, but while the seam is semi-sharp it waits until that has.
+static void test_sharp_along(void)
+{
+    static const float seams[] = {0, 0.75f, 1, 1.25f, 5};
+    static split_cage c;
+    for (int rule = SUBDIV_UV_CORNERS_PLUS1; rule <= SUBDIV_UV_CORNERS_PLUS2; rule++) {
+        for (int i = 0; i < 5; i++) {
+            subdiv_mesh fine = {0}, finer = {0};
+            build_split(&c, 0.5, (double)seams[i]);
+            c.cage.mesh.uv_rule = (subdiv_uv_rule)rule;
+            if (!refine(&fine, &c.cage.mesh, 1) || !refine(&finer, &c.cage.mesh, 2)) return;
+            for (int d = 0; d < 2; d++) {
+                double moved = half_faded(&c.cage.mesh, 4, d), own = (double)c.uvs[8 + d];
+                double below = seams[i] > 1 ? own : moved;
+                CHECK_NEAR(fine.uvs[26 + d], half_faded(&c.cage.mesh, 13, d), 1e-6);
+                CHECK_NEAR(fine.uvs[8 + d], below, 1e-6);
+                double ends = ((double)c.uvs[6 + d] + (double)c.uvs[10 + d]) / 2 + own;
+                CHECK_NEAR(finer.uvs[8 + d], 0.75 * below + 0.125 * ends, 1e-6);
+            }
+            subdiv_mesh_free(&fine);
+            subdiv_mesh_free(&finer);
+        }
+    }
+}
+
+// Chaikin's averages reach across a seam, to and from a crease that ends there.
+static void test_chaikin_at_seams(void)
+{
+    static split_cage c;
+    for (int i = 1; i < 16; i++) {
+        build_split(&c, 0.25 * i, 2.5);
+        c.cage.mesh.creasing = SUBDIV_CREASING_CHAIKIN;
+        check_steps(&c.cage.mesh, 1);
+    }
+}
+
 // Without its holes a result has the other faces' UVs unchanged.
 static void check_holes(subdiv_mesh *m, unsigned seed)
 {
@@ -587,6 +663,8 @@ int main(void)
     RUN(test_islands);
     RUN(test_indices);
     RUN(test_steps);
+    RUN(test_sharp_along);
+    RUN(test_chaikin_at_seams);
     RUN(test_holes);
     RUN(test_channels);
     RUN(test_triangulate);
