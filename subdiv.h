@@ -2982,6 +2982,8 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
         for (int h = sdv_face_start(level, f); h < end; h++)
             split->active[level->face_vertices[h]] = 1;
     }
+    for (int v = 0; v < level->vertex_count && level->partner; v++)
+        if (split->active[v] && level->partner[v] >= 0) split->active[level->partner[v]] = 1;
 }
 
 // Numbers the face points, of the faces that have an active vertex, from first on.

@@ -394,6 +394,17 @@ static void test_sharp_along(void)
     }
 }
 
+// And as long as the crease stays, also where it makes the upper faces closed forms at once.
+static void test_sharp_along_patches(void)
+{
+    static split_cage c;
+    for (int i = 1; i < 24; i++) {
+        build_split(&c, 0.25 * i, i % 3);
+        c.cage.mesh.uv_rule = SUBDIV_UV_CORNERS_PLUS1;
+        check_steps(&c.cage.mesh, 1);
+    }
+}
+
 // Chaikin's averages reach across a seam, to and from a crease that ends there.
 static void test_chaikin_at_seams(void)
 {
@@ -664,6 +675,7 @@ int main(void)
     RUN(test_indices);
     RUN(test_steps);
     RUN(test_sharp_along);
+    RUN(test_sharp_along_patches);
     RUN(test_chaikin_at_seams);
     RUN(test_holes);
     RUN(test_channels);
