@@ -10301,16 +10301,26 @@ static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
     }
 }
 
-// Creases and corners as the user's lists have them, before the shape adds its own.
-static void sdv_count_sharp(subdiv_info *info, const sdv_level *level)
+// Creases and corners as the lists have them, whatever is sharp by shape. The last entry counts.
+static void sdv_count_sharp(sdv_context *context, sdv_arena *arena, subdiv_info *info,
+                            const sdv_level *level, const subdiv_mesh *mesh)
 {
+    int *edges = SDV_NEW(context, arena, int, mesh->crease_count);
+    float *crease = SDV_NEW(context, arena, float, level->edge_count);
+    float *corner = SDV_NEW(context, arena, float, level->vertex_count);
+    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
+    if (context->result) return;
+    for (int e = 0; e < level->edge_count; e++) crease[e] = 0;
+    for (int v = 0; v < level->vertex_count; v++) corner[v] = 0;
+    for (int i = 0; i < mesh->crease_count; i++)
+        if (edges[i] >= 0) crease[edges[i]] = mesh->crease_sharpness[i];
+    for (int i = 0; i < mesh->corner_count; i++)
+        corner[mesh->corner_vertices[i]] = mesh->corner_sharpness[i];
     for (int e = 0; e < level->edge_count; e++) {
-        float s = level->sharpness[level->edge_first[e]];
-        info->crease_count += sdv_survives(s);
-        info->infinite_crease_count += s == SUBDIV_INFINITE;
+        info->crease_count += crease[e] > 0;
+        info->infinite_crease_count += crease[e] >= SUBDIV_INFINITE;
     }
-    for (int v = 0; v < level->vertex_count; v++)
-        info->corner_count += sdv_survives(level->vertex_sharpness[v]);
+    for (int v = 0; v < level->vertex_count; v++) info->corner_count += corner[v] > 0;
 }
 
 static void sdv_count_topology(subdiv_info *info, const sdv_cage *cage, subdiv_scheme scheme)
@@ -10366,13 +10376,13 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
     sdv_cage_build(&context, &arena, &arena, &cage, &shape);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
+    if (!context.result) sdv_count_sharp(&context, &arena, info, &cage.level, mesh);
     if (!context.result) {
         info->vertex_count = mesh->vertex_count;
         info->edge_count = cage.level.edge_count;
         info->face_count = mesh->face_count;
         sdv_count_faces(info, mesh);
         sdv_count_topology(info, &cage, mesh->scheme);
-        sdv_count_sharp(info, &cage.level);
         sdv_count_components(info, &cage.level, parent);
     }
     sdv_arena_free(&arena);
