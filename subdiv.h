@@ -116,10 +116,9 @@
      is (r,c) (r,c+1) (r+1,c), a turned one (r+1,c+1) (r+1,c) (r,c+1). Faces that are holes are
      left out; their points stay.
 
-   WHAT IT DOES NOT DO (yet)
-   -------------------------
-   Never: GPU code, hierarchical edits, threads of its own, global state,
-   printing, exit().
+   WHAT IT DOES NOT DO
+   -------------------
+   GPU code, hierarchical edits, threads of its own, global state, printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    --------------------------------
@@ -128,7 +127,9 @@
    * Limit: theirs leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents at a
      crease or boundary are not the surface's unless there are 1 or 2 faces (Loop: 1 to 3) on the
      side, and are written out of bounds where a vertex has more faces than edges.
-   * The boundary default is edge, theirs is none. Indices are checked. Valence has no limit.
+   * UVs: where the values around a vertex go A B A B, theirs takes the second B for a third value.
+   * The boundary default is edge, theirs is none; of UVs it is corners only, theirs is all. Indices
+     are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
    -----------------------
