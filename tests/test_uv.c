@@ -329,6 +329,67 @@ static void test_steps(void)
     for_cages(150, RANDOM_MANIFOLD | RANDOM_UVS, check_steps);
 }
 
+// -------------------------------------------------------------------------------- rule by rule
+
+enum {
+    PLUS1 = 1 << SUBDIV_UV_CORNERS_PLUS1, PLUS2 = 1 << SUBDIV_UV_CORNERS_PLUS2,
+    STRAIGHT = 1 << SUBDIV_UV_BOUNDARIES | 1 << SUBDIV_UV_ALL,
+    BY_ALL = (1 << RULES) - 1, BY_ALL_BUT_NONE = BY_ALL - (1 << SUBDIV_UV_NONE)
+};
+
+// The values around vertex 4 of four quads: each either stays where it is, or moves along the curve
+// of the seam.
+static void test_rules(void)
+{
+    static const struct {
+        const char *name;
+        int groups[4];                      // of the faces: each has values of its own
+        int dart, crease;                   // a seam from vertex 3 to 4 alone; a crease 1-4
+        int value, ends[2], stays;          // stays: the rules by which it does
+    } cases[] = {
+        {"two and two", {0, 0, 1, 1}, 0, 0, 4, {3, 5}, STRAIGHT},
+        {"two, one, one", {0, 0, 1, 2}, 0, 0, 4, {3, 5}, PLUS1 | PLUS2 | STRAIGHT},
+        {"one of three", {0, 0, 1, 2}, 0, 0, 13, {12, 16}, BY_ALL_BUT_NONE},
+        {"one of one and three", {0, 1, 1, 1}, 0, 0, 4, {1, 3}, BY_ALL_BUT_NONE},
+        {"three of one and three", {0, 1, 1, 1}, 0, 0, 13, {10, 12}, PLUS2 | STRAIGHT},
+        {"with a crease", {0, 0, 1, 1}, 0, 1, 4, {3, 5}, BY_ALL},
+        {"beside a crease", {0, 0, 1, 1}, 0, 1, 13, {12, 14}, PLUS1 | PLUS2 | STRAIGHT},
+        {"dart", {0, 0, 0, 0}, 1, 0, 4, {3, 12}, PLUS2 | STRAIGHT},
+    };
+    static test_cage c;
+    float uvs[2 * 27];
+    int face_uvs[16];
+    for (int i = 0; i < 54; i++) uvs[i] = (float)((i * 37 + i * i * 11) % 101) / 101;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const int *ends = cases[i].ends;
+        build_grid(&c, SUBDIV_CATMULL_CLARK, 2, 2);
+        if (cases[i].crease) cage_crease(&c, 1, 4, SUBDIV_INFINITE);
+        for (int h = 0; h < 16; h++)
+            face_uvs[h] = c.face_vertices[h] + 9 * cases[i].groups[h / 4];
+        if (cases[i].dart) face_uvs[8] = 12;        // vertex 3 of face 2
+        c.mesh.uv_count = 27;
+        c.mesh.uvs = uvs;
+        c.mesh.face_uvs = face_uvs;
+        for (int rule = 0; rule < RULES; rule++) {
+            subdiv_mesh fine = {0};
+            char name[64];
+            sprintf(name, "%s, rule %d", cases[i].name, rule);
+            test_context = name;
+            c.mesh.uv_rule = (subdiv_uv_rule)rule;
+            if (!refine(&fine, &c.mesh, 1)) return;
+            for (int d = 0; d < 2; d++) {
+                double own = (double)uvs[2 * cases[i].value + d];
+                double both = (double)uvs[2 * ends[0] + d] + (double)uvs[2 * ends[1] + d];
+                double curve = 0.75 * own + 0.125 * both;
+                CHECK_NEAR(fine.uvs[2 * cases[i].value + d],
+                           cases[i].stays >> rule & 1 ? own : curve, 1e-6);
+            }
+            subdiv_mesh_free(&fine);
+        }
+    }
+    test_context = "";
+}
+
 // ------------------------------------------------------------------------------- seams that fade
 
 typedef struct split_cage {
@@ -674,6 +735,7 @@ int main(void)
     RUN(test_islands);
     RUN(test_indices);
     RUN(test_steps);
+    RUN(test_rules);
     RUN(test_sharp_along);
     RUN(test_sharp_along_patches);
     RUN(test_chaikin_at_seams);
