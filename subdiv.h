@@ -11067,8 +11067,8 @@ static char *sdv_write_exactly(char *p, float number)
     return sdv_write_decimal(p, digits, ten);
 }
 
-// A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
-// Returns where they end.
+// A blank and the same, mostly at once: with the blank at most 17 characters, and up to 8 more may
+// be spoiled. Returns where they end.
 //
 // All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
 // So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
