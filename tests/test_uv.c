@@ -278,6 +278,45 @@ static void test_indices(void)
     for_cages(150, RANDOM_ALL, check_indices);
 }
 
+// Vertices that share a value are as vertices with equal values of their own.
+static void check_shared(subdiv_mesh *m, unsigned seed)
+{
+    enum { SHARED = 4 };
+    int count = face_vertex_count(m), all = SHARED * m->vertex_count;
+    int *shared = array(count, sizeof(int)), *own = array(count, sizeof(int));
+    float *uvs = array(2 * all, sizeof(float));
+    subdiv_mesh a = *m, b = *m, fine[2] = {{0}, {0}};
+    for (int h = 0; h < count; h++) {
+        int v = m->face_vertices[h];
+        shared[h] = m->face_uvs[h] < 0 ? -1 : (v + m->face_uvs[h] + (int)seed) % SHARED;
+        own[h] = shared[h] < 0 ? -1 : shared[h] + SHARED * v;
+    }
+    for (int i = 0; i < 2 * all; i++) uvs[i] = (float)(i % (2 * SHARED) * 37 % 11);
+    a.face_uvs = shared;
+    b.face_uvs = own;
+    a.uvs = b.uvs = uvs;
+    a.uv_count = SHARED;
+    b.uv_count = all;
+    if (refine(&fine[0], &a, 2) && refine(&fine[1], &b, 2)) {
+        CHECK_EQUAL(fine[0].face_count, fine[1].face_count);
+        for (int h = 0; h < face_vertex_count(&fine[0]) && !test_bad; h++) {
+            CHECK_EQUAL(fine[0].face_uvs[h] < 0, fine[1].face_uvs[h] < 0);
+            for (int d = 0; d < 2 && fine[0].face_uvs[h] >= 0 && fine[1].face_uvs[h] >= 0; d++)
+                CHECK_NEAR(uv_at(&fine[0], h, d), uv_at(&fine[1], h, d), 1e-5);
+        }
+    }
+    subdiv_mesh_free(&fine[0]);
+    subdiv_mesh_free(&fine[1]);
+    free(shared);
+    free(own);
+    free(uvs);
+}
+
+static void test_shared_values(void)
+{
+    for_cages(100, RANDOM_ALL, check_shared);
+}
+
 // The face-vertex of a cage face's fine faces whose position is nearest.
 static int find_nearest(const subdiv_mesh *fine, int cage_face, const float *p)
 {
@@ -734,6 +773,7 @@ int main(void)
     RUN(test_like_positions);
     RUN(test_islands);
     RUN(test_indices);
+    RUN(test_shared_values);
     RUN(test_steps);
     RUN(test_rules);
     RUN(test_sharp_along);
