@@ -2159,7 +2159,7 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
     sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
     int dependent = level->partner && level->partner[v] >= 0, waits = 0;
     if (dependent) {
-        waits = sdv_seam_left(level, v) > 0;        // fades where its partner has, at once [OSD]
+        waits = sdv_seam_left(level, v) > 0;        // a level longer than its partner [OSD]
         v = level->partner[v];
     }
     float sharpness = level->vertex_sharpness[v], left = sdv_fade(sharpness), sum = 0;
@@ -4005,7 +4005,8 @@ static void sdv_seam_sharpness(sdv_seams *seams)
                 ? SDV_IMPLIED : cage->vertex_sharpness[v];
         }
         if (!plus || !around.seam || around.values != 2) continue;
-        // Two values at a seam are semi-sharp together, unless the vertex itself is sharp.
+        // Two values at a seam are semi-sharp together, unless the vertex itself is sharp. The one
+        // that is so by itself fades first if the seam is semi-sharp, too.
         int a = around.own[0], b = around.own[1];
         int of_a = sdv_inner_crease(level, a) < 0, of_b = sdv_inner_crease(level, b) < 0;
         int without = of_a ? b : a;
