@@ -118,10 +118,9 @@
      is (r,c) (r,c+1) (r+1,c), a turned one (r+1,c+1) (r+1,c) (r,c+1). Faces that are holes are
      left out; their points stay.
 
-   WHAT IT DOES NOT DO (yet)
-   -------------------------
-   Never: GPU code, hierarchical edits, threads of its own, global state,
-   printing, exit().
+   WHAT IT DOES NOT DO
+   -------------------
+   GPU code, hierarchical edits, threads of its own, global state, printing, exit().
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    --------------------------------
@@ -130,7 +129,9 @@
    * Limit: theirs leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents at a
      crease or boundary are not the surface's unless there are 1 or 2 faces (Loop: 1 to 3) on the
      side, and are written out of bounds where a vertex has more faces than edges.
-   * The boundary default is edge, theirs is none. Indices are checked. Valence has no limit.
+   * UVs: where the values around a vertex go A B A B, theirs takes the second B for a third value.
+   * The boundary default is edge, theirs is none; of UVs it is corners only, theirs is all. Indices
+     are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
    -----------------------
@@ -1637,6 +1638,8 @@ typedef struct sdv_level {
     unsigned char *creased;             // [vertex_count]       has a sharp edge
     int *partner;                       // [vertex_count]       fades as that vertex does; -1: by
                                         //                      itself; NULL: all do
+    float *seam;                        // [vertex_count]       of those with a partner: the largest
+                                        //                      sharpness of a semi-sharp seam there
     int *origin, origin_count;          // [vertex_count]       vertex of the cage, or -1; NULL:
     float *sums;                        // [2 * origin_count]   not needed (see >>face-varying)
 
@@ -2182,10 +2185,23 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
+// What is left, one level down, of the seam at a vertex with a partner.
+static float sdv_seam_left(const sdv_level *level, int v)
+{
+    float s = level->seam[v];
+    if (!level->half_sharpness) return sdv_fade(s);
+    const float *sums = level->sums + 2 * (size_t)level->origin[v];
+    return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
+}
+
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
     sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    if (level->partner && level->partner[v] >= 0) v = level->partner[v];
+    int dependent = level->partner && level->partner[v] >= 0, waits = 0;
+    if (dependent) {
+        waits = sdv_seam_left(level, v) > 0;        // a level longer than its partner [OSD]
+        v = level->partner[v];
+    }
     float sharpness = level->vertex_sharpness[v], left = sdv_fade(sharpness), sum = 0;
     int now = 0, next = 0, count = 0;
     if (!level->creased[v] && sharpness <= 0) return fading;
@@ -2208,7 +2224,7 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
     }
     float mean = count ? sum / (float)count : 0;
     fading.rule = sdv_vertex_rule(sharpness, now);
-    fading.next = sdv_vertex_rule(left, next);
+    fading.next = waits ? fading.rule : sdv_vertex_rule(left, next);
     fading.weight = mean < 1 ? mean : 1;
     return fading;
 }
@@ -3007,6 +3023,8 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
         for (int h = sdv_face_start(level, f); h < end; h++)
             split->active[level->face_vertices[h]] = 1;
     }
+    for (int v = 0; v < level->vertex_count && level->partner; v++)
+        if (split->active[v] && level->partner[v] >= 0) split->active[level->partner[v]] = 1;
 }
 
 // Numbers the face points, of the faces that have an active vertex, from first on.
@@ -3095,6 +3113,7 @@ static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv
                                const sdv_split *split, sdv_level *next)
 {
     if (level->partner) next->partner = SDV_NEW(context, arena, int, next->vertex_count);
+    if (level->partner) next->seam = SDV_NEW(context, arena, float, next->vertex_count);
     if (level->origin) next->origin = SDV_NEW(context, arena, int, next->vertex_count);
     if (context->result) return;
     next->origin_count = level->origin_count;
@@ -3107,8 +3126,9 @@ static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv
         int point = split->vertex[v];
         if (point < 0) continue;
         if (next->origin) next->origin[point] = level->origin[v];
-        if (next->partner && level->partner[v] >= 0)
-            next->partner[point] = split->vertex[level->partner[v]];
+        if (!next->partner || level->partner[v] < 0) continue;
+        next->partner[point] = split->vertex[level->partner[v]];
+        next->seam[point] = sdv_seam_left(level, v);
     }
 }
 
@@ -3496,7 +3516,8 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 // creases that go straight on, or end where a crease that stays runs across. All else is rough.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
 {
-    int sharp = 0, stay = 0, last = 0, dependent = level->partner && level->partner[v] >= 0;
+    int sharp = 0, stay = 0, last = 0, semi = 0;
+    int dependent = level->partner && level->partner[v] >= 0;
     if (rules->linear) return SDV_FREE;
     if (dependent) v = level->partner[v];
     float s = level->vertex_sharpness[v];
@@ -3507,12 +3528,15 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
             float t = level->sharpness[two[i]];
             if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
             sharp++;
+            semi += t < SUBDIV_INFINITE;
             stay += sdv_stays(t, levels, rules);
             last += sdv_lasts(t, levels, rules);
         }
     }
     if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
-    if (stay < sharp && !dependent) {
+    int others = level->origin && level->origin[v] >= 0 &&      // across a seam
+                 level->sums[2 * (size_t)level->origin[v] + 1] > (float)semi;
+    if (stay < sharp && !dependent && !others) {
         int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
         if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
     }
@@ -3997,6 +4021,18 @@ static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_surroundings *arou
     return both && sdv_is_shared_corner(seams, around);
 }
 
+// The largest sharpness of the semi-sharp seams at a vertex of the cage.
+static float sdv_semi_sharp_seam(const sdv_seams *seams, int v)
+{
+    const sdv_level *cage = &seams->cage->level;
+    float largest = 0;
+    for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
+        float s = cage->sharpness[h];
+        if (seams->seam[cage->face_edges[h]] && s < SUBDIV_INFINITE && s > largest) largest = s;
+    }
+    return largest;
+}
+
 static void sdv_seam_sharpness(sdv_seams *seams)
 {
     const sdv_level *cage = &seams->cage->level;
@@ -4012,12 +4048,14 @@ static void sdv_seam_sharpness(sdv_seams *seams)
                 ? SDV_IMPLIED : cage->vertex_sharpness[v];
         }
         if (!plus || !around.seam || around.values != 2) continue;
-        // Two values at a seam are semi-sharp together, unless the vertex itself is sharp.
+        // Two values at a seam are semi-sharp together, unless the vertex itself is sharp. The one
+        // that is so by itself fades first if the seam is semi-sharp, too.
         int a = around.own[0], b = around.own[1];
         int of_a = sdv_inner_crease(level, a) < 0, of_b = sdv_inner_crease(level, b) < 0;
         int without = of_a ? b : a;
-        if (of_a != of_b && level->vertex_sharpness[without] <= 0)
-            level->partner[without] = of_a ? a : b;
+        if (of_a == of_b || level->vertex_sharpness[without] > 0) continue;
+        level->partner[without] = of_a ? a : b;
+        level->seam[without] = sdv_semi_sharp_seam(seams, v);
     }
 }
 
@@ -4075,6 +4113,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_seam_vertices(context, keep, scratch, seams);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->seam = SDV_NEW(context, scratch, float, level->vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
@@ -11088,16 +11127,26 @@ static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
     }
 }
 
-// Creases and corners as the user's lists have them, before the shape adds its own.
-static void sdv_count_sharp(subdiv_info *info, const sdv_level *level)
+// Creases and corners as the lists have them, whatever is sharp by shape. The last entry counts.
+static void sdv_count_sharp(sdv_context *context, sdv_arena *arena, subdiv_info *info,
+                            const sdv_level *level, const subdiv_mesh *mesh)
 {
+    int *edges = SDV_NEW(context, arena, int, mesh->crease_count);
+    float *crease = SDV_NEW(context, arena, float, level->edge_count);
+    float *corner = SDV_NEW(context, arena, float, level->vertex_count);
+    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
+    if (context->result) return;
+    for (int e = 0; e < level->edge_count; e++) crease[e] = 0;
+    for (int v = 0; v < level->vertex_count; v++) corner[v] = 0;
+    for (int i = 0; i < mesh->crease_count; i++)
+        if (edges[i] >= 0) crease[edges[i]] = mesh->crease_sharpness[i];
+    for (int i = 0; i < mesh->corner_count; i++)
+        corner[mesh->corner_vertices[i]] = mesh->corner_sharpness[i];
     for (int e = 0; e < level->edge_count; e++) {
-        float s = level->sharpness[level->edge_first[e]];
-        info->crease_count += sdv_survives(s);
-        info->infinite_crease_count += s == SUBDIV_INFINITE;
+        info->crease_count += crease[e] > 0;
+        info->infinite_crease_count += crease[e] >= SUBDIV_INFINITE;
     }
-    for (int v = 0; v < level->vertex_count; v++)
-        info->corner_count += sdv_survives(level->vertex_sharpness[v]);
+    for (int v = 0; v < level->vertex_count; v++) info->corner_count += corner[v] > 0;
 }
 
 static void sdv_count_topology(subdiv_info *info, const sdv_cage *cage, subdiv_scheme scheme)
@@ -11153,13 +11202,13 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
     sdv_cage_build(&context, &arena, &arena, &cage, &shape);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
+    if (!context.result) sdv_count_sharp(&context, &arena, info, &cage.level, mesh);
     if (!context.result) {
         info->vertex_count = mesh->vertex_count;
         info->edge_count = cage.level.edge_count;
         info->face_count = mesh->face_count;
         sdv_count_faces(info, mesh);
         sdv_count_topology(info, &cage, mesh->scheme);
-        sdv_count_sharp(info, &cage.level);
         sdv_count_components(info, &cage.level, parent);
     }
     sdv_arena_free(&arena);
@@ -11843,8 +11892,8 @@ static char *sdv_write_exactly(char *p, float number)
     return sdv_write_decimal(p, digits, ten);
 }
 
-// A blank and the same, mostly at once: at most 16 characters, and up to 8 more may be spoiled.
-// Returns where they end.
+// A blank and the same, mostly at once: with the blank at most 17 characters, and up to 8 more may
+// be spoiled. Returns where they end.
 //
 // All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
 // So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the

@@ -89,5 +89,24 @@ if [ -f README.md ]; then
     if [ -s $out/readme.c ]; then refines readme; fi
 fi
 
+# README.md names every public function, some of them by their last words, and every option.
+step "README has every function" awk '
+    FNR == NR { text = text $0; next }
+    /End of the public API/ { exit }
+    /^SUBDIV_DEF/ && match($0, /subdiv_[a-z_]+\(/) {
+        name = substr($0, RSTART, RLENGTH - 1)
+        for (end = name; end != "" && !index(text, "`" end "`") && !index(text, "`" end "("); )
+            sub(/^_?[^_]*/, "", end)
+        if (end == "") { print name; missing = 1 }
+    }
+    END { exit missing }' README.md subdiv.h
+step "README has every option" awk '
+    FNR == NR { text = text $0; next }
+    match($0, /^    \{.*, "[a-z-]+"/) {
+        split($0, parts, "\"")
+        if (!index(text, "--" parts[2])) { print parts[2]; missing = 1 }
+    }
+    END { exit missing }' README.md examples/subdiv_cli.c
+
 printf '%-24s %4d passed, %d failed\n' docs $passed $failed
 [ $failed = 0 ]

@@ -1,7 +1,7 @@
-// What subdiv_check finds: every finding against plain loops over all faces, and the words.
+// What subdiv_check finds: every finding against plain loops over all faces, and the words. And
+// the counts of subdiv_inspect.
 //
 //     cc -I. tests/test_check.c -o build/test_check -lm && build/test_check
-
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
@@ -385,6 +385,128 @@ static void test_nothing_odd(void)
     for (int k = 0; k < SUBDIV_ODDITY_COUNT; k++) CHECK_EQUAL(found[k], 0);
 }
 
+// ------------------------------------------------------------------------------------- the counts
+
+// Fans of faces, edges and sharp edges at a vertex, and what there is among the edges.
+typedef struct around {
+    int faces, edges, boundary, nonmanifold, fans;
+} around;
+
+static around look_around(const subdiv_mesh *m, int v)
+{
+    around a = {0, 0, 0, 0, 0};
+    int sides[128][2], fan[128];
+    for (int f = 0; f < m->face_count; f++) {
+        for (int i = 0; i < face_size(m, f); i++) {
+            if (at(m, f, i) != v || a.faces == 128) continue;
+            sides[a.faces][0] = at(m, f, i - 1);
+            sides[a.faces][1] = at(m, f, i + 1);
+            fan[a.faces] = a.faces;
+            a.faces++;
+        }
+    }
+    for (int w = 0; w < m->vertex_count; w++) {
+        uses u = uses_of(m, v, w);
+        if (u.count == 0) continue;
+        a.edges++;
+        a.boundary += u.count == 1;
+        a.nonmanifold += !is_manifold_edge(&u, v, w);
+    }
+    for (int round = 0; round < a.faces; round++)
+        for (int i = 0; i < a.faces; i++)
+            for (int j = 0; j < a.faces; j++)
+                if ((sides[i][0] == sides[j][1] || sides[i][1] == sides[j][0]) && fan[j] < fan[i])
+                    fan[i] = fan[j];
+    for (int i = 0; i < a.faces; i++) a.fans += fan[i] == i;
+    return a;
+}
+
+static int count_components(const subdiv_mesh *m)
+{
+    int *piece = int_array(m->vertex_count, -1), count = 0;
+    for (int f = 0; f < m->face_count; f++) {
+        if (piece[at(m, f, 0)] >= 0) continue;
+        piece[at(m, f, 0)] = count++;
+        for (int grown = 1; grown;) {
+            grown = 0;
+            for (int g = 0; g < m->face_count; g++) {
+                int known = -1;
+                for (int i = 0; i < face_size(m, g); i++)
+                    if (piece[at(m, g, i)] >= 0) known = piece[at(m, g, i)];
+                for (int i = 0; i < face_size(m, g) && known >= 0; i++) {
+                    grown |= piece[at(m, g, i)] < 0;
+                    piece[at(m, g, i)] = known;
+                }
+            }
+        }
+    }
+    free(piece);
+    return count;
+}
+
+static void expect_info(const subdiv_mesh *m, subdiv_info *info)
+{
+    edge_list edges = edges_make(m);
+    memset(info, 0, sizeof *info);
+    info->vertex_count = m->vertex_count;
+    info->edge_count = edges.count;
+    info->face_count = m->face_count;
+    info->component_count = count_components(m);
+    for (int f = 0; f < m->face_count; f++) {
+        int size = face_size(m, f);
+        info->triangle_count += size == 3;
+        info->quad_count += size == 4;
+        info->ngon_count += size > 4;
+        if (size > info->max_face_size) info->max_face_size = size;
+        info->hole_count += is_hole(m, f);
+    }
+    for (int e = 0; e < edges.count; e++) {
+        int a = edges.ends[2 * e], b = edges.ends[2 * e + 1];
+        uses u = uses_of(m, a, b);
+        int manifold = is_manifold_edge(&u, a, b);
+        float s = crease_sharpness(m, a, b);
+        info->boundary_edge_count += u.count == 1;
+        info->nonmanifold_edge_count += !manifold;
+        info->crease_count += s > 0;
+        info->infinite_crease_count += s >= SUBDIV_INFINITE;
+    }
+    for (int v = 0; v < m->vertex_count; v++) {
+        around a = look_around(m, v);
+        int odd = a.nonmanifold || a.fans > 1, regular = m->scheme == SUBDIV_LOOP ? 6 : 4;
+        info->isolated_vertex_count += a.faces == 0;
+        info->nonmanifold_vertex_count += odd;
+        info->extraordinary_vertex_count += a.faces && !odd && !a.boundary && a.edges != regular;
+        info->corner_count += corner_sharpness(m, v) > 0;
+        if (a.edges > info->max_valence) info->max_valence = a.edges;
+    }
+    edges_free(&edges);
+}
+
+// The counts of random cages against plain loops; every other one gets a vertex without faces, and
+// a crease that is no edge.
+static void test_counts(void)
+{
+    for (unsigned seed = 0; seed < 300; seed++) {
+        char name[32];
+        snprintf(name, sizeof name, "seed %u", seed);
+        test_context = name;
+        random_cage *c = random_cage_new(seed, RANDOM_ALL & ~RANDOM_DEGENERATE);
+        if (!c) return;
+        subdiv_mesh *m = &c->mesh;
+        if (seed % 2 && m->vertex_count < RANDOM_MAX_VERTICES) {
+            m->vertex_count++;
+            if (m->crease_count) m->crease_vertices[0] = m->vertex_count - 1;
+        }
+        subdiv_info expected, info;
+        expect_info(m, &expected);
+        CHECK_EQUAL(subdiv_inspect(&info, m, NULL), SUBDIV_OK);
+        const int *a = &info.vertex_count, *b = &expected.vertex_count;
+        for (size_t i = 0; i < sizeof info / sizeof *a; i++)
+            if (a[i] != b[i]) TEST_REPORT("count %d is %d, not %d", (int)i, a[i], b[i]);
+        random_cage_free(c);
+    }
+}
+
 // ------------------------------------------------------------------------------------- the words
 
 static findings words;
@@ -556,6 +678,7 @@ int main(void)
 {
     RUN(test_random_cages);
     RUN(test_nothing_odd);
+    RUN(test_counts);
     RUN(test_words);
     RUN(test_a_sea_of_oddities);
     RUN(test_errors);

@@ -135,6 +135,10 @@ for option in --scheme --levels --boundary --creasing --triangles --uv --limit -
               --stream --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
+for option in "-s, --scheme" "-l, --levels" "-b, --boundary" "-c, --creasing" "-t, --triangles" \
+              "-u, --uv" "-L, --limit" "-j, --threads" "-h, --help"; do
+    fine "--help says $option" grep -q -e "^  $option" out
+done
 fine "--help is not an error" test ! -s err
 cp out help
 ends 0 -h

@@ -1621,6 +1621,33 @@ static void test_null_arguments(void)
     CHECK_EQUAL(s.calls + p.calls, 0);
 }
 
+// A face that is longer than any buffer: all of it is written, in every form.
+static void test_long_faces_are_written(void)
+{
+    enum { SIZE = 20000 };
+    static float positions[3 * SIZE], normals[3 * SIZE], uvs[2 * SIZE];
+    static int vertices[SIZE], face_uvs[SIZE];
+    static char text[24 * SIZE + 120 * SIZE];
+    for (int form = 0; form < 4; form++) {
+        subdiv_mesh mesh = {0}, back = {0};
+        size_t size = 0;
+        mesh.vertex_count = mesh.face_size = SIZE;
+        mesh.face_count = 1;
+        mesh.positions = positions;
+        mesh.face_vertices = vertices;
+        for (int i = 0; i < SIZE; i++) vertices[i] = i, face_uvs[i] = SIZE - 1 - i;
+        mesh.uv_count = form & 1 ? SIZE : 0;
+        mesh.uvs = form & 1 ? uvs : NULL;
+        mesh.face_uvs = form & 1 ? face_uvs : NULL;
+        mesh.normals = form & 2 ? normals : NULL;
+        CHECK_EQUAL(subdiv_save_obj_memory(&mesh, text, sizeof text, &size, NULL), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_load_obj_memory(&back, text, size, NULL), SUBDIV_OK);
+        mesh.normals = NULL;
+        CHECK(same_mesh(&mesh, &back));
+        subdiv_mesh_free(&back);
+    }
+}
+
 int main(void)
 {
     RUN(test_plain_quad);
@@ -1663,5 +1690,6 @@ int main(void)
     RUN(test_small_buffer);
     RUN(test_files);
     RUN(test_null_arguments);
+    RUN(test_long_faces_are_written);
     return test_end("test_obj");
 }

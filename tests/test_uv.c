@@ -278,6 +278,45 @@ static void test_indices(void)
     for_cages(150, RANDOM_ALL, check_indices);
 }
 
+// Vertices that share a value are as vertices with equal values of their own.
+static void check_shared(subdiv_mesh *m, unsigned seed)
+{
+    enum { SHARED = 4 };
+    int count = face_vertex_count(m), all = SHARED * m->vertex_count;
+    int *shared = array(count, sizeof(int)), *own = array(count, sizeof(int));
+    float *uvs = array(2 * all, sizeof(float));
+    subdiv_mesh a = *m, b = *m, fine[2] = {{0}, {0}};
+    for (int h = 0; h < count; h++) {
+        int v = m->face_vertices[h];
+        shared[h] = m->face_uvs[h] < 0 ? -1 : (v + m->face_uvs[h] + (int)seed) % SHARED;
+        own[h] = shared[h] < 0 ? -1 : shared[h] + SHARED * v;
+    }
+    for (int i = 0; i < 2 * all; i++) uvs[i] = (float)(i % (2 * SHARED) * 37 % 11);
+    a.face_uvs = shared;
+    b.face_uvs = own;
+    a.uvs = b.uvs = uvs;
+    a.uv_count = SHARED;
+    b.uv_count = all;
+    if (refine(&fine[0], &a, 2) && refine(&fine[1], &b, 2)) {
+        CHECK_EQUAL(fine[0].face_count, fine[1].face_count);
+        for (int h = 0; h < face_vertex_count(&fine[0]) && !test_bad; h++) {
+            CHECK_EQUAL(fine[0].face_uvs[h] < 0, fine[1].face_uvs[h] < 0);
+            for (int d = 0; d < 2 && fine[0].face_uvs[h] >= 0 && fine[1].face_uvs[h] >= 0; d++)
+                CHECK_NEAR(uv_at(&fine[0], h, d), uv_at(&fine[1], h, d), 1e-5);
+        }
+    }
+    subdiv_mesh_free(&fine[0]);
+    subdiv_mesh_free(&fine[1]);
+    free(shared);
+    free(own);
+    free(uvs);
+}
+
+static void test_shared_values(void)
+{
+    for_cages(100, RANDOM_ALL, check_shared);
+}
+
 // The face-vertex of a cage face's fine faces whose position is nearest.
 static int find_nearest(const subdiv_mesh *fine, int cage_face, const float *p)
 {
@@ -327,6 +366,154 @@ static void check_steps(subdiv_mesh *m, unsigned seed)
 static void test_steps(void)
 {
     for_cages(150, RANDOM_MANIFOLD | RANDOM_UVS, check_steps);
+}
+
+// -------------------------------------------------------------------------------- rule by rule
+
+enum {
+    PLUS1 = 1 << SUBDIV_UV_CORNERS_PLUS1, PLUS2 = 1 << SUBDIV_UV_CORNERS_PLUS2,
+    STRAIGHT = 1 << SUBDIV_UV_BOUNDARIES | 1 << SUBDIV_UV_ALL,
+    BY_ALL = (1 << RULES) - 1, BY_ALL_BUT_NONE = BY_ALL - (1 << SUBDIV_UV_NONE)
+};
+
+// The values around vertex 4 of four quads: each either stays where it is, or moves along the curve
+// of the seam.
+static void test_rules(void)
+{
+    static const struct {
+        const char *name;
+        int groups[4];                      // of the faces: each has values of its own
+        int dart, crease;                   // a seam from vertex 3 to 4 alone; a crease 1-4
+        int value, ends[2], stays;          // stays: the rules by which it does
+    } cases[] = {
+        {"two and two", {0, 0, 1, 1}, 0, 0, 4, {3, 5}, STRAIGHT},
+        {"two, one, one", {0, 0, 1, 2}, 0, 0, 4, {3, 5}, PLUS1 | PLUS2 | STRAIGHT},
+        {"one of three", {0, 0, 1, 2}, 0, 0, 13, {12, 16}, BY_ALL_BUT_NONE},
+        {"one of one and three", {0, 1, 1, 1}, 0, 0, 4, {1, 3}, BY_ALL_BUT_NONE},
+        {"three of one and three", {0, 1, 1, 1}, 0, 0, 13, {10, 12}, PLUS2 | STRAIGHT},
+        {"with a crease", {0, 0, 1, 1}, 0, 1, 4, {3, 5}, BY_ALL},
+        {"beside a crease", {0, 0, 1, 1}, 0, 1, 13, {12, 14}, PLUS1 | PLUS2 | STRAIGHT},
+        {"dart", {0, 0, 0, 0}, 1, 0, 4, {3, 12}, PLUS2 | STRAIGHT},
+    };
+    static test_cage c;
+    float uvs[2 * 27];
+    int face_uvs[16];
+    for (int i = 0; i < 54; i++) uvs[i] = (float)((i * 37 + i * i * 11) % 101) / 101;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const int *ends = cases[i].ends;
+        build_grid(&c, SUBDIV_CATMULL_CLARK, 2, 2);
+        if (cases[i].crease) cage_crease(&c, 1, 4, SUBDIV_INFINITE);
+        for (int h = 0; h < 16; h++)
+            face_uvs[h] = c.face_vertices[h] + 9 * cases[i].groups[h / 4];
+        if (cases[i].dart) face_uvs[8] = 12;        // vertex 3 of face 2
+        c.mesh.uv_count = 27;
+        c.mesh.uvs = uvs;
+        c.mesh.face_uvs = face_uvs;
+        for (int rule = 0; rule < RULES; rule++) {
+            subdiv_mesh fine = {0};
+            char name[64];
+            sprintf(name, "%s, rule %d", cases[i].name, rule);
+            test_context = name;
+            c.mesh.uv_rule = (subdiv_uv_rule)rule;
+            if (!refine(&fine, &c.mesh, 1)) return;
+            for (int d = 0; d < 2; d++) {
+                double own = (double)uvs[2 * cases[i].value + d];
+                double both = (double)uvs[2 * ends[0] + d] + (double)uvs[2 * ends[1] + d];
+                double curve = 0.75 * own + 0.125 * both;
+                CHECK_NEAR(fine.uvs[2 * cases[i].value + d],
+                           cases[i].stays >> rule & 1 ? own : curve, 1e-6);
+            }
+            subdiv_mesh_free(&fine);
+        }
+    }
+    test_context = "";
+}
+
+// ------------------------------------------------------------------------------- seams that fade
+
+typedef struct split_cage {
+    test_cage cage;
+    float uvs[36];
+    int   face_uvs[16];
+} split_cage;
+
+// Four quads with a seam from left to right; the edge between the upper two is semi-sharp.
+//
+//      6---7---8       values 9 more than the vertices
+//      |   s   |
+//      3===4===5       below: values as the vertices
+//      |   |   |
+//      0---1---2
+//
+static void build_split(split_cage *c, double sharpness, double seam)
+{
+    build_grid(&c->cage, SUBDIV_CATMULL_CLARK, 2, 2);
+    cage_crease(&c->cage, 4, 7, sharpness);
+    cage_crease(&c->cage, 3, 4, seam);
+    for (int i = 0; i < 18; i++) {
+        c->uvs[2 * i] = (float)(i % 3 + 0.1 * (i % 5));
+        c->uvs[2 * i + 1] = (float)(i / 3 + 0.1 * (i % 7));
+    }
+    for (int h = 0; h < 16; h++)
+        c->face_uvs[h] = c->cage.face_vertices[h] + (h < 8 ? 0 : 9);
+    c->cage.mesh.uv_count = 18;
+    c->cage.mesh.uvs = c->uvs;
+    c->cage.mesh.face_uvs = c->face_uvs;
+}
+
+// Half of the sharpness is gone: the value is a blend, half corner and half crease.
+static double half_faded(const subdiv_mesh *m, int value, int d)
+{
+    return 0.875 * (double)m->uvs[2 * value + d] +
+           0.0625 * ((double)m->uvs[2 * value - 2 + d] + (double)m->uvs[2 * value + 2 + d]);
+}
+
+// The upper value of vertex 4 is sharp by the crease, the lower one along with it by "plus 1". It
+// fades as the upper one does, but while the seam is semi-sharp it waits until that has.
+static void test_sharp_along(void)
+{
+    static const float seams[] = {0, 0.75f, 1, 1.25f, 5, SUBDIV_INFINITE};
+    static split_cage c;
+    for (int rule = SUBDIV_UV_CORNERS_PLUS1; rule <= SUBDIV_UV_CORNERS_PLUS2; rule++) {
+        for (int i = 0; i < 6; i++) {
+            subdiv_mesh fine = {0}, finer = {0};
+            build_split(&c, 0.5, (double)seams[i]);
+            c.cage.mesh.uv_rule = (subdiv_uv_rule)rule;
+            if (!refine(&fine, &c.cage.mesh, 1) || !refine(&finer, &c.cage.mesh, 2)) return;
+            for (int d = 0; d < 2; d++) {
+                double moved = half_faded(&c.cage.mesh, 4, d), own = (double)c.uvs[8 + d];
+                double below = seams[i] > 1 && seams[i] < SUBDIV_INFINITE ? own : moved;
+                CHECK_NEAR(fine.uvs[26 + d], half_faded(&c.cage.mesh, 13, d), 1e-6);
+                CHECK_NEAR(fine.uvs[8 + d], below, 1e-6);
+                double ends = ((double)c.uvs[6 + d] + (double)c.uvs[10 + d]) / 2 + own;
+                CHECK_NEAR(finer.uvs[8 + d], 0.75 * below + 0.125 * ends, 1e-6);
+            }
+            subdiv_mesh_free(&fine);
+            subdiv_mesh_free(&finer);
+        }
+    }
+}
+
+// And as long as the crease stays, also where it makes the upper faces closed forms at once.
+static void test_sharp_along_patches(void)
+{
+    static split_cage c;
+    for (int i = 1; i < 24; i++) {
+        build_split(&c, 0.25 * i, i % 3);
+        c.cage.mesh.uv_rule = SUBDIV_UV_CORNERS_PLUS1;
+        check_steps(&c.cage.mesh, 1);
+    }
+}
+
+// Chaikin's averages reach across a seam, to and from a crease that ends there.
+static void test_chaikin_at_seams(void)
+{
+    static split_cage c;
+    for (int i = 1; i < 16; i++) {
+        build_split(&c, 0.25 * i, 2.5);
+        c.cage.mesh.creasing = SUBDIV_CREASING_CHAIKIN;
+        check_steps(&c.cage.mesh, 1);
+    }
 }
 
 // Without its holes a result has the other faces' UVs unchanged.
@@ -586,7 +773,12 @@ int main(void)
     RUN(test_like_positions);
     RUN(test_islands);
     RUN(test_indices);
+    RUN(test_shared_values);
     RUN(test_steps);
+    RUN(test_rules);
+    RUN(test_sharp_along);
+    RUN(test_sharp_along_patches);
+    RUN(test_chaikin_at_seams);
     RUN(test_holes);
     RUN(test_channels);
     RUN(test_triangulate);
