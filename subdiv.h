@@ -2605,6 +2605,23 @@ static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
     points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
 }
 
+static int *sdv_put_face3(int *out, int a, int b, int c)
+{
+    out[0] = a;
+    out[1] = b;
+    out[2] = c;
+    return out + 3;
+}
+
+static int *sdv_put_face4(int *out, int a, int b, int c, int d)
+{
+    out[0] = a;
+    out[1] = b;
+    out[2] = c;
+    out[3] = d;
+    return out + 4;
+}
+
 // The fine faces between two rows of points, low and high: quads a b c d.
 //
 //     d c
@@ -2613,15 +2630,12 @@ static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
     int a = low->left, d = high->left;
     int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
-    for (int i = 1; i <= low->size; i++, out += 4) {
+    for (int i = 1; i <= low->size; i++) {
         if (i == low->size) {
             b = low->right;
             c = high->right;
         }
-        out[0] = a;
-        out[1] = b;
-        out[2] = c;
-        out[3] = d;
+        out = sdv_put_face4(out, a, b, c, d);
         a = b;
         d = c;
         b += low->line.step;
@@ -2635,23 +2649,16 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
 {
     int a = low->left, d = high->left;
     int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
-    for (int i = 1; i < low->size; i++, out += 6) {
+    for (int i = 1; i < low->size; i++) {
         if (i == high->size) c = high->right;
-        out[0] = a;
-        out[1] = b;
-        out[2] = d;
-        out[3] = c;
-        out[4] = d;
-        out[5] = b;
+        out = sdv_put_face3(out, a, b, d);
+        out = sdv_put_face3(out, c, d, b);
         a = b;
         d = c;
         b += low->line.step;
         c += high->line.step;
     }
-    out[0] = a;
-    out[1] = low->right;
-    out[2] = d;
-    return out + 3;
+    return sdv_put_face3(out, a, low->right, d);
 }
 
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
@@ -2663,11 +2670,39 @@ static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
     return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
+// The fine faces of cage face f on level 1: every edge has one point, and there is the centre.
+static int *sdv_first_faces(const sdv_order *order, int f, int *out)
+{
+    int start = sdv_face_start(&order->cage, f), size = sdv_face_end(&order->cage, f) - start;
+    const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
+    int first = order->first_edge_point, centre = sdv_first_inside(order, f);
+    int e0 = first + edges[0], e1 = first + edges[1], e2 = first + edges[2];
+    int last = first + edges[size - 1];
+    if (order->loop) {
+        out = sdv_put_face3(out, v[0], e0, e2);
+        out = sdv_put_face3(out, e1, e2, e0);
+        out = sdv_put_face3(out, e0, v[1], e1);
+        return sdv_put_face3(out, e2, e1, v[2]);
+    }
+    if (size == 4) {
+        out = sdv_put_face4(out, v[0], e0, centre, last);
+        out = sdv_put_face4(out, e0, v[1], e1, centre);
+        out = sdv_put_face4(out, last, centre, e2, v[3]);
+        return sdv_put_face4(out, centre, e1, v[2], e2);
+    }
+    for (int i = 0; i < size; i++) {
+        out = sdv_put_face4(out, v[i], first + edges[i], centre, last);
+        last = first + edges[i];
+    }
+    return out;
+}
+
 // The fine faces of cage face f.
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
+    if (order->n == 2) return sdv_first_faces(order, f, out);
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid;
         sdv_grid_at(order, h, &grid);
