@@ -1654,6 +1654,12 @@ static inline int sdv_next(const sdv_level *level, int h)
     return sdv_next_any(level, h);
 }
 
+// The first face-vertex of the quad of h.
+static inline int sdv_quad_start(const sdv_level *level, int h)
+{
+    return level->face_size ? h & ~3 : level->face_starts[level->face_of[h]];
+}
+
 // The number of vertices of the face of h.
 static int sdv_size_of(const sdv_level *level, int h)
 {
@@ -1727,6 +1733,23 @@ static void sdv_level_lists(sdv_level *level)
     }
 }
 
+// The same, and counts them: on level 0, which has all faces.
+static void sdv_level_count(sdv_level *level)
+{
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next, *count = level->vertex_faces;
+    for (int v = 0; v < level->vertex_count; v++) {
+        first[v] = -1;
+        count[v] = 0;
+    }
+    for (int h = level->face_vertex_count - 1; h >= 0; h--) {
+        int v = vertices[h];
+        next[h] = first[v];
+        first[v] = h;
+        count[v]++;
+    }
+}
+
 // ---------------------------------------------------------------------------------- >>cage
 // From polygons to level 0: find the edges, what is non-manifold, and what is sharp: by the
 // user's lists, by being a boundary, by being non-manifold.
@@ -1760,11 +1783,10 @@ static int sdv_smaller_end(const sdv_level *level, int a, int b)
 typedef struct sdv_listed_edge {        // at its smaller end
     int other;                          // the other end
     int next;                           // the next edge there, or -1
-    int last;                           // the last face-vertex of its ring so far
 } sdv_listed_edge;
 
 // An edge begins with face-vertex h.
-static int sdv_new_edge(sdv_level *level, int h)
+static inline int sdv_new_edge(sdv_level *level, int h)
 {
     int e = level->edge_count++;
     level->face_edges[h] = e;
@@ -1773,18 +1795,42 @@ static int sdv_new_edge(sdv_level *level, int h)
     return e;
 }
 
-// Takes h as one more of the ring of edge e, behind the last one.
-static void sdv_join_edge(sdv_level *level, int e, int last, int h)
+// Takes h as the last one of the ring of edge e.
+static inline void sdv_join_edge(sdv_level *level, int e, int h)
 {
+    int first = level->edge_first[e];
     level->face_edges[h] = e;
-    level->across[h] = level->across[last];
-    level->across[last] = h;
+    level->across[h] = level->across[first];
+    level->across[first] = h;
+}
+
+// The same, but it is not the second face, on the other side of the first; or has the edge already,
+// which then is a new one.
+static void sdv_join_nonmanifold(sdv_cage *cage, int e, int h, int start)
+{
+    sdv_level *level = &cage->level;
+    cage->edge_nonmanifold[e] = 1;
+    if (level->across[level->edge_first[e]] < start) sdv_join_edge(level, e, h);
+    else cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+}
+
+// Turns the ring of an edge round.
+static void sdv_reverse_ring(int *across, int first)
+{
+    int before = first, k = across[first];
+    while (k != first) {
+        int next = across[k];
+        across[k] = before;
+        before = k;
+        k = next;
+    }
+    across[first] = before;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
 // ends are the same vertex, or when one face has it twice: then each later time is an edge of its
-// own.
+// own. Until all are there, rings fall, so that the last of each stands across from its first.
 static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
@@ -1794,29 +1840,29 @@ static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
     sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
     for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), b = vertices[start];
         for (int h = start; h < end; h++) {
-            int a = vertices[h], b = vertices[h + 1 < end ? h + 1 : start];
+            int a = b;
+            b = vertices[h + 1 < end ? h + 1 : start];
             int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
             while (e >= 0 && edges[e].other != other) e = edges[e].next;
+            int first = e < 0 ? -1 : level->edge_first[e];
             if (a == b) {
                 cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
-            } else if (e < 0) {
+            } else if (first < 0) {
                 e = sdv_new_edge(level, h);
                 edges[e].other = other;
                 edges[e].next = listed[v];
-                edges[e].last = h;
                 listed[v] = e;
-            } else if (edges[e].last >= start) {
-                cage->edge_nonmanifold[e] = cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else if (first < start && level->across[first] == first && vertices[first] != a) {
+                sdv_join_edge(level, e, h);
             } else {
-                int first = level->edge_first[e], last = edges[e].last;
-                if (last != first || vertices[first] == a) cage->edge_nonmanifold[e] = 1;
-                sdv_join_edge(level, e, last, h);
-                edges[e].last = h;
+                sdv_join_nonmanifold(cage, e, h, start);
             }
         }
     }
+    for (int e = 0; e < level->edge_count && !context->result; e++)
+        if (cage->edge_nonmanifold[e]) sdv_reverse_ring(level->across, level->edge_first[e]);
     sdv_arena_free(&scratch);
 }
 
@@ -2045,10 +2091,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     if (context->result) return;
 
     memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
-    memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
-    for (int h = 0; h < level->face_vertex_count; h++)
-        level->vertex_faces[level->face_vertices[h]]++;
-    sdv_level_lists(level);
+    sdv_level_count(level);
     sdv_cage_edges(context, cage);
     if (context->result) return;
     memset(cage->hole, 0, (size_t)level->face_count);
@@ -3420,8 +3463,11 @@ static sdv_strips sdv_cut_strips(float low, float high, int levels)
     return strips;
 }
 
-// How the surface goes on at a vertex, down to the last level.
-typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_LINED, SDV_EDGED, SDV_PINNED } sdv_kind;
+// How the surface goes on at a vertex, down to the last level. Bits, so that a face may have those
+// of all its vertices.
+typedef enum sdv_kind {
+    SDV_ROUGH = 1, SDV_FREE = 2, SDV_LINED = 4, SDV_EDGED = 8, SDV_PINNED = 16
+} sdv_kind;
 
 // Are all faces at v of the regular size, and so many?
 static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int size)
@@ -3487,13 +3533,11 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 
 // Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
 // creases that go straight on, or end where a crease that stays runs across. All else is rough.
-static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
+static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels,
+                               int dependent)
 {
-    int sharp = 0, stay = 0, last = 0, dependent = level->partner && level->partner[v] >= 0;
-    if (rules->linear) return SDV_FREE;
-    if (dependent) v = level->partner[v];
+    int sharp = 0, stay = 0, last = 0;
     float s = level->vertex_sharpness[v];
-    if (s <= 0 && !level->creased[v]) return sdv_smooth_kind(level, rules, v);
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
         for (int i = 0; i < 2; i++) {
@@ -3512,6 +3556,17 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
     if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
     return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
+}
+
+static inline sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v,
+                                       int levels)
+{
+    int dependent = level->partner && level->partner[v] >= 0;
+    if (rules->linear) return SDV_FREE;
+    if (dependent) v = level->partner[v];
+    if (level->vertex_sharpness[v] <= 0 && !level->creased[v])
+        return sdv_smooth_kind(level, rules, v);
+    return sdv_sharp_kind(level, rules, v, levels, dependent);
 }
 
 // The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
@@ -3574,6 +3629,23 @@ static int sdv_point_at(const sdv_level *level, int h)
     return level->first_point + level->face_vertices[h];
 }
 
+// What lies beyond an edge of a quad that leads on from a vertex with control point number own:
+// beside it, beside the next vertex and, if the vertex is in a ring, diagonally across from it.
+static inline void sdv_gather_side(const sdv_level *level, int h, int ring, int *points,
+                                   int beside, int next, int diagonal)
+{
+    const int *vertices = level->face_vertices, *across = level->across;
+    int q = across[h], quad = sdv_quad_start(level, q), turn = q - quad, first = level->first_point;
+    int corner = across[quad + ((turn + 1) & 3)];               // from the vertex on
+    int a = vertices[quad + ((turn + 2) & 3)], b = vertices[quad + ((turn + 3) & 3)];
+    if (ring) {
+        quad = sdv_quad_start(level, corner);
+        points[diagonal] = first + vertices[quad + ((corner - quad + 3) & 3)];
+    }
+    points[beside] = first + a;
+    points[next] = first + b;
+}
+
 // The 4 x 4 control points. Each smooth edge adds the two points of the face across it, and each
 // vertex in a ring the one diagonally across. (Without sharp edges, all are in rings.)
 //
@@ -3581,24 +3653,20 @@ static int sdv_point_at(const sdv_level *level, int h)
 //      8  9 10 11
 //      4  5  6  7
 //      0  1  2  3
-static void sdv_gather_quad(const sdv_level *level, int h, const sdv_patch *patch,
-                            const sdv_fan *fan, int *points)
+static inline void sdv_gather_quad(const sdv_level *level, int h, int sharp, const sdv_fan *fan,
+                                   int *points)
 {
-    static const int diagonal[4] = { 0, 3, 15, 12 };
-    static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
-    int p[16];                                 // face-vertices, whose vertices are the points
-    for (int i = 0; i < 16 && patch->sharp; i++) p[i] = h;
-    for (int i = 0; i < 4; i++) {
-        p[sdv_quad_own[i]] = h + i;
-        if (patch->sharp >> i & 1) continue;
-        int across = level->across[h + i];
-        int at = sdv_next(level, across);      // the face-vertex at vertex i
-        p[beside[i]] = sdv_next(level, at);
-        p[next[i]] = sdv_previous(level, across);
-        if (fan[i] != SDV_FAN_RING) continue;
-        p[diagonal[i]] = sdv_previous(level, level->across[at]);
-    }
-    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, p[i]);
+    const int *v = level->face_vertices + h;
+    int first = level->first_point;
+    for (int i = 0; i < 16 && sharp; i++) points[i] = first + v[0];
+    points[5] = first + v[0];
+    points[6] = first + v[1];
+    points[10] = first + v[2];
+    points[9] = first + v[3];
+    if (!(sharp & 1)) sdv_gather_side(level, h, fan[0] == SDV_FAN_RING, points, 1, 2, 0);
+    if (!(sharp & 2)) sdv_gather_side(level, h + 1, fan[1] == SDV_FAN_RING, points, 7, 11, 3);
+    if (!(sharp & 4)) sdv_gather_side(level, h + 2, fan[2] == SDV_FAN_RING, points, 14, 13, 15);
+    if (!(sharp & 8)) sdv_gather_side(level, h + 3, fan[3] == SDV_FAN_RING, points, 8, 4, 12);
 }
 
 // The 12 control points. The neighbours of a point are to its right and left, above and below,
@@ -3615,25 +3683,23 @@ static void sdv_gather_quad(const sdv_level *level, int h, const sdv_patch *patc
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
-static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fan, int *points)
+static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch,
+                                const sdv_fan *fan, int *points)
 {
-    for (int i = 0; i < 12; i++) points[i] = sdv_point_at(level, h);
-    for (int i = 0; i < 3; i++) points[sdv_triangle_own[i]] = sdv_point_at(level, h + i);
+    const int *vertices = level->face_vertices, *across = level->across;
+    const int first = level->first_point;
+    for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
     for (int i = 0; i < 3; i++) {
-        const int *ring = sdv_triangle_ring[i];
-        int left = h + i, right = h + i, lefts = 0, rights = 0;
-        if (fan[i] == SDV_FAN_RING) lefts = 4;
-        if (fan[i] == SDV_FAN_FIRST) lefts = 2;
-        if (fan[i] == SDV_FAN_MIDDLE) lefts = rights = 1;
-        if (fan[i] == SDV_FAN_LAST) rights = 2;
-        for (int j = 0; j < lefts; j++) {
-            left = sdv_counter_clockwise(level, left);
-            points[ring[2 + j]] = sdv_point_at(level, sdv_previous(level, left));
-        }
-        for (int j = 0; j < rights; j++) {
-            right = sdv_clockwise(level, right);
-            points[ring[5 - j]] = sdv_point_at(level, sdv_next(level, right));
-        }
+        int after = i < 2 ? i + 1 : 0, q = across[h + i];
+        points[sdv_triangle_own[i]] = first + vertices[h + i];
+        if (patch->sharp >> i & 1) continue;
+        int at = sdv_next(level, q), before = sdv_previous(level, q);
+        points[sdv_triangle_ring[i][5]] = first + vertices[before];
+        if (fan[i] == SDV_FAN_RING || fan[i] == SDV_FAN_LAST)
+            points[sdv_triangle_ring[i][4]] = first + vertices[sdv_previous(level, across[at])];
+        if (fan[after] == SDV_FAN_RING || fan[after] == SDV_FAN_FIRST)
+            points[sdv_triangle_ring[after][3]] =
+                first + vertices[sdv_previous(level, across[before])];
     }
 }
 
@@ -3704,22 +3770,21 @@ static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_
                           sdv_patch *patch, int *points)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
-    sdv_fan fan[4] = { SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING };
+    static const sdv_fan rings[4] = { SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING };
+    sdv_fan fan[4];
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
     if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch, fan))
         return 0;
     if (rules->linear) sdv_gather_linear(level, h, size, points);
-    else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
-    else sdv_gather_quad(level, h, patch, fan, points);
+    else if (rules->loop) sdv_gather_triangle(level, h, patch, is_free ? rings : fan, points);
+    else sdv_gather_quad(level, h, patch->sharp, is_free ? rings : fan, points);
     sdv_set_place(level, f, levels == SDV_FOREVER ? 0 : levels, patch);
     return 1;
 }
 
-static void sdv_mark_edge(sdv_level *level, int h)
+static inline void sdv_mark_edge(const int *across, int h, unsigned char *done)
 {
-    unsigned char *done = level->edge_done;
-    const int *across = level->across;
     int k = h;
     do done[k] = 1;
     while ((k = across[k]) != h);
@@ -3727,34 +3792,32 @@ static void sdv_mark_edge(sdv_level *level, int h)
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
 // has an edge or vertex writes its points, unless a level before did.
-static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
+static inline int sdv_claim_corner(const sdv_level *level, int h, int bit)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h, owned = 0;
-    const int *vertices = level->face_vertices + h;
-    unsigned char *edges = level->edge_done + h, *done = level->vertex_done;
-    for (int i = 0; i < size; i++) {
-        int bit = size == 3 && i == 2 ? 3 : i, v = vertices[i];
-        owned |= !done[v] << (4 + bit);
-        done[v] = 1;
-        if (edges[i]) continue;
-        owned |= 1 << bit;
-        sdv_mark_edge(level, h + i);
-    }
-    patch->owned = (unsigned char)owned;
+    unsigned char *edge = &level->edge_done[h], *vertex;
+    vertex = &level->vertex_done[level->face_vertices[h]];
+    int owned = !*vertex << (4 + bit) | !*edge << bit;
+    *vertex = 1;
+    sdv_mark_edge(level->across, h, level->edge_done);
+    return owned;
 }
 
-// The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
-static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
+static inline void sdv_claim(const sdv_level *level, int h, int size, sdv_patch *patch)
 {
-    int start = sdv_face_start(level, f), rough = 0, free = 1;
-    const int *vertices = level->face_vertices + start;
+    int owned = sdv_claim_corner(level, h, 0) | sdv_claim_corner(level, h + 1, 1);
+    if (size == 4) owned |= sdv_claim_corner(level, h + 2, 2);
+    patch->owned = (unsigned char)(owned | sdv_claim_corner(level, h + size - 1, 3));
+}
+
+// The kinds of a face's vertices; rough if its size is not the regular one.
+static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
+                                 int size)
+{
+    int start = sdv_face_start(level, f);
+    const int *v = level->face_vertices + start;
     if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
-    for (int i = 0; i < size; i++) {
-        unsigned char kind = kinds[vertices[i]];
-        rough |= kind == SDV_ROUGH;
-        free &= kind == SDV_FREE;
-    }
-    return rough ? SDV_ROUGH : free ? SDV_FREE : SDV_EDGED;
+    int found = kinds[v[0]] | kinds[v[1]] | kinds[v[2]];
+    return size == 4 ? found | kinds[v[3]] : found;
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough.
@@ -3772,21 +3835,21 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
     for (int v = 0; v < level->vertex_count && !context->result; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        sdv_kind kind = level->core[f] ? sdv_face_kind(level, kinds, f, size) : SDV_ROUGH;
-        face_kinds[f] = (unsigned char)kind;
-        most += kind != SDV_ROUGH;
+        int found = level->core[f] ? sdv_face_kinds(level, kinds, f, size) : SDV_ROUGH;
+        face_kinds[f] = (unsigned char)found;
+        most += !(found & SDV_ROUGH);
     }
     size_t width = (size_t)sdv_control_points(rules);
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
     patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        if (face_kinds[f] == SDV_ROUGH) continue;
+        if (face_kinds[f] & SDV_ROUGH) continue;
         sdv_patch *patch = &patches->items[patches->count];
         int *points = patches->points + width * (size_t)patches->count;
         if (!sdv_make_patch(writer, level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE,
                             patch, points))
             continue;
-        sdv_claim(level, f, patch);
+        sdv_claim(level, sdv_face_start(level, f), size, patch);
         level->rough[f] = 0;
         patches->count++;
     }
@@ -4070,11 +4133,8 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_level_new(context, scratch, level, chaikin);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
-    memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
-    for (int h = 0; h < level->face_vertex_count; h++)
-        level->vertex_faces[level->face_vertices[h]]++;
     for (int i = 0; i < level->vertex_count; i++) level->partner[i] = -1;
-    sdv_level_lists(level);
+    sdv_level_count(level);
     sdv_seam_edges(seams);
     sdv_seam_sharpness(seams);
 }
@@ -4524,7 +4584,7 @@ static void sdv_make_nets(const sdv_kinds *kinds, sdv_level *level, int size,
         sdv_net *net = &nets->items[nets->count++];
         memset(net, 0, sizeof *net);
         sdv_set_place(level, f, kinds->levels, &net->patch);
-        sdv_claim(level, f, &net->patch);
+        sdv_claim(level, h, size, &net->patch);
         net->turn = at.turn;
         net->kind = items[at.kind].matrix;
         net->first = (size_t)(points - nets->points);
@@ -5004,7 +5064,7 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
             sdv_edge_row(level, rules, h, writer);
         }
         level->vertex_done[v] = 1;
-        sdv_mark_edge(level, h);
+        sdv_mark_edge(level->across, h, level->edge_done);
     }
 }
 
