@@ -1699,13 +1699,12 @@ static sdv_place sdv_first_place(int h)
     return place;
 }
 
-// The arrays that each level has besides face_vertices; chaikin: and half_sharpness.
+// The arrays that each level has besides face_vertices and across; chaikin: and half_sharpness.
 static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level, int chaikin)
 {
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     size_t face_vertices = (size_t)level->face_vertex_count;
-    sdv_reserve(context, arena, 24 * face_vertices + 32 * faces + 16 * vertices + 1024);
-    level->across = SDV_NEW(context, arena, int, face_vertices);
+    sdv_reserve(context, arena, 16 * face_vertices + 32 * faces + 16 * vertices + 1024);
     level->vertex_first = SDV_NEW(context, arena, int, vertices);
     level->vertex_next = SDV_NEW(context, arena, int, face_vertices);
     level->vertex_faces = SDV_NEW(context, arena, int, vertices);
@@ -2074,15 +2073,16 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *le
 }
 
 // Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
-// scratch the rest.
-static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
-                           sdv_cage *cage, const subdiv_mesh *mesh)
+// points what else its patches need, scratch the rest.
+static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *points,
+                           sdv_arena *scratch, sdv_cage *cage, const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
     memset(cage, 0, sizeof *cage);
     sdv_cage_faces(context, keep, level, mesh);
     if (context->result) return;
     level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
+    level->across = SDV_NEW(context, points, int, level->face_vertex_count);
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
@@ -3276,6 +3276,7 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->first_point = level->first_point + level->vertex_count;
     sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
+    next->across = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
     sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
@@ -3321,7 +3322,9 @@ typedef struct sdv_patches {            // of one level
     int        count, depth;            // depth: levels to go
     sdv_patch *items;                   // [count] in the order of cage faces
     int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
-} sdv_patches;                          //      work points; for those that are mirrored, any
+                                        //      work points; for those that are mirrored, any. Of
+                                        //      a result's level 0 NULL: they are gathered from the
+} sdv_patches;                          //      cage each time, which is less to read
 
 static int sdv_control_points(const sdv_rules *rules)
 {
@@ -3629,44 +3632,35 @@ static int sdv_point_at(const sdv_level *level, int h)
     return level->first_point + level->face_vertices[h];
 }
 
-// What lies beyond an edge of a quad that leads on from a vertex with control point number own:
-// beside it, beside the next vertex and, if the vertex is in a ring, diagonally across from it.
-static inline void sdv_gather_side(const sdv_level *level, int h, int ring, int *points,
-                                   int beside, int next, int diagonal)
-{
-    const int *vertices = level->face_vertices, *across = level->across;
-    int q = across[h], quad = sdv_quad_start(level, q), turn = q - quad, first = level->first_point;
-    int corner = across[quad + ((turn + 1) & 3)];               // from the vertex on
-    int a = vertices[quad + ((turn + 2) & 3)], b = vertices[quad + ((turn + 3) & 3)];
-    if (ring) {
-        quad = sdv_quad_start(level, corner);
-        points[diagonal] = first + vertices[quad + ((corner - quad + 3) & 3)];
-    }
-    points[beside] = first + a;
-    points[next] = first + b;
-}
-
-// The 4 x 4 control points. Each smooth edge adds the two points of the face across it, and each
-// vertex in a ring the one diagonally across. (Without sharp edges, all are in rings.)
+// The 4 x 4 control points. Each open edge adds the two points of the face across it, and each
+// vertex between two of them, which is in a ring, the one diagonally across. Sharp edges are
+// closed, and those beyond which nothing is needed.
 //
 //     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
 //      8  9 10 11
 //      4  5  6  7
 //      0  1  2  3
-static inline void sdv_gather_quad(const sdv_level *level, int h, int sharp, const sdv_fan *fan,
-                                   int *points)
+static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, int *points)
 {
-    const int *v = level->face_vertices + h;
-    int first = level->first_point;
-    for (int i = 0; i < 16 && sharp; i++) points[i] = first + v[0];
-    points[5] = first + v[0];
-    points[6] = first + v[1];
-    points[10] = first + v[2];
-    points[9] = first + v[3];
-    if (!(sharp & 1)) sdv_gather_side(level, h, fan[0] == SDV_FAN_RING, points, 1, 2, 0);
-    if (!(sharp & 2)) sdv_gather_side(level, h + 1, fan[1] == SDV_FAN_RING, points, 7, 11, 3);
-    if (!(sharp & 4)) sdv_gather_side(level, h + 2, fan[2] == SDV_FAN_RING, points, 14, 13, 15);
-    if (!(sharp & 8)) sdv_gather_side(level, h + 3, fan[3] == SDV_FAN_RING, points, 8, 4, 12);
+    static const signed char diagonal[4] = { 0, 3, 15, 12 };
+    static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
+    const int *vertices = level->face_vertices, *across = level->across;
+    int first = level->first_point, before = closed >> 3;
+    for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
+    points[5] = first + vertices[h];
+    points[6] = first + vertices[h + 1];
+    points[10] = first + vertices[h + 2];
+    points[9] = first + vertices[h + 3];
+    for (int i = 0; i < 4; before = closed >> i++) {
+        if (closed >> i & 1) continue;
+        int q = across[h + i], quad = sdv_quad_start(level, q), turn = q - quad;
+        int corner = across[quad + ((turn + 1) & 3)];               // from vertex i on
+        points[beside[i]] = first + vertices[quad + ((turn + 2) & 3)];
+        points[next[i]] = first + vertices[quad + ((turn + 3) & 3)];
+        if (before & 1) continue;
+        quad = sdv_quad_start(level, corner);
+        points[diagonal[i]] = first + vertices[quad + ((corner - quad + 3) & 3)];
+    }
 }
 
 // The 12 control points. The neighbours of a point are to its right and left, above and below,
@@ -3683,9 +3677,9 @@ static inline void sdv_gather_quad(const sdv_level *level, int h, int sharp, con
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
-static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch,
-                                const sdv_fan *fan, int *points)
+static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch, int *points)
 {
+    const unsigned char *fan = patch->fan;
     const int *vertices = level->face_vertices, *across = level->across;
     const int first = level->first_point;
     for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
@@ -3711,6 +3705,15 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
+// The control points of a patch, whose face starts with face-vertex h.
+static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
+                              const sdv_patch *patch, int h, int closed, int *points)
+{
+    if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
+    else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
+    else sdv_gather_quad(level, h, closed, points);
+}
+
 // The number of the strips between two edges; 0 if they differ, or there are too many already.
 static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels)
 {
@@ -3731,7 +3734,7 @@ static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels
 // which semi-sharp, and how its vertices' fans go on. Does it have a patch?
 static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                          const unsigned char *kinds, int h, int size, int levels,
-                         sdv_patch *patch, sdv_fan *fan)
+                         sdv_patch *patch)
 {
     float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
@@ -3739,9 +3742,9 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
         if (s > 0 && !sdv_stays(s, levels, rules)) semi[i] = s;
         else patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
-        fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
-        if (fan[i] == SDV_FAN_ROUGH) return 0;
-        if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
+        sdv_fan fan = sdv_find_fan(level, kind, h + i, rules->loop);
+        if (fan == SDV_FAN_ROUGH) return 0;
+        if (rules->loop) patch->fan[i] = (unsigned char)fan;
     }
     if (semi[0] + semi[1] + semi[2] + semi[3] <= 0) return 1;
     for (int i = 0; i < size; i++) {
@@ -3767,18 +3770,12 @@ static void sdv_set_place(const sdv_level *level, int f, int levels, sdv_patch *
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int levels, int is_free,
-                          sdv_patch *patch, int *points)
+                          sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
-    static const sdv_fan rings[4] = { SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING };
-    sdv_fan fan[4];
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch, fan))
-        return 0;
-    if (rules->linear) sdv_gather_linear(level, h, size, points);
-    else if (rules->loop) sdv_gather_triangle(level, h, patch, is_free ? rings : fan, points);
-    else sdv_gather_quad(level, h, patch->sharp, is_free ? rings : fan, points);
+    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch)) return 0;
     sdv_set_place(level, f, levels == SDV_FOREVER ? 0 : levels, patch);
     return 1;
 }
@@ -3839,17 +3836,20 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
         face_kinds[f] = (unsigned char)found;
         most += !(found & SDV_ROUGH);
     }
-    size_t width = (size_t)sdv_control_points(rules);
+    size_t width = level->places || levels == SDV_FOREVER ? (size_t)sdv_control_points(rules) : 0;
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
-    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
+    if (width) patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
         if (face_kinds[f] & SDV_ROUGH) continue;
         sdv_patch *patch = &patches->items[patches->count];
-        int *points = patches->points + width * (size_t)patches->count;
+        int h = sdv_face_start(level, f);
         if (!sdv_make_patch(writer, level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE,
-                            patch, points))
+                            patch))
             continue;
-        sdv_claim(level, sdv_face_start(level, f), size, patch);
+        if (width)
+            sdv_gather(level, rules, patch, h, patch->sharp,
+                       patches->points + width * (size_t)patches->count);
+        sdv_claim(level, h, size, patch);
         level->rough[f] = 0;
         patches->count++;
     }
@@ -4113,9 +4113,9 @@ static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *s
     sdv_chaikin_sums(context, scratch, cage, levels, level->sums);
 }
 
-// Level 0 of the values. What outlives it goes to keep, with own_face and source.
-static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
-                            sdv_seams *seams, int *own_face, int levels)
+// Level 0 of the values. Arenas as for sdv_cage_build: to keep goes source, too.
+static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *points,
+                            sdv_arena *scratch, sdv_seams *seams, int *own_face, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
@@ -4130,6 +4130,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_seam_vertices(context, keep, scratch, seams);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->across = SDV_NEW(context, points, int, level->face_vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
@@ -5485,7 +5486,8 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     sdv_like(context, made, surface);
     sdv_new_levels(context, made);
     if (!context->result)
-        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
+        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->points, &scratch,
+                        &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
@@ -5613,7 +5615,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         return;
     }
 
-    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
+    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->points, &scratch,
+                   &built, &work);
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     sdv_new_levels(context, surface);
@@ -6124,52 +6127,93 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
-// Of its three bottom or top points those that a patch owns, from rows of control points.
-static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid,
-                                 const sdv_patch *patch, const sdv_four *p, sdv_four bend, int top)
+// The control points of patch i, in room [16] if they have to be gathered. closed: see
+// sdv_gather_quad.
+static inline const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
+                                          int i, int closed, int *room)
 {
-    int row = patch->row + 2 * top, column = patch->column, owned = patch->owned;
+    size_t width = (size_t)sdv_control_points(&surface->rules);
+    if (patches->points) return patches->points + width * (size_t)i;
+    sdv_gather(&surface->order.cage, &surface->rules, &patches->items[i], patches->items[i].h,
+               closed, room);
+    return room;
+}
+
+// Where the point of vertex i of a patch with one level to go stands, and that of edge i. On level 1
+// of the result its grid is the whole cage face.
+static inline int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
+                                  const sdv_patch *patch, int i)
+{
+    const int (*at)[2] = order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    if (order->n == 2) return order->cage.face_vertices[patch->h + i];
+    return sdv_grid_index(grid, patch->row + patch->step * at[i][0],
+                          patch->column + patch->step * at[i][1]);
+}
+
+static inline int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
+                                const sdv_patch *patch, int i)
+{
+    const int (*at)[2] = order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    if (order->n == 2) return order->first_edge_point + order->cage.face_edges[patch->h + i];
+    return sdv_grid_index(grid, patch->row + patch->step * (at[i][0] + at[i + 1][0]) / 2,
+                          patch->column + patch->step * (at[i][1] + at[i + 1][1]) / 2);
+}
+
+// The points of the bottom or top row that a patch owns, from rows of control points; a and b are
+// its vertices on that row.
+static inline void sdv_put_three(const sdv_window *out, const sdv_order *order,
+                                 const sdv_grid *grid, const sdv_patch *patch, const sdv_four *p,
+                                 sdv_four bend, int a, int b)
+{
+    int owned = patch->owned, edge = a ? 2 : 0;
     sdv_four left = sdv_spline_vertex(p[1], p[5], p[9], bend);
     sdv_four right = sdv_spline_vertex(p[2], p[6], p[10], bend);
-    if (owned & (top ? SDV_TOP : SDV_BOTTOM)) {
-        sdv_side line = sdv_grid_line(grid, row);
-        sdv_put_point(out, line.first + line.step * (column + 1), sdv_middle(left, right));
-    }
-    if (owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT)) {
+    if (owned >> edge & 1)
+        sdv_put_point(out, sdv_near_edge(order, grid, patch, edge), sdv_middle(left, right));
+    if (owned >> (4 + a) & 1) {
         sdv_four beside = sdv_spline_vertex(p[0], p[4], p[8], bend);
-        sdv_put_point(out, sdv_quad_index(grid, row, column),
+        sdv_put_point(out, sdv_near_vertex(order, grid, patch, a),
                       sdv_spline_vertex(beside, left, right, bend));
     }
-    if (owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT)) {
+    if (owned >> (4 + b) & 1) {
         sdv_four beside = sdv_spline_vertex(p[3], p[7], p[11], bend);
-        sdv_put_point(out, sdv_quad_index(grid, row, column + 2),
+        sdv_put_point(out, sdv_near_vertex(order, grid, patch, b),
                       sdv_spline_vertex(left, right, beside, bend));
     }
 }
 
-// A quad with one level to go: nine points at most, for which a polynomial is too much work.
-static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                         const int *points, int linear, const float *work)
+// Of a quad the edges that bound a point that it owns.
+static int sdv_needed_sides(const sdv_patch *patch)
 {
-    int owned = patch->owned, row = patch->row + 1, column = patch->column + 1;
-    int middle = sdv_inside_index(grid, row, column);
-    int below = owned & (SDV_BOTTOM_LEFT | SDV_BOTTOM | SDV_BOTTOM_RIGHT) || patch->sharp;
-    int above = owned & (SDV_TOP_LEFT | SDV_TOP | SDV_TOP_RIGHT) || patch->sharp;
-    sdv_four p[16], u[4], bend = sdv_all(linear ? 0 : 0.125f);
+    int vertices = patch->owned >> 4;
+    return (patch->owned | vertices | vertices >> 1 | vertices << 3) & 15;
+}
+
+// A quad with one level to go: nine points at most, for which a polynomial is too much work.
+static void sdv_put_nine(const sdv_window *out, const subdiv_surface *surface,
+                         const sdv_patches *patches, int i, const sdv_grid *grid, const float *work)
+{
+    const sdv_order *order = &surface->order;
+    const sdv_patch *patch = &patches->items[i];
+    int sides = sdv_needed_sides(patch), sharp = patch->sharp, room[16];
+    const int *points = sdv_patch_points(surface, patches, i, sharp | (sides ^ 15), room);
+    sdv_four p[16], u[4], bend = sdv_all(surface->rules.linear ? 0 : 0.125f);
     sdv_load_points(points + 4, 8, work, p + 4);
-    if (below) sdv_load_points(points, 4, work, p);
-    if (above) sdv_load_points(points + 12, 4, work, p + 12);
-    if (patch->sharp) sdv_mirror_quad(patch, p);
-    for (int i = 0; i < 4; i++) u[i] = sdv_middle(p[4 + i], p[8 + i]);
-    sdv_put_point(out, middle, sdv_middle(u[1], u[2]));
-    if (owned & SDV_LEFT)
-        sdv_put_point(out, column > 1 ? middle - 1 : sdv_side_index(grid, 3, row),
+    if ((sides & 1) || sharp) sdv_load_points(points, 4, work, p);
+    if ((sides & 4) || sharp) sdv_load_points(points + 12, 4, work, p + 12);
+    if (sharp) sdv_mirror_quad(patch, p);
+    for (int k = 0; k < 4; k++) u[k] = sdv_middle(p[4 + k], p[8 + k]);
+    sdv_put_point(out, order->n == 2 ? sdv_first_inside(order, sdv_face_of(&order->cage, patch->h))
+                                     : sdv_inside_index(grid, patch->row + 1, patch->column + 1),
+                  sdv_middle(u[1], u[2]));
+    if (patch->owned & SDV_LEFT)
+        sdv_put_point(out, sdv_near_edge(order, grid, patch, 3),
                       sdv_spline_vertex(u[0], u[1], u[2], bend));
-    if (owned & SDV_RIGHT)
-        sdv_put_point(out, column + 1 < grid->size ? middle + 1 : sdv_side_index(grid, 1, row),
+    if (patch->owned & SDV_RIGHT)
+        sdv_put_point(out, sdv_near_edge(order, grid, patch, 1),
                       sdv_spline_vertex(u[1], u[2], u[3], bend));
-    if (below) sdv_put_three(out, grid, patch, p, bend, 0);
-    if (above) sdv_put_three(out, grid, patch, p + 4, bend, 1);
+    if (sides & 1) sdv_put_three(out, order, grid, patch, p, bend, 0, 1);
+    if (sides & 4) sdv_put_three(out, order, grid, patch, p + 4, bend, 3, 2);
 }
 
 // The control points of a quad, relative to its vertex 0, which is their origin.
@@ -6355,7 +6399,8 @@ static void sdv_begin_parts(const subdiv_surface *surface, const sdv_patches *pa
 {
     const sdv_rules *rules = &surface->rules;
     const sdv_patch *patch = &patches->items[i];
-    const int *points = patches->points + (size_t)sdv_control_points(rules) * (size_t)i;
+    int room[16];
+    const int *points = sdv_patch_points(surface, patches, i, patch->sharp, room);
     float h = 1.0f / (float)(1 << patches->depth), hh = rules->limit ? 0 : h * h;
     parts->up = NULL;
     parts->count = 1;
@@ -6411,7 +6456,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
                              const float *work, int face, int end, const sdv_window *out)
 {
     const sdv_order *order = &surface->order;
-    int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
+    int n = 1 << patches->depth, h = -1;
     int nine = !order->loop && n == 2 && !surface->rules.limit;
     int last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
@@ -6419,9 +6464,10 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
-        if (nine && !patch->up) {
-            sdv_put_nine(out, &grid, patch, patches->points + 16 * (size_t)i, linear, work);
+        int near = nine && !patch->up;
+        if (patch->h != h && !(near && order->n == 2)) sdv_grid_at(order, h = patch->h, &grid);
+        if (near) {
+            sdv_put_nine(out, surface, patches, i, &grid, work);
             continue;
         }
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
@@ -7620,7 +7666,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     mesh.corner_vertices = crease;
     mesh.crease_sharpness = mesh.corner_sharpness = forever;
     if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
-    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
+    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &scratch, &cage, &mesh);
     if (!context->result && loop && n == 2 && kind->ring)
         sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
     if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
@@ -9013,8 +9059,8 @@ static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int coun
 static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
 {
     const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
-    size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
-    const int *points = patches->points + i * (size_t)makers->width;
+    int i = (int)record[1] * 65536 + (int)record[2], room[16];
+    const int *points = sdv_patch_points(make->surface, patches, i, patches->items[i].sharp, room);
     double weights[3 * 16];
     for (int j = 0; j < makers->width; j++) {
         size_t group = makers->group * (size_t)(j / makers->lanes);
@@ -10079,7 +10125,7 @@ static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cag
 {
     subdiv_mesh shape = *mesh;
     shape.crease_count = shape.corner_count = shape.hole_count = 0;
-    sdv_cage_build(context, arena, arena, cage, &shape);
+    sdv_cage_build(context, arena, arena, arena, cage, &shape);
 }
 
 static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
@@ -10422,7 +10468,7 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     sdv_cage cage;
     subdiv_mesh shape = *mesh;
     shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
-    sdv_cage_build(&context, &arena, &arena, &cage, &shape);
+    sdv_cage_build(&context, &arena, &arena, &arena, &cage, &shape);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
     if (!context.result) {
         info->vertex_count = mesh->vertex_count;
@@ -13208,7 +13254,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     x.rules.triangles = cage->triangles;
     if (cut) sdv_copy_faces(&context, cut, &work, cage);
-    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.arena, &x.cage, &work);
     if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
     if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
