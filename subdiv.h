@@ -3314,6 +3314,10 @@ enum { SDV_BOTTOM = 1, SDV_RIGHT = 2, SDV_TOP = 4, SDV_LEFT = 8, SDV_BOTTOM_LEFT
 // Which control points the vertices of a face are (see the gathering functions).
 static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
 
+// Patches pay for so many levels at least.
+#define SDV_QUAD_PATCH_DEPTH 1
+#define SDV_LOOP_PATCH_DEPTH 2
+
 typedef struct sdv_patches {            // of one level
     int        count, depth;            // depth: levels to go
     sdv_patch *items;                   // [count] in the order of cage faces
@@ -3628,31 +3632,21 @@ static int sdv_point_at(const sdv_level *level, int h)
     return level->first_point + level->face_vertices[h];
 }
 
-#define SDV_ALL 255                     // sides and vertices
-
-// Of a quad the edges that bound the points of these sides and vertices.
-static int sdv_sides(int owned)
-{
-    int vertices = owned >> 4;
-    return (owned | vertices | vertices >> 1 | vertices << 3) & 15;
-}
-
-// The 4 x 4 control points. Each smooth edge adds the two points of the face across it, and each
-// vertex between two of them, which is in a ring, the one diagonally across; but none where the
-// edge bounds no point that is wanted.
+// The 4 x 4 control points. Each open edge adds the two points of the face across it, and each
+// vertex between two of them, which is in a ring, the one diagonally across. Sharp edges are
+// closed, and those beyond which nothing is needed.
 //
 //     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
 //      8  9 10 11
 //      4  5  6  7
 //      0  1  2  3
-static inline void sdv_gather_quad(const sdv_level *level, int h, int sharp, int wanted,
-                                   int *points)
+static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, int *points)
 {
     static const signed char diagonal[4] = { 0, 3, 15, 12 };
     static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
     const int *vertices = level->face_vertices, *across = level->across;
-    int first = level->first_point, closed = sharp | ~sdv_sides(wanted), before = closed >> 3;
-    for (int i = 0; i < 16 && (closed & 15); i++) points[i] = first + vertices[h];
+    int first = level->first_point, before = closed >> 3;
+    for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
     points[5] = first + vertices[h];
     points[6] = first + vertices[h + 1];
     points[10] = first + vertices[h + 2];
@@ -3683,31 +3677,22 @@ static inline void sdv_gather_quad(const sdv_level *level, int h, int sharp, int
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
-// The bits of owned that stand for the edges and vertices of a triangle.
-static const unsigned char sdv_triangle_edge[3] = { SDV_BOTTOM, SDV_RIGHT, SDV_LEFT };
-static const unsigned char sdv_triangle_vertex[3] = {
-    SDV_BOTTOM_LEFT, SDV_BOTTOM_RIGHT, SDV_TOP_LEFT };
-
-// Beyond each smooth edge: the point across and, around those of its ends that are wanted, the
-// next ones, as far as their fans go.
-static inline void sdv_gather_triangle(const sdv_level *level, int h, int wanted,
-                                       const sdv_patch *patch, int *points)
+static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch, int *points)
 {
+    const unsigned char *fan = patch->fan;
     const int *vertices = level->face_vertices, *across = level->across;
     const int first = level->first_point;
     for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
-    for (int i = 0; i < 3; i++) points[sdv_triangle_own[i]] = first + vertices[h + i];
     for (int i = 0; i < 3; i++) {
-        int next = i < 2 ? i + 1 : 0, q = across[h + i];
-        int here = wanted & sdv_triangle_vertex[i], there = wanted & sdv_triangle_vertex[next];
-        if ((patch->sharp >> i & 1) || !(here | there | (wanted & sdv_triangle_edge[i]))) continue;
-        int before = sdv_previous(level, q);
+        int after = i < 2 ? i + 1 : 0, q = across[h + i];
+        points[sdv_triangle_own[i]] = first + vertices[h + i];
+        if (patch->sharp >> i & 1) continue;
+        int at = sdv_next(level, q), before = sdv_previous(level, q);
         points[sdv_triangle_ring[i][5]] = first + vertices[before];
-        if (here && (patch->fan[i] == SDV_FAN_RING || patch->fan[i] == SDV_FAN_LAST))
-            points[sdv_triangle_ring[i][4]] =
-                first + vertices[sdv_previous(level, across[sdv_next(level, q)])];
-        if (there && (patch->fan[next] == SDV_FAN_RING || patch->fan[next] == SDV_FAN_FIRST))
-            points[sdv_triangle_ring[next][3]] =
+        if (fan[i] == SDV_FAN_RING || fan[i] == SDV_FAN_LAST)
+            points[sdv_triangle_ring[i][4]] = first + vertices[sdv_previous(level, across[at])];
+        if (fan[after] == SDV_FAN_RING || fan[after] == SDV_FAN_FIRST)
+            points[sdv_triangle_ring[after][3]] =
                 first + vertices[sdv_previous(level, across[before])];
     }
 }
@@ -3720,14 +3705,13 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
 }
 
-// The control points of a patch, whose face starts with face-vertex h: those that are needed for the
-// points of the wanted sides and vertices, for others any.
+// The control points of a patch, whose face starts with face-vertex h.
 static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
-                              const sdv_patch *patch, int h, int wanted, int *points)
+                              const sdv_patch *patch, int h, int closed, int *points)
 {
     if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
-    else if (rules->loop) sdv_gather_triangle(level, h, wanted, patch, points);
-    else sdv_gather_quad(level, h, patch->sharp, wanted, points);
+    else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
+    else sdv_gather_quad(level, h, closed, points);
 }
 
 // The number of the strips between two edges; 0 if they differ, or there are too many already.
@@ -3842,6 +3826,7 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
     int size = rules->loop ? 3 : 4, most = 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
     patches->depth = levels;
+    if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
     unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
     unsigned char *face_kinds = SDV_NEW(context, &scratch, unsigned char, level->face_count);
     for (int v = 0; v < level->vertex_count && !context->result; v++)
@@ -3862,7 +3847,7 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
                             patch))
             continue;
         if (width)
-            sdv_gather(level, rules, patch, h, SDV_ALL,
+            sdv_gather(level, rules, patch, h, patch->sharp,
                        patches->points + width * (size_t)patches->count);
         sdv_claim(level, h, size, patch);
         level->rough[f] = 0;
@@ -6142,14 +6127,15 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
-// The control points of patch i, in room [16] if they have to be gathered. wanted: see sdv_gather.
+// The control points of patch i, in room [16] if they have to be gathered. closed: see
+// sdv_gather_quad.
 static inline const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
-                                          int i, int wanted, int *room)
+                                          int i, int closed, int *room)
 {
     size_t width = (size_t)sdv_control_points(&surface->rules);
     if (patches->points) return patches->points + width * (size_t)i;
     sdv_gather(&surface->order.cage, &surface->rules, &patches->items[i], patches->items[i].h,
-               wanted, room);
+               closed, room);
     return room;
 }
 
@@ -6196,14 +6182,21 @@ static inline void sdv_put_three(const sdv_window *out, const sdv_order *order,
     }
 }
 
+// Of a quad the edges that bound a point that it owns.
+static int sdv_needed_sides(const sdv_patch *patch)
+{
+    int vertices = patch->owned >> 4;
+    return (patch->owned | vertices | vertices >> 1 | vertices << 3) & 15;
+}
+
 // A quad with one level to go: nine points at most, for which a polynomial is too much work.
 static void sdv_put_nine(const sdv_window *out, const subdiv_surface *surface,
                          const sdv_patches *patches, int i, const sdv_grid *grid, const float *work)
 {
     const sdv_order *order = &surface->order;
     const sdv_patch *patch = &patches->items[i];
-    int sides = sdv_sides(patch->owned), sharp = patch->sharp, room[16];
-    const int *points = sdv_patch_points(surface, patches, i, patch->owned, room);
+    int sides = sdv_needed_sides(patch), sharp = patch->sharp, room[16];
+    const int *points = sdv_patch_points(surface, patches, i, sharp | (sides ^ 15), room);
     sdv_four p[16], u[4], bend = sdv_all(surface->rules.linear ? 0 : 0.125f);
     sdv_load_points(points + 4, 8, work, p + 4);
     if ((sides & 1) || sharp) sdv_load_points(points, 4, work, p);
@@ -6232,75 +6225,6 @@ static sdv_four sdv_load_quad(const sdv_patch *patch, const int *points, const f
     for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], origin);
     if (patch->sharp) sdv_mirror_quad(patch, p);
     return origin;
-}
-
-// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise,
-// stand r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4];
-// r[5] across the edge after.
-static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
-{
-    for (int i = 0; i < 3; i++) {
-        if (patch->fan[i] == SDV_FAN_RING) continue;
-        const int *r = sdv_triangle_ring[i];
-        sdv_four v = p[sdv_triangle_own[i]];
-        if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
-        if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
-        if (patch->fan[i] == SDV_FAN_FIRST) p[r[4]] = sdv_minus(sdv_plus(v, p[r[3]]), p[r[2]]);
-        if (patch->fan[i] == SDV_FAN_LAST) p[r[3]] = sdv_minus(sdv_plus(v, p[r[4]]), p[r[5]]);
-        if (patch->fan[i] == SDV_FAN_MIDDLE) {
-            p[r[3]] = sdv_minus(sdv_plus(v, p[r[2]]), p[r[1]]);
-            p[r[4]] = sdv_minus(sdv_plus(v, p[r[5]]), p[r[0]]);
-        }
-        if (patch->fan[i] == SDV_FAN_CORNER) {
-            p[r[3]] = sdv_mirror(v, p[r[0]]);
-            p[r[4]] = sdv_mirror(v, p[r[1]]);
-        }
-    }
-}
-
-// Sums for the formulas below: 2a, a + b, ...
-static sdv_four sdv_twice(sdv_four a)
-{
-    return sdv_plus(a, a);
-}
-
-static sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
-{
-    return sdv_plus(sdv_plus(a, b), c);
-}
-
-static sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
-}
-
-// A triangle with one level to go: six points at most, relative to the vertices.
-static void sdv_put_six(const sdv_window *out, const subdiv_surface *surface,
-                        const sdv_patches *patches, int i, const sdv_grid *grid, const float *work)
-{
-    const sdv_order *order = &surface->order;
-    const sdv_patch *patch = &patches->items[i];
-    int linear = surface->rules.linear, owned = patch->owned, room[16];
-    const int *points = sdv_patch_points(surface, patches, i, owned, room);
-    sdv_four p[12], end = sdv_all(linear ? 0.5f : 0.375f), beside = sdv_all(linear ? 0 : 0.125f);
-    sdv_four around = sdv_all(linear ? 0 : 0.0625f);
-    sdv_load_points(points, 12, work, p);
-    sdv_mirror_triangle(patch, p);
-    for (int k = 0; k < 3; k++) {
-        const int *r = sdv_triangle_ring[k];
-        sdv_four v = p[sdv_triangle_own[k]];
-        if (owned & sdv_triangle_edge[k]) {
-            sdv_four d = sdv_plus(sdv_minus(p[r[1]], v), sdv_minus(p[r[5]], v));
-            d = sdv_plus(sdv_times(end, sdv_minus(p[r[0]], v)), sdv_times(beside, d));
-            sdv_put_point(out, sdv_near_edge(order, grid, patch, k), sdv_plus(v, d));
-        }
-        if (owned & sdv_triangle_vertex[k]) {
-            sdv_four d = sdv_minus(p[r[0]], v);
-            for (int j = 1; j < 6; j++) d = sdv_plus(d, sdv_minus(p[r[j]], v));
-            sdv_put_point(out, sdv_near_vertex(order, grid, patch, k),
-                          sdv_plus(v, sdv_times(around, d)));
-        }
-    }
 }
 
 // The polynomial of a quad, hx^2 and hy^2 being those of the last level along and up: cubics up the
@@ -6337,6 +6261,46 @@ static inline void sdv_strip_points(const sdv_strips *strips, const sdv_strip *s
             p[j * step] = sdv_plus(outer, inner);
         }
     }
+}
+
+// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise,
+// stand r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4];
+// r[5] across the edge after.
+static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
+{
+    for (int i = 0; i < 3; i++) {
+        const int *r = sdv_triangle_ring[i];
+        sdv_four v = p[sdv_triangle_own[i]];
+        if (patch->fan[i] == SDV_FAN_RING) continue;
+        if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
+        if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
+        if (patch->fan[i] == SDV_FAN_FIRST) p[r[4]] = sdv_minus(sdv_plus(v, p[r[3]]), p[r[2]]);
+        if (patch->fan[i] == SDV_FAN_LAST) p[r[3]] = sdv_minus(sdv_plus(v, p[r[4]]), p[r[5]]);
+        if (patch->fan[i] == SDV_FAN_MIDDLE) {
+            p[r[3]] = sdv_minus(sdv_plus(v, p[r[2]]), p[r[1]]);
+            p[r[4]] = sdv_minus(sdv_plus(v, p[r[5]]), p[r[0]]);
+        }
+        if (patch->fan[i] == SDV_FAN_CORNER) {
+            p[r[3]] = sdv_mirror(v, p[r[0]]);
+            p[r[4]] = sdv_mirror(v, p[r[1]]);
+        }
+    }
+}
+
+// Sums for the formulas below: 2a, a + b, ...
+static sdv_four sdv_twice(sdv_four a)
+{
+    return sdv_plus(a, a);
+}
+
+static sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
+{
+    return sdv_plus(sdv_plus(a, b), c);
+}
+
+static sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
 }
 
 // The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial q of its
@@ -6436,7 +6400,7 @@ static void sdv_begin_parts(const subdiv_surface *surface, const sdv_patches *pa
     const sdv_rules *rules = &surface->rules;
     const sdv_patch *patch = &patches->items[i];
     int room[16];
-    const int *points = sdv_patch_points(surface, patches, i, SDV_ALL, room);
+    const int *points = sdv_patch_points(surface, patches, i, patch->sharp, room);
     float h = 1.0f / (float)(1 << patches->depth), hh = rules->limit ? 0 : h * h;
     parts->up = NULL;
     parts->count = 1;
@@ -6493,18 +6457,17 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
 {
     const sdv_order *order = &surface->order;
     int n = 1 << patches->depth, h = -1;
-    int last_level = n == 2 && !surface->rules.limit;
+    int nine = !order->loop && n == 2 && !surface->rules.limit;
     int last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
     sdv_parts parts;
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        int near = last_level && !patch->up;
+        int near = nine && !patch->up;
         if (patch->h != h && !(near && order->n == 2)) sdv_grid_at(order, h = patch->h, &grid);
         if (near) {
-            if (order->loop) sdv_put_six(out, surface, patches, i, &grid, work);
-            else sdv_put_nine(out, surface, patches, i, &grid, work);
+            sdv_put_nine(out, surface, patches, i, &grid, work);
             continue;
         }
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
@@ -9097,7 +9060,7 @@ static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, con
 {
     const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
     int i = (int)record[1] * 65536 + (int)record[2], room[16];
-    const int *points = sdv_patch_points(make->surface, patches, i, SDV_ALL, room);
+    const int *points = sdv_patch_points(make->surface, patches, i, patches->items[i].sharp, room);
     double weights[3 * 16];
     for (int j = 0; j < makers->width; j++) {
         size_t group = makers->group * (size_t)(j / makers->lanes);
@@ -13313,6 +13276,8 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS
+#undef SDV_QUAD_PATCH_DEPTH
+#undef SDV_LOOP_PATCH_DEPTH
 #undef SDV_SIMD
 #endif // SUBDIV_IMPLEMENTATION
 
