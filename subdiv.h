@@ -1381,18 +1381,25 @@ static size_t sdv_find_outside(const int *numbers, size_t count, int low, int hi
     return i;
 }
 
-// The first float that is infinite or not a number; count if there is none.
-static size_t sdv_find_endless(const float *numbers, size_t count)
+// The first float of this exponent or more, biased as in its bits; count if there is none.
+#define SDV_ENDLESS 255                 // infinite or not a number
+#define SDV_HUGE 243                    // 2^116 or more
+
+static size_t sdv_find_exponent(const float *numbers, size_t count, uint32_t exponent)
 {
+    uint32_t lack = (uint32_t)(256 - exponent) << 23, bits;
     size_t i = 0;
-    for (uint32_t bad = 0, bits; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
+    for (uint32_t bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
         for (size_t k = 0; k < SDV_CHECKED; k++) {
             memcpy(&bits, &numbers[i + k], sizeof bits);
-            bad |= (bits & 0x7fffffff) + 0x800000;              // the exponent is 255
+            bad |= (bits & 0x7fffffff) + lack;
         }
         if (bad >> 31) break;
     }
-    while (i < count && numbers[i] - numbers[i] == 0) i++;
+    for (; i < count; i++) {
+        memcpy(&bits, &numbers[i], sizeof bits);
+        if ((bits & 0x7fffffff) >> 23 >= exponent) break;
+    }
     return i;
 }
 
@@ -1483,7 +1490,7 @@ static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, int
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
-    size_t all = (size_t)width * (size_t)count, i = sdv_find_endless(values, all);
+    size_t all = (size_t)width * (size_t)count, i = sdv_find_exponent(values, all, SDV_ENDLESS);
     if (i == all) return;
     int v = (int)(i / (size_t)width);
     sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, width == 3 ? v : -1,
@@ -1860,9 +1867,11 @@ static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
             }
         }
     }
-    for (int e = 0; e < level->edge_count && !context->result; e++)
-        if (cage->edge_nonmanifold[e]) sdv_reverse_ring(level->across, level->edge_first[e]);
     sdv_arena_free(&scratch);
+    if (context->result) return;
+    const unsigned char *odd = cage->edge_nonmanifold, *all_end = odd + level->edge_count;
+    for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(all_end - odd))) != NULL; odd++)
+        sdv_reverse_ring(level->across, level->edge_first[odd - cage->edge_nonmanifold]);
 }
 
 // The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
@@ -1965,6 +1974,9 @@ static void sdv_user_sharpness(sdv_context *context, sdv_arena *scratch, sdv_cag
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
     }
+    for (int i = 0; i < 2 * mesh->crease_count; i++)
+        if (edges[i / 2] >= 0 && level->sharpness[level->edge_first[edges[i / 2]]] > 0)
+            level->creased[mesh->crease_vertices[i]] = 1;
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
             sdv_clamp_sharpness(mesh->corner_sharpness[i]);
@@ -2028,11 +2040,10 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
-        if (level->sharpness[h] <= 0 && !odd && !sdv_is_boundary(level, h)) continue;
+        if (!odd && !sdv_is_boundary(level, h)) continue;
         int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
         if (odd) nonmanifold[a] = nonmanifold[b] = 1;
-        if (level->sharpness[h] < SUBDIV_INFINITE && (odd || sdv_is_boundary(level, h)))
-            sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        if (level->sharpness[h] < SUBDIV_INFINITE) sdv_sharpen_edge(level, e, SDV_IMPLIED);
         level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
@@ -2073,8 +2084,8 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *le
 }
 
 // Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
-// points what else its patches need, scratch the rest.
-static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *points,
+// around what its patches are gathered from besides, scratch the rest.
+static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *around,
                            sdv_arena *scratch, sdv_cage *cage, const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
@@ -2082,7 +2093,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *poi
     sdv_cage_faces(context, keep, level, mesh);
     if (context->result) return;
     level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
-    level->across = SDV_NEW(context, points, int, level->face_vertex_count);
+    level->across = SDV_NEW(context, around, int, level->face_vertex_count);
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
@@ -3817,34 +3828,30 @@ static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *ki
     return size == 4 ? found | kinds[v[3]] : found;
 }
 
-// Finds the patches of a level and marks the faces of the core that have none as rough.
+// Finds the patches of a level and marks the faces of the core that have none as rough. At most
+// there are as many as faces that are not rough by their vertices; they are counted if it matters.
 static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, int levels, sdv_patches *patches)
 {
     sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
-    int size = rules->loop ? 3 : 4, most = 0;
+    int size = rules->loop ? 3 : 4, most = level->face_count;
+    size_t width = level->places || levels == SDV_FOREVER ? (size_t)sdv_control_points(rules) : 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
     patches->depth = levels;
     if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
     unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    unsigned char *face_kinds = SDV_NEW(context, &scratch, unsigned char, level->face_count);
     for (int v = 0; v < level->vertex_count && !context->result; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int found = level->core[f] ? sdv_face_kinds(level, kinds, f, size) : SDV_ROUGH;
-        face_kinds[f] = (unsigned char)found;
-        most += !(found & SDV_ROUGH);
-    }
-    size_t width = level->places || levels == SDV_FOREVER ? (size_t)sdv_control_points(rules) : 0;
+    for (int f = 0; f < level->face_count && width && !context->result; f++)
+        most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
     if (width) patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        if (face_kinds[f] & SDV_ROUGH) continue;
+        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
         sdv_patch *patch = &patches->items[patches->count];
-        int h = sdv_face_start(level, f);
-        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE,
-                            patch))
+        if (!level->core[f] || (found & SDV_ROUGH)) continue;
+        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, found == SDV_FREE, patch))
             continue;
         if (width)
             sdv_gather(level, rules, patch, h, patch->sharp,
@@ -4114,7 +4121,7 @@ static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *s
 }
 
 // Level 0 of the values. Arenas as for sdv_cage_build: to keep goes source, too.
-static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *points,
+static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *around,
                             sdv_arena *scratch, sdv_seams *seams, int *own_face, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
@@ -4130,7 +4137,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *po
     sdv_seam_vertices(context, keep, scratch, seams);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
-    level->across = SDV_NEW(context, points, int, level->face_vertex_count);
+    level->across = SDV_NEW(context, around, int, level->face_vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
@@ -4643,7 +4650,8 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
-    sdv_arena points;                   // of what makes points alone: rows and patches
+    sdv_arena points;                   // of what makes points alone: rows and patches,
+    sdv_arena across;                   // and what those of level 0 are gathered from
     int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
@@ -5349,6 +5357,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     for (int i = 0; i < surface->levels && level.face_count && !context->result; i++) {
         sdv_prepare_level(&writer, surface, i, &level, &next, &next_arena);
+        if (i == 0 && surface->patches[0].count == 0) sdv_arena_free(&surface->across);
         sdv_arena_free(arena);
         *arena = next_arena;
         next_arena = sdv_scratch();
@@ -5486,7 +5495,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     sdv_like(context, made, surface);
     sdv_new_levels(context, made);
     if (!context->result)
-        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->points, &scratch,
+        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->across, &scratch,
                         &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
@@ -5615,7 +5624,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         return;
     }
 
-    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->points, &scratch,
+    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->across, &scratch,
                    &built, &work);
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
@@ -5736,6 +5745,13 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
     sdv_arena_free(&scratch);
 }
 
+// What the fine faces do not need.
+static void sdv_free_points(subdiv_surface *surface)
+{
+    sdv_arena_free(&surface->points);
+    sdv_arena_free(&surface->across);
+}
+
 // The surface is itself the arena's first block, so the arena is taken out before it is freed.
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
@@ -5743,7 +5759,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
-    sdv_arena_free(&surface->points);
+    sdv_free_points(surface);
     sdv_arena_free(&arena);
 }
 
@@ -7261,11 +7277,9 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
                       const float **positions)
 {
     size_t count = 3 * (size_t)surface->cage_vertex_count;
-    int huge = 0;
+    if (*positions && sdv_find_exponent(*positions, count, SDV_HUGE) == count) return 1;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
     if (context->result || surface->levels == 0) return 1;
-    for (size_t i = 0; i < count; i++) huge |= fabsf((*positions)[i]) > FLT_MAX / 4096;
-    if (!huge) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
     memcpy(copy, *positions, count * sizeof(float));
@@ -7315,8 +7329,8 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
     sdv_arena_free(&arena);
-    if (once) sdv_arena_free(&once->points);
-    if (once && once->uv) sdv_arena_free(&once->uv->points);
+    if (once) sdv_free_points(once);
+    if (once && once->uv) sdv_free_points(once->uv);
     if (!context.result) {
         sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
