@@ -2095,10 +2095,10 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *aro
     level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
     level->across = SDV_NEW(context, around, int, level->face_vertex_count);
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
+    sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
     cage->vertex_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->vertex_count);
-    sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
     memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
@@ -4135,10 +4135,10 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *ar
     sdv_seam_faces(context, keep, seams, own_face);
     if (context->result) return;
     sdv_seam_vertices(context, keep, scratch, seams);
-    level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
-    level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
     level->across = SDV_NEW(context, around, int, level->face_vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
+    level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
     for (int i = 0; i < level->vertex_count; i++) level->partner[i] = -1;
