@@ -4669,7 +4669,8 @@ struct subdiv_surface {
     sdv_order order;
     int       face_count;               // all faces, also those without values
     unsigned char *hole;                // [face_count]
-    int      *first_face;               // [face_count + 1] of each one's fine faces
+    int      *first_face;               // [face_count + 1] of each one's fine faces; NULL: none are
+                                        // left out, see sdv_first_fine_face
     int      *cage_face;                // [face_count] the user's face; NULL: the same
     subdiv_mesh fine;                   // the result without positions; without faces if levels > 0
 
@@ -5388,20 +5389,35 @@ static void sdv_set_order(subdiv_surface *surface)
         order->cage.face_count ? sdv_first_inside(order, order->cage.face_count) : vertices;
 }
 
+// The first fine face of face f, or how many there are before any.
+static int sdv_first_fine_face(const subdiv_surface *surface, int f)
+{
+    const sdv_order *order = &surface->order;
+    if (surface->first_face) return surface->first_face[f];
+    return order->loop ? f * (order->n * order->n)
+                       : sdv_face_start(&order->cage, f) * (order->m * order->m);
+}
+
 // The faces of the result.
-static void sdv_count_fine_faces(subdiv_surface *surface, int keep_holes)
+static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, int keep_holes)
 {
     subdiv_mesh *fine = &surface->fine;
-    const sdv_order *order = &surface->order;
-    fine->face_size = order->loop ? 3 : 4;
+    int holes = 0, count = 0, *first_face;
+    fine->face_size = surface->order.loop ? 3 : 4;
+    for (int f = 0; f < surface->face_count; f++) holes += surface->hole[f] != 0;
+    fine->face_count = sdv_first_fine_face(surface, surface->face_count);
+    if (!holes) return;
+    first_face = SDV_NEW(context, &surface->arena, int, (size_t)surface->face_count + 1);
+    if (context->result) return;
     for (int f = 0; f < surface->face_count; f++) {
-        int size = sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f);
-        int parts = order->loop ? order->n * order->n : size * (order->m * order->m);
-        surface->first_face[f] = fine->face_count;
-        if (!surface->hole[f] || keep_holes) fine->face_count += parts;
+        int parts = sdv_first_fine_face(surface, f + 1) - sdv_first_fine_face(surface, f);
+        first_face[f] = count;
+        if (!surface->hole[f] || keep_holes) count += parts;
         if (surface->hole[f] && keep_holes) fine->hole_count += parts;
     }
-    surface->first_face[surface->face_count] = fine->face_count;
+    first_face[surface->face_count] = count;
+    fine->face_count = count;
+    surface->first_face = first_face;
 }
 
 // SUBDIV_EXACT has no result: no points, no faces.
@@ -5476,7 +5492,8 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
     made->first_face = SDV_NEW(context, &made->arena, int, (size_t)surface->face_count + 1);
     made->own_face = SDV_NEW(context, &made->arena, int, surface->face_count);
     if (context->result) return;
-    sdv_copy(made->first_face, surface->first_face, (size_t)surface->face_count + 1, sizeof(int));
+    for (int f = 0; f <= surface->face_count; f++)
+        made->first_face[f] = sdv_first_fine_face(surface, f);
 }
 
 // A surface of values over a surface that is being prepared from a cage.
@@ -5555,7 +5572,8 @@ static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
         int face = cage->statement_faces[i];
         size_t faces = (size_t)surface->face_count;
         while (f < faces && (surface->cage_face ? surface->cage_face[f] : (int)f) < face) f++;
-        fine->statement_faces[i] = surface->first_face ? surface->first_face[f] : (int)f;
+        int same = surface->levels == 0 || surface->exact;
+        fine->statement_faces[i] = same ? (int)f : sdv_first_fine_face(surface, (int)f);
         fine->statements[i] = strcpy(text, cage->statements[i]);
         text += strlen(text) + 1;
     }
@@ -5579,7 +5597,7 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 }
 
 // The cage's rules, and what the result will be.
-static void sdv_set_rules(subdiv_surface *surface, const subdiv_mesh *cage, const sdv_cage *built,
+static void sdv_set_rules(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage, const sdv_cage *built,
                           const subdiv_options *opt)
 {
     surface->order.cage = built->level;
@@ -5594,7 +5612,7 @@ static void sdv_set_rules(subdiv_surface *surface, const subdiv_mesh *cage, cons
     surface->rules.creasing = cage->creasing;
     surface->rules.triangles = cage->triangles;
     sdv_set_order(surface);
-    sdv_count_fine_faces(surface, opt && opt->keep_holes);
+    sdv_count_fine_faces(context, surface, opt && opt->keep_holes);
 }
 
 // Prepares a surface for the positions and, in made, for values, if there are any; or, if
@@ -5629,10 +5647,9 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     sdv_new_levels(context, surface);
-    surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
     if (!context->result) {
-        sdv_set_rules(surface, cage, &built, opt);
-        if (made) sdv_prepare_values(context, made, surface, &work, &built, &values);
+        sdv_set_rules(context, surface, cage, &built, opt);
+        if (made && !context->result) sdv_prepare_values(context, made, surface, &work, &built, &values);
     }
     if (!context->result && !alone && surface->exact) {
         sdv_no_result(surface);
@@ -7204,7 +7221,7 @@ static void sdv_fine_faces_job(void *context, int job)
     const subdiv_surface *surface = out->surface;
     int end = sdv_share(surface->face_count, job + 1, out->jobs);
     for (int f = sdv_share(surface->face_count, job, out->jobs); f < end; f++) {
-        int first = surface->first_face[f], last = surface->first_face[f + 1];
+        int first = sdv_first_fine_face(surface, f), last = sdv_first_fine_face(surface, f + 1);
         int own = surface->own_face ? surface->own_face[f] : f;
         size_t size = (size_t)surface->fine.face_size;
         if (first == last) continue;
@@ -7257,8 +7274,8 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
         return;
     }
     for (int f = 0; f < surface->cage_face_count && surface->fine.hole_count; f++) {
-        int end = surface->hole[f] ? surface->first_face[f + 1] : 0;
-        for (int i = surface->first_face[f]; i < end; i++) *holes++ = i;
+        int end = surface->hole[f] ? sdv_first_fine_face(surface, f + 1) : 0;
+        for (int i = sdv_first_fine_face(surface, f); i < end; i++) *holes++ = i;
     }
 }
 
@@ -12511,10 +12528,11 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     const subdiv_surface *uv = surface->uv;
     int size = surface->fine.face_size, statement = 0;
     for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
-        if (surface->first_face[f] == surface->first_face[f + 1]) continue;
+        int first = sdv_first_fine_face(surface, f);
+        if (first == sdv_first_fine_face(surface, f + 1)) continue;
         int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
-        statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
+        statement = sdv_write_statements(out, &surface->fine, statement, first);
         for (int g = 0; g < grids; g++) {
             sdv_grid grid, uv_grid;
             sdv_grid_at(order, start + g, &grid);
