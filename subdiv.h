@@ -5309,7 +5309,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_split_new(context, &scratch, level, &split);
     if (!last) sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
-        sdv_find_active(level, &split);
+        if (!last || !rules->loop) sdv_find_active(level, &split);
         if (!last) sdv_number_faces(level, &split, rules->loop);
         if (!last) sdv_number_points(level, &split, rules->loop);
         else if (!rules->loop) sdv_number_face_points(level, &split, 0);
@@ -5597,8 +5597,8 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 }
 
 // The cage's rules, and what the result will be.
-static void sdv_set_rules(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage, const sdv_cage *built,
-                          const subdiv_options *opt)
+static void sdv_set_rules(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage,
+                          const sdv_cage *built, const subdiv_options *opt)
 {
     surface->order.cage = built->level;
     surface->hole = built->hole;
@@ -5649,7 +5649,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     sdv_new_levels(context, surface);
     if (!context->result) {
         sdv_set_rules(context, surface, cage, &built, opt);
-        if (made && !context->result) sdv_prepare_values(context, made, surface, &work, &built, &values);
+        if (made && !context->result)
+            sdv_prepare_values(context, made, surface, &work, &built, &values);
     }
     if (!context->result && !alone && surface->exact) {
         sdv_no_result(surface);
@@ -6172,24 +6173,22 @@ static inline const int *sdv_patch_points(const subdiv_surface *surface, const s
     return room;
 }
 
-// Where the point of vertex i of a patch with one level to go stands, and that of edge i. On level 1
-// of the result its grid is the whole cage face.
+// Where the point of vertex i of a quad with one level to go stands, and that of edge i. If there
+// is one level in all, its grid is the whole cage face.
 static inline int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
                                   const sdv_patch *patch, int i)
 {
-    const int (*at)[2] = order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    const int *at = sdv_corner_quad[i];
     if (order->n == 2) return order->cage.face_vertices[patch->h + i];
-    return sdv_grid_index(grid, patch->row + patch->step * at[i][0],
-                          patch->column + patch->step * at[i][1]);
+    return sdv_quad_index(grid, patch->row + at[0], patch->column + at[1]);
 }
 
 static inline int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
                                 const sdv_patch *patch, int i)
 {
-    const int (*at)[2] = order->loop ? sdv_corner_triangle : sdv_corner_quad;
+    const int *a = sdv_corner_quad[i], *b = sdv_corner_quad[i + 1];
     if (order->n == 2) return order->first_edge_point + order->cage.face_edges[patch->h + i];
-    return sdv_grid_index(grid, patch->row + patch->step * (at[i][0] + at[i + 1][0]) / 2,
-                          patch->column + patch->step * (at[i][1] + at[i + 1][1]) / 2);
+    return sdv_quad_index(grid, patch->row + (a[0] + b[0]) / 2, patch->column + (a[1] + b[1]) / 2);
 }
 
 // The points of the bottom or top row that a patch owns, from rows of control points; a and b are
