@@ -1387,7 +1387,7 @@ static size_t sdv_find_outside(const int *numbers, size_t count, int low, int hi
 
 static size_t sdv_find_exponent(const float *numbers, size_t count, uint32_t exponent)
 {
-    uint32_t lack = (uint32_t)(256 - exponent) << 23, bits;
+    uint32_t lack = (256 - exponent) << 23, bits;
     size_t i = 0;
     for (uint32_t bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
         for (size_t k = 0; k < SDV_CHECKED; k++) {
@@ -1869,8 +1869,8 @@ static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
     }
     sdv_arena_free(&scratch);
     if (context->result) return;
-    const unsigned char *odd = cage->edge_nonmanifold, *all_end = odd + level->edge_count;
-    for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(all_end - odd))) != NULL; odd++)
+    const unsigned char *odd = cage->edge_nonmanifold, *behind = odd + level->edge_count;
+    for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(behind - odd))) != NULL; odd++)
         sdv_reverse_ring(level->across, level->edge_first[odd - cage->edge_nonmanifold]);
 }
 
@@ -3656,19 +3656,19 @@ static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, in
     static const signed char diagonal[4] = { 0, 3, 15, 12 };
     static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
     const int *vertices = level->face_vertices, *across = level->across;
-    int first = level->first_point, before = closed >> 3;
+    int first = level->first_point;
     for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
     points[5] = first + vertices[h];
     points[6] = first + vertices[h + 1];
     points[10] = first + vertices[h + 2];
     points[9] = first + vertices[h + 3];
-    for (int i = 0; i < 4; before = closed >> i++) {
+    for (int i = 0; i < 4; i++) {
         if (closed >> i & 1) continue;
         int q = across[h + i], quad = sdv_quad_start(level, q), turn = q - quad;
         int corner = across[quad + ((turn + 1) & 3)];               // from vertex i on
         points[beside[i]] = first + vertices[quad + ((turn + 2) & 3)];
         points[next[i]] = first + vertices[quad + ((turn + 3) & 3)];
-        if (before & 1) continue;
+        if (closed >> ((i + 3) & 3) & 1) continue;
         quad = sdv_quad_start(level, corner);
         points[diagonal[i]] = first + vertices[quad + ((corner - quad + 3) & 3)];
     }
@@ -3799,11 +3799,12 @@ static inline void sdv_mark_edge(const int *across, int h, unsigned char *done)
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
-// has an edge or vertex writes its points, unless a level before did.
+// has an edge or vertex writes its points, unless a level before did. So the vertex of h and the
+// edge that leads on become done; returns the bits of those that were not.
 static inline int sdv_claim_corner(const sdv_level *level, int h, int bit)
 {
-    unsigned char *edge = &level->edge_done[h], *vertex;
-    vertex = &level->vertex_done[level->face_vertices[h]];
+    unsigned char *edge = &level->edge_done[h];
+    unsigned char *vertex = &level->vertex_done[level->face_vertices[h]];
     int owned = !*vertex << (4 + bit) | !*edge << bit;
     *vertex = 1;
     sdv_mark_edge(level->across, h, level->edge_done);
