@@ -4651,8 +4651,8 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
-    sdv_arena points;                   // of what makes points alone: rows and patches,
-    sdv_arena across;                   // and what those of level 0 are gathered from
+    sdv_arena points;                   // of what makes points alone: rows and patches;
+    sdv_arena around;                   // those of level 0 and what they are gathered from
     int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
@@ -5299,8 +5299,8 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(writer, &surface->points, level, rules, surface->levels - depth,
-                     &surface->patches[depth]);
+    sdv_find_patches(writer, depth ? &surface->points : &surface->around, level, rules,
+                     surface->levels - depth, &surface->patches[depth]);
     if (!context->result)
         sdv_find_nets(context, &surface->points, level, rules, surface->levels - depth,
                       &surface->nets[depth]);
@@ -5336,6 +5336,15 @@ static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const 
     sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
 }
 
+// Level 0's patches and what they are gathered from: one block of memory.
+static void sdv_reserve_around(sdv_context *context, subdiv_surface *surface,
+                               const subdiv_mesh *work)
+{
+    size_t across = sdv_face_vertex_count(work) * sizeof(int);
+    sdv_reserve(context, &surface->around,
+                across + (size_t)work->face_count * sizeof(sdv_patch) + 64);
+}
+
 // See >>exact-surface.
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -5359,7 +5368,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     for (int i = 0; i < surface->levels && level.face_count && !context->result; i++) {
         sdv_prepare_level(&writer, surface, i, &level, &next, &next_arena);
-        if (i == 0 && surface->patches[0].count == 0) sdv_arena_free(&surface->across);
+        if (i == 0 && surface->patches[0].count == 0) sdv_arena_free(&surface->around);
         sdv_arena_free(arena);
         *arena = next_arena;
         next_arena = sdv_scratch();
@@ -5512,8 +5521,9 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.rule = values->rule;
     sdv_like(context, made, surface);
     sdv_new_levels(context, made);
+    if (!made->exact) sdv_reserve_around(context, made, work);
     if (!context->result)
-        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->across, &scratch,
+        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->around, &scratch,
                         &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
@@ -5643,7 +5653,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         return;
     }
 
-    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->across, &scratch,
+    if (!surface->exact) sdv_reserve_around(context, surface, &work);
+    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->around, &scratch,
                    &built, &work);
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
@@ -5768,7 +5779,7 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
 static void sdv_free_points(subdiv_surface *surface)
 {
     sdv_arena_free(&surface->points);
-    sdv_arena_free(&surface->across);
+    sdv_arena_free(&surface->around);
 }
 
 // The surface is itself the arena's first block, so the arena is taken out before it is freed.
