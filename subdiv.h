@@ -1422,18 +1422,25 @@ static size_t sdv_find_outside(const int *numbers, size_t count, int low, int hi
     return i;
 }
 
-// The first float that is infinite or not a number; count if there is none.
-static size_t sdv_find_endless(const float *numbers, size_t count)
+// The first float of this exponent or more, biased as in its bits; count if there is none.
+#define SDV_ENDLESS 255                 // infinite or not a number
+#define SDV_HUGE 243                    // 2^116 or more
+
+static size_t sdv_find_exponent(const float *numbers, size_t count, uint32_t exponent)
 {
+    uint32_t lack = (256 - exponent) << 23, bits;
     size_t i = 0;
-    for (uint32_t bad = 0, bits; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
+    for (uint32_t bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
         for (size_t k = 0; k < SDV_CHECKED; k++) {
             memcpy(&bits, &numbers[i + k], sizeof bits);
-            bad |= (bits & 0x7fffffff) + 0x800000;              // the exponent is 255
+            bad |= (bits & 0x7fffffff) + lack;
         }
         if (bad >> 31) break;
     }
-    while (i < count && numbers[i] - numbers[i] == 0) i++;
+    for (; i < count; i++) {
+        memcpy(&bits, &numbers[i], sizeof bits);
+        if ((bits & 0x7fffffff) >> 23 >= exponent) break;
+    }
     return i;
 }
 
@@ -1524,7 +1531,7 @@ static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, int
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
-    size_t all = (size_t)width * (size_t)count, i = sdv_find_endless(values, all);
+    size_t all = (size_t)width * (size_t)count, i = sdv_find_exponent(values, all, SDV_ENDLESS);
     if (i == all) return;
     int v = (int)(i / (size_t)width);
     sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, width == 3 ? v : -1,
@@ -1697,6 +1704,12 @@ static inline int sdv_next(const sdv_level *level, int h)
     return sdv_next_any(level, h);
 }
 
+// The first face-vertex of the quad of h.
+static inline int sdv_quad_start(const sdv_level *level, int h)
+{
+    return level->face_size ? h & ~3 : level->face_starts[level->face_of[h]];
+}
+
 // The number of vertices of the face of h.
 static int sdv_size_of(const sdv_level *level, int h)
 {
@@ -1736,13 +1749,12 @@ static sdv_place sdv_first_place(int h)
     return place;
 }
 
-// The arrays that each level has besides face_vertices; chaikin: and half_sharpness.
+// The arrays that each level has besides face_vertices and across; chaikin: and half_sharpness.
 static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level, int chaikin)
 {
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     size_t face_vertices = (size_t)level->face_vertex_count;
-    sdv_reserve(context, arena, 24 * face_vertices + 32 * faces + 16 * vertices + 1024);
-    level->across = SDV_NEW(context, arena, int, face_vertices);
+    sdv_reserve(context, arena, 16 * face_vertices + 32 * faces + 16 * vertices + 1024);
     level->vertex_first = SDV_NEW(context, arena, int, vertices);
     level->vertex_next = SDV_NEW(context, arena, int, face_vertices);
     level->vertex_faces = SDV_NEW(context, arena, int, vertices);
@@ -1767,6 +1779,23 @@ static void sdv_level_lists(sdv_level *level)
     for (int h = level->face_vertex_count - 1; h >= 0; h--) {
         next[h] = first[vertices[h]];
         first[vertices[h]] = h;
+    }
+}
+
+// The same, and counts them: on level 0, which has all faces.
+static void sdv_level_count(sdv_level *level)
+{
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next, *count = level->vertex_faces;
+    for (int v = 0; v < level->vertex_count; v++) {
+        first[v] = -1;
+        count[v] = 0;
+    }
+    for (int h = level->face_vertex_count - 1; h >= 0; h--) {
+        int v = vertices[h];
+        next[h] = first[v];
+        first[v] = h;
+        count[v]++;
     }
 }
 
@@ -1803,11 +1832,10 @@ static int sdv_smaller_end(const sdv_level *level, int a, int b)
 typedef struct sdv_listed_edge {        // at its smaller end
     int other;                          // the other end
     int next;                           // the next edge there, or -1
-    int last;                           // the last face-vertex of its ring so far
 } sdv_listed_edge;
 
 // An edge begins with face-vertex h.
-static int sdv_new_edge(sdv_level *level, int h)
+static inline int sdv_new_edge(sdv_level *level, int h)
 {
     int e = level->edge_count++;
     level->face_edges[h] = e;
@@ -1816,18 +1844,42 @@ static int sdv_new_edge(sdv_level *level, int h)
     return e;
 }
 
-// Takes h as one more of the ring of edge e, behind the last one.
-static void sdv_join_edge(sdv_level *level, int e, int last, int h)
+// Takes h as the last one of the ring of edge e.
+static inline void sdv_join_edge(sdv_level *level, int e, int h)
 {
+    int first = level->edge_first[e];
     level->face_edges[h] = e;
-    level->across[h] = level->across[last];
-    level->across[last] = h;
+    level->across[h] = level->across[first];
+    level->across[first] = h;
+}
+
+// The same, but it is not the second face, on the other side of the first; or has the edge already,
+// which then is a new one.
+static void sdv_join_nonmanifold(sdv_cage *cage, int e, int h, int start)
+{
+    sdv_level *level = &cage->level;
+    cage->edge_nonmanifold[e] = 1;
+    if (level->across[level->edge_first[e]] < start) sdv_join_edge(level, e, h);
+    else cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+}
+
+// Turns the ring of an edge round.
+static void sdv_reverse_ring(int *across, int first)
+{
+    int before = first, k = across[first];
+    while (k != first) {
+        int next = across[k];
+        across[k] = before;
+        before = k;
+        k = next;
+    }
+    across[first] = before;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
 // ends are the same vertex, or when one face has it twice: then each later time is an edge of its
-// own.
+// own. Until all are there, rings fall, so that the last of each stands across from its first.
 static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
@@ -1837,30 +1889,32 @@ static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
     sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
     for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), b = vertices[start];
         for (int h = start; h < end; h++) {
-            int a = vertices[h], b = vertices[h + 1 < end ? h + 1 : start];
+            int a = b;
+            b = vertices[h + 1 < end ? h + 1 : start];
             int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
             while (e >= 0 && edges[e].other != other) e = edges[e].next;
+            int first = e < 0 ? -1 : level->edge_first[e];
             if (a == b) {
                 cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
-            } else if (e < 0) {
+            } else if (first < 0) {
                 e = sdv_new_edge(level, h);
                 edges[e].other = other;
                 edges[e].next = listed[v];
-                edges[e].last = h;
                 listed[v] = e;
-            } else if (edges[e].last >= start) {
-                cage->edge_nonmanifold[e] = cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
+            } else if (first < start && level->across[first] == first && vertices[first] != a) {
+                sdv_join_edge(level, e, h);
             } else {
-                int first = level->edge_first[e], last = edges[e].last;
-                if (last != first || vertices[first] == a) cage->edge_nonmanifold[e] = 1;
-                sdv_join_edge(level, e, last, h);
-                edges[e].last = h;
+                sdv_join_nonmanifold(cage, e, h, start);
             }
         }
     }
     sdv_arena_free(&scratch);
+    if (context->result) return;
+    const unsigned char *odd = cage->edge_nonmanifold, *behind = odd + level->edge_count;
+    for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(behind - odd))) != NULL; odd++)
+        sdv_reverse_ring(level->across, level->edge_first[odd - cage->edge_nonmanifold]);
 }
 
 // The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
@@ -1963,6 +2017,9 @@ static void sdv_user_sharpness(sdv_context *context, sdv_arena *scratch, sdv_cag
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
     }
+    for (int i = 0; i < 2 * mesh->crease_count; i++)
+        if (edges[i / 2] >= 0 && level->sharpness[level->edge_first[edges[i / 2]]] > 0)
+            level->creased[mesh->crease_vertices[i]] = 1;
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
             sdv_clamp_sharpness(mesh->corner_sharpness[i]);
@@ -2026,11 +2083,10 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
-        if (level->sharpness[h] <= 0 && !odd && !sdv_is_boundary(level, h)) continue;
+        if (!odd && !sdv_is_boundary(level, h)) continue;
         int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
         if (odd) nonmanifold[a] = nonmanifold[b] = 1;
-        if (level->sharpness[h] < SUBDIV_INFINITE && (odd || sdv_is_boundary(level, h)))
-            sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        if (level->sharpness[h] < SUBDIV_INFINITE) sdv_sharpen_edge(level, e, SDV_IMPLIED);
         level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
@@ -2071,27 +2127,25 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *le
 }
 
 // Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
-// scratch the rest.
-static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
-                           sdv_cage *cage, const subdiv_mesh *mesh)
+// around what its patches are gathered from besides, scratch the rest.
+static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *around,
+                           sdv_arena *scratch, sdv_cage *cage, const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
     memset(cage, 0, sizeof *cage);
     sdv_cage_faces(context, keep, level, mesh);
     if (context->result) return;
     level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
+    level->across = SDV_NEW(context, around, int, level->face_vertex_count);
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
+    sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
     cage->vertex_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->vertex_count);
-    sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     if (context->result) return;
 
     memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
-    memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
-    for (int h = 0; h < level->face_vertex_count; h++)
-        level->vertex_faces[level->face_vertices[h]]++;
-    sdv_level_lists(level);
+    sdv_level_count(level);
     sdv_cage_edges(context, cage);
     if (context->result) return;
     memset(cage->hole, 0, (size_t)level->face_count);
@@ -2661,6 +2715,23 @@ static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
     points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
 }
 
+static int *sdv_put_face3(int *out, int a, int b, int c)
+{
+    out[0] = a;
+    out[1] = b;
+    out[2] = c;
+    return out + 3;
+}
+
+static int *sdv_put_face4(int *out, int a, int b, int c, int d)
+{
+    out[0] = a;
+    out[1] = b;
+    out[2] = c;
+    out[3] = d;
+    return out + 4;
+}
+
 // The fine faces between two rows of points, low and high: quads a b c d.
 //
 //     d c
@@ -2669,15 +2740,12 @@ static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
     int a = low->left, d = high->left;
     int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
-    for (int i = 1; i <= low->size; i++, out += 4) {
+    for (int i = 1; i <= low->size; i++) {
         if (i == low->size) {
             b = low->right;
             c = high->right;
         }
-        out[0] = a;
-        out[1] = b;
-        out[2] = c;
-        out[3] = d;
+        out = sdv_put_face4(out, a, b, c, d);
         a = b;
         d = c;
         b += low->line.step;
@@ -2691,23 +2759,16 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
 {
     int a = low->left, d = high->left;
     int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
-    for (int i = 1; i < low->size; i++, out += 6) {
+    for (int i = 1; i < low->size; i++) {
         if (i == high->size) c = high->right;
-        out[0] = a;
-        out[1] = b;
-        out[2] = d;
-        out[3] = c;
-        out[4] = d;
-        out[5] = b;
+        out = sdv_put_face3(out, a, b, d);
+        out = sdv_put_face3(out, c, d, b);
         a = b;
         d = c;
         b += low->line.step;
         c += high->line.step;
     }
-    out[0] = a;
-    out[1] = low->right;
-    out[2] = d;
-    return out + 3;
+    return sdv_put_face3(out, a, low->right, d);
 }
 
 // The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
@@ -2719,11 +2780,39 @@ static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
     return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
 }
 
+// The fine faces of cage face f on level 1: every edge has one point, and there is the centre.
+static int *sdv_first_faces(const sdv_order *order, int f, int *out)
+{
+    int start = sdv_face_start(&order->cage, f), size = sdv_face_end(&order->cage, f) - start;
+    const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
+    int first = order->first_edge_point, centre = sdv_first_inside(order, f);
+    int e0 = first + edges[0], e1 = first + edges[1], e2 = first + edges[2];
+    int last = first + edges[size - 1];
+    if (order->loop) {
+        out = sdv_put_face3(out, v[0], e0, e2);
+        out = sdv_put_face3(out, e1, e2, e0);
+        out = sdv_put_face3(out, e0, v[1], e1);
+        return sdv_put_face3(out, e2, e1, v[2]);
+    }
+    if (size == 4) {
+        out = sdv_put_face4(out, v[0], e0, centre, last);
+        out = sdv_put_face4(out, e0, v[1], e1, centre);
+        out = sdv_put_face4(out, last, centre, e2, v[3]);
+        return sdv_put_face4(out, centre, e1, v[2], e2);
+    }
+    for (int i = 0; i < size; i++) {
+        out = sdv_put_face4(out, v[i], first + edges[i], centre, last);
+        last = first + edges[i];
+    }
+    return out;
+}
+
 // The fine faces of cage face f.
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
     int grids = sdv_is_ngon(order, f) ? end - start : 1;
+    if (order->n == 2) return sdv_first_faces(order, f, out);
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid;
         sdv_grid_at(order, h, &grid);
@@ -3258,6 +3347,7 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->first_point = level->first_point + level->vertex_count;
     sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
+    next->across = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
     sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
@@ -3303,7 +3393,9 @@ typedef struct sdv_patches {            // of one level
     int        count, depth;            // depth: levels to go
     sdv_patch *items;                   // [count] in the order of cage faces
     int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
-} sdv_patches;                          //      work points; for those that are mirrored, any
+                                        //      work points; for those that are mirrored, any. Of
+                                        //      a result's level 0 NULL: they are gathered from the
+} sdv_patches;                          //      cage each time, which is less to read
 
 static int sdv_control_points(const sdv_rules *rules)
 {
@@ -3447,8 +3539,11 @@ static sdv_strips sdv_cut_strips(float low, float high, int levels)
     return strips;
 }
 
-// How the surface goes on at a vertex, down to the last level.
-typedef enum sdv_kind { SDV_ROUGH, SDV_FREE, SDV_LINED, SDV_EDGED, SDV_PINNED } sdv_kind;
+// How the surface goes on at a vertex, down to the last level. Bits, so that a face may have those
+// of all its vertices.
+typedef enum sdv_kind {
+    SDV_ROUGH = 1, SDV_FREE = 2, SDV_LINED = 4, SDV_EDGED = 8, SDV_PINNED = 16
+} sdv_kind;
 
 // Are all faces at v of the regular size, and so many?
 static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int size)
@@ -3514,14 +3609,11 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 
 // Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
 // creases that go straight on, or end where a crease that stays runs across. All else is rough.
-static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels)
+static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels,
+                               int dependent)
 {
     int sharp = 0, stay = 0, last = 0, semi = 0;
-    int dependent = level->partner && level->partner[v] >= 0;
-    if (rules->linear) return SDV_FREE;
-    if (dependent) v = level->partner[v];
     float s = level->vertex_sharpness[v];
-    if (s <= 0 && !level->creased[v]) return sdv_smooth_kind(level, rules, v);
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
         for (int i = 0; i < 2; i++) {
@@ -3543,6 +3635,17 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
     if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
     if (s > 0 || sharp > 2) return SDV_PINNED;
     return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
+}
+
+static inline sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v,
+                                       int levels)
+{
+    int dependent = level->partner && level->partner[v] >= 0;
+    if (rules->linear) return SDV_FREE;
+    if (dependent) v = level->partner[v];
+    if (level->vertex_sharpness[v] <= 0 && !level->creased[v])
+        return sdv_smooth_kind(level, rules, v);
+    return sdv_sharp_kind(level, rules, v, levels, dependent);
 }
 
 // The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
@@ -3605,31 +3708,35 @@ static int sdv_point_at(const sdv_level *level, int h)
     return level->first_point + level->face_vertices[h];
 }
 
-// The 4 x 4 control points. Each smooth edge adds the two points of the face across it, and each
-// vertex in a ring the one diagonally across. (Without sharp edges, all are in rings.)
+// The 4 x 4 control points. Each open edge adds the two points of the face across it, and each
+// vertex between two of them, which is in a ring, the one diagonally across. Sharp edges are
+// closed, and those beyond which nothing is needed.
 //
 //     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
 //      8  9 10 11
 //      4  5  6  7
 //      0  1  2  3
-static void sdv_gather_quad(const sdv_level *level, int h, const sdv_patch *patch,
-                            const sdv_fan *fan, int *points)
+static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, int *points)
 {
-    static const int diagonal[4] = { 0, 3, 15, 12 };
-    static const int beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
-    int p[16];                                 // face-vertices, whose vertices are the points
-    for (int i = 0; i < 16 && patch->sharp; i++) p[i] = h;
+    static const signed char diagonal[4] = { 0, 3, 15, 12 };
+    static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
+    const int *vertices = level->face_vertices, *across = level->across;
+    int first = level->first_point;
+    for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
+    points[5] = first + vertices[h];
+    points[6] = first + vertices[h + 1];
+    points[10] = first + vertices[h + 2];
+    points[9] = first + vertices[h + 3];
     for (int i = 0; i < 4; i++) {
-        p[sdv_quad_own[i]] = h + i;
-        if (patch->sharp >> i & 1) continue;
-        int across = level->across[h + i];
-        int at = sdv_next(level, across);      // the face-vertex at vertex i
-        p[beside[i]] = sdv_next(level, at);
-        p[next[i]] = sdv_previous(level, across);
-        if (fan[i] != SDV_FAN_RING) continue;
-        p[diagonal[i]] = sdv_previous(level, level->across[at]);
+        if (closed >> i & 1) continue;
+        int q = across[h + i], quad = sdv_quad_start(level, q), turn = q - quad;
+        int corner = across[quad + ((turn + 1) & 3)];               // from vertex i on
+        points[beside[i]] = first + vertices[quad + ((turn + 2) & 3)];
+        points[next[i]] = first + vertices[quad + ((turn + 3) & 3)];
+        if (closed >> ((i + 3) & 3) & 1) continue;
+        quad = sdv_quad_start(level, corner);
+        points[diagonal[i]] = first + vertices[quad + ((corner - quad + 3) & 3)];
     }
-    for (int i = 0; i < 16; i++) points[i] = sdv_point_at(level, p[i]);
 }
 
 // The 12 control points. The neighbours of a point are to its right and left, above and below,
@@ -3646,25 +3753,23 @@ static void sdv_gather_quad(const sdv_level *level, int h, const sdv_patch *patc
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
-static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_fan *fan, int *points)
+static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch, int *points)
 {
-    for (int i = 0; i < 12; i++) points[i] = sdv_point_at(level, h);
-    for (int i = 0; i < 3; i++) points[sdv_triangle_own[i]] = sdv_point_at(level, h + i);
+    const unsigned char *fan = patch->fan;
+    const int *vertices = level->face_vertices, *across = level->across;
+    const int first = level->first_point;
+    for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
     for (int i = 0; i < 3; i++) {
-        const int *ring = sdv_triangle_ring[i];
-        int left = h + i, right = h + i, lefts = 0, rights = 0;
-        if (fan[i] == SDV_FAN_RING) lefts = 4;
-        if (fan[i] == SDV_FAN_FIRST) lefts = 2;
-        if (fan[i] == SDV_FAN_MIDDLE) lefts = rights = 1;
-        if (fan[i] == SDV_FAN_LAST) rights = 2;
-        for (int j = 0; j < lefts; j++) {
-            left = sdv_counter_clockwise(level, left);
-            points[ring[2 + j]] = sdv_point_at(level, sdv_previous(level, left));
-        }
-        for (int j = 0; j < rights; j++) {
-            right = sdv_clockwise(level, right);
-            points[ring[5 - j]] = sdv_point_at(level, sdv_next(level, right));
-        }
+        int after = i < 2 ? i + 1 : 0, q = across[h + i];
+        points[sdv_triangle_own[i]] = first + vertices[h + i];
+        if (patch->sharp >> i & 1) continue;
+        int at = sdv_next(level, q), before = sdv_previous(level, q);
+        points[sdv_triangle_ring[i][5]] = first + vertices[before];
+        if (fan[i] == SDV_FAN_RING || fan[i] == SDV_FAN_LAST)
+            points[sdv_triangle_ring[i][4]] = first + vertices[sdv_previous(level, across[at])];
+        if (fan[after] == SDV_FAN_RING || fan[after] == SDV_FAN_FIRST)
+            points[sdv_triangle_ring[after][3]] =
+                first + vertices[sdv_previous(level, across[before])];
     }
 }
 
@@ -3674,6 +3779,15 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
     const int *own = size == 4 ? sdv_quad_own : sdv_triangle_own;
     for (int i = 0; i < (size == 4 ? 16 : 12); i++) points[i] = sdv_point_at(level, h);
     for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
+}
+
+// The control points of a patch, whose face starts with face-vertex h.
+static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
+                              const sdv_patch *patch, int h, int closed, int *points)
+{
+    if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
+    else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
+    else sdv_gather_quad(level, h, closed, points);
 }
 
 // The number of the strips between two edges; 0 if they differ, or there are too many already.
@@ -3697,7 +3811,7 @@ static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels
 // which semi-sharp, and how its vertices' fans go on. Does it have a patch?
 static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                          const unsigned char *kinds, int h, int size, int levels,
-                         sdv_patch *patch, sdv_fan *fan)
+                         sdv_patch *patch)
 {
     float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
@@ -3705,9 +3819,9 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
         if (s > 0 && !sdv_stays(s, levels, rules)) semi[i] = s;
         else patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
-        fan[i] = sdv_find_fan(level, kind, h + i, rules->loop);
-        if (fan[i] == SDV_FAN_ROUGH) return 0;
-        if (rules->loop) patch->fan[i] = (unsigned char)fan[i];
+        sdv_fan fan = sdv_find_fan(level, kind, h + i, rules->loop);
+        if (fan == SDV_FAN_ROUGH) return 0;
+        if (rules->loop) patch->fan[i] = (unsigned char)fan;
     }
     if (semi[0] + semi[1] + semi[2] + semi[3] <= 0) return 1;
     for (int i = 0; i < size; i++) {
@@ -3733,92 +3847,83 @@ static void sdv_set_place(const sdv_level *level, int f, int levels, sdv_patch *
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int levels, int is_free,
-                          sdv_patch *patch, int *points)
+                          sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
-    sdv_fan fan[4] = { SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING, SDV_FAN_RING };
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch, fan))
-        return 0;
-    if (rules->linear) sdv_gather_linear(level, h, size, points);
-    else if (rules->loop) sdv_gather_triangle(level, h, fan, points);
-    else sdv_gather_quad(level, h, patch, fan, points);
+    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch)) return 0;
     sdv_set_place(level, f, levels == SDV_FOREVER ? 0 : levels, patch);
     return 1;
 }
 
-static void sdv_mark_edge(sdv_level *level, int h)
+static inline void sdv_mark_edge(const int *across, int h, unsigned char *done)
 {
-    unsigned char *done = level->edge_done;
-    const int *across = level->across;
     int k = h;
     do done[k] = 1;
     while ((k = across[k]) != h);
 }
 
 // Every point of the result is written by one patch or one row. The first patch of a level that
-// has an edge or vertex writes its points, unless a level before did.
-static void sdv_claim(sdv_level *level, int f, sdv_patch *patch)
+// has an edge or vertex writes its points, unless a level before did. So the vertex of h and the
+// edge that leads on become done; returns the bits of those that were not.
+static inline int sdv_claim_corner(const sdv_level *level, int h, int bit)
 {
-    int h = sdv_face_start(level, f), size = sdv_face_end(level, f) - h, owned = 0;
-    const int *vertices = level->face_vertices + h;
-    unsigned char *edges = level->edge_done + h, *done = level->vertex_done;
-    for (int i = 0; i < size; i++) {
-        int bit = size == 3 && i == 2 ? 3 : i, v = vertices[i];
-        owned |= !done[v] << (4 + bit);
-        done[v] = 1;
-        if (edges[i]) continue;
-        owned |= 1 << bit;
-        sdv_mark_edge(level, h + i);
-    }
-    patch->owned = (unsigned char)owned;
+    unsigned char *edge = &level->edge_done[h];
+    unsigned char *vertex = &level->vertex_done[level->face_vertices[h]];
+    int owned = !*vertex << (4 + bit) | !*edge << bit;
+    *vertex = 1;
+    sdv_mark_edge(level->across, h, level->edge_done);
+    return owned;
 }
 
-// The kind of a face: free if all its vertices are, rough if one is or its size is not regular.
-static sdv_kind sdv_face_kind(const sdv_level *level, const unsigned char *kinds, int f, int size)
+static inline void sdv_claim(const sdv_level *level, int h, int size, sdv_patch *patch)
 {
-    int start = sdv_face_start(level, f), rough = 0, free = 1;
-    const int *vertices = level->face_vertices + start;
+    int owned = sdv_claim_corner(level, h, 0) | sdv_claim_corner(level, h + 1, 1);
+    if (size == 4) owned |= sdv_claim_corner(level, h + 2, 2);
+    patch->owned = (unsigned char)(owned | sdv_claim_corner(level, h + size - 1, 3));
+}
+
+// The kinds of a face's vertices; rough if its size is not the regular one.
+static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
+                                 int size)
+{
+    int start = sdv_face_start(level, f);
+    const int *v = level->face_vertices + start;
     if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
-    for (int i = 0; i < size; i++) {
-        unsigned char kind = kinds[vertices[i]];
-        rough |= kind == SDV_ROUGH;
-        free &= kind == SDV_FREE;
-    }
-    return rough ? SDV_ROUGH : free ? SDV_FREE : SDV_EDGED;
+    int found = kinds[v[0]] | kinds[v[1]] | kinds[v[2]];
+    return size == 4 ? found | kinds[v[3]] : found;
 }
 
-// Finds the patches of a level and marks the faces of the core that have none as rough.
+// Finds the patches of a level and marks the faces of the core that have none as rough. At most
+// there are as many as faces that are not rough by their vertices; they are counted if it matters.
 static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, int levels, sdv_patches *patches)
 {
     sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
-    int size = rules->loop ? 3 : 4, most = 0;
+    int size = rules->loop ? 3 : 4, most = level->face_count;
+    size_t width = level->places || levels == SDV_FOREVER ? (size_t)sdv_control_points(rules) : 0;
     memcpy(level->rough, level->core, (size_t)level->face_count);
     patches->depth = levels;
     if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
     unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    unsigned char *face_kinds = SDV_NEW(context, &scratch, unsigned char, level->face_count);
     for (int v = 0; v < level->vertex_count && !context->result; v++)
         kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        sdv_kind kind = level->core[f] ? sdv_face_kind(level, kinds, f, size) : SDV_ROUGH;
-        face_kinds[f] = (unsigned char)kind;
-        most += kind != SDV_ROUGH;
-    }
-    size_t width = (size_t)sdv_control_points(rules);
+    for (int f = 0; f < level->face_count && width && !context->result; f++)
+        most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
-    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
+    if (width) patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        if (face_kinds[f] == SDV_ROUGH) continue;
+        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
         sdv_patch *patch = &patches->items[patches->count];
-        int *points = patches->points + width * (size_t)patches->count;
-        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, face_kinds[f] == SDV_FREE,
-                            patch, points))
+        if (!level->core[f] || (found & SDV_ROUGH)) continue;
+        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, found == SDV_FREE, patch))
             continue;
-        sdv_claim(level, f, patch);
+        if (width)
+            sdv_gather(level, rules, patch, h, patch->sharp,
+                       patches->points + width * (size_t)patches->count);
+        sdv_claim(level, h, size, patch);
         level->rough[f] = 0;
         patches->count++;
     }
@@ -4096,9 +4201,9 @@ static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *s
     sdv_chaikin_sums(context, scratch, cage, levels, level->sums);
 }
 
-// Level 0 of the values. What outlives it goes to keep, with own_face and source.
-static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
-                            sdv_seams *seams, int *own_face, int levels)
+// Level 0 of the values. Arenas as for sdv_cage_build: to keep goes source, too.
+static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *around,
+                            sdv_arena *scratch, sdv_seams *seams, int *own_face, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
@@ -4111,17 +4216,15 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_seam_faces(context, keep, seams, own_face);
     if (context->result) return;
     sdv_seam_vertices(context, keep, scratch, seams);
+    level->across = SDV_NEW(context, around, int, level->face_vertex_count);
+    sdv_level_new(context, scratch, level, chaikin);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
     level->seam = SDV_NEW(context, scratch, float, level->vertex_count);
-    sdv_level_new(context, scratch, level, chaikin);
     if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
     if (context->result) return;
-    memset(level->vertex_faces, 0, (size_t)level->vertex_count * sizeof(int));
-    for (int h = 0; h < level->face_vertex_count; h++)
-        level->vertex_faces[level->face_vertices[h]]++;
     for (int i = 0; i < level->vertex_count; i++) level->partner[i] = -1;
-    sdv_level_lists(level);
+    sdv_level_count(level);
     sdv_seam_edges(seams);
     sdv_seam_sharpness(seams);
 }
@@ -4575,7 +4678,7 @@ static void sdv_make_nets(const sdv_kinds *kinds, sdv_level *level, int size,
         sdv_net *net = &nets->items[nets->count++];
         memset(net, 0, sizeof *net);
         sdv_set_place(level, f, kinds->levels, &net->patch);
-        sdv_claim(level, f, &net->patch);
+        sdv_claim(level, h, size, &net->patch);
         net->turn = at.turn;
         net->kind = items[at.kind].matrix;
         net->first = (size_t)(points - nets->points);
@@ -4634,7 +4737,8 @@ typedef struct sdv_limit_rows {
 
 struct subdiv_surface {
     sdv_arena arena;
-    sdv_arena points;                   // of what makes points alone: rows and patches
+    sdv_arena points;                   // of what makes points alone: rows and patches;
+    sdv_arena around;                   // those of level 0 and what they are gathered from
     int       borrows;                  // the cage's faces, as the cage outlives the surface
     int       levels;
     int       cage_vertex_count, cage_face_count;
@@ -4652,7 +4756,8 @@ struct subdiv_surface {
     sdv_order order;
     int       face_count;               // all faces, also those without values
     unsigned char *hole;                // [face_count]
-    int      *first_face;               // [face_count + 1] of each one's fine faces
+    int      *first_face;               // [face_count + 1] of each one's fine faces; NULL: none are
+                                        // left out, see sdv_first_fine_face
     int      *cage_face;                // [face_count] the user's face; NULL: the same
     subdiv_mesh fine;                   // the result without positions; without faces if levels > 0
 
@@ -5056,7 +5161,7 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
             sdv_edge_row(level, rules, h, writer);
         }
         level->vertex_done[v] = 1;
-        sdv_mark_edge(level, h);
+        sdv_mark_edge(level->across, h, level->edge_done);
     }
 }
 
@@ -5280,8 +5385,8 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_arena scratch = sdv_scratch();
     int last = depth + 1 == surface->levels && !rules->limit;
     sdv_split split;
-    sdv_find_patches(writer, &surface->points, level, rules, surface->levels - depth,
-                     &surface->patches[depth]);
+    sdv_find_patches(writer, depth ? &surface->points : &surface->around, level, rules,
+                     surface->levels - depth, &surface->patches[depth]);
     if (!context->result)
         sdv_find_nets(context, &surface->points, level, rules, surface->levels - depth,
                       &surface->nets[depth]);
@@ -5291,7 +5396,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_split_new(context, &scratch, level, &split);
     if (!last) sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
-        sdv_find_active(level, &split);
+        if (!last || !rules->loop) sdv_find_active(level, &split);
         if (!last) sdv_number_faces(level, &split, rules->loop);
         if (!last) sdv_number_points(level, &split, rules->loop);
         else if (!rules->loop) sdv_number_face_points(level, &split, 0);
@@ -5317,6 +5422,15 @@ static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const 
     sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
 }
 
+// Level 0's patches and what they are gathered from: one block of memory.
+static void sdv_reserve_around(sdv_context *context, subdiv_surface *surface,
+                               const subdiv_mesh *work)
+{
+    size_t across = sdv_face_vertex_count(work) * sizeof(int);
+    sdv_reserve(context, &surface->around,
+                across + (size_t)work->face_count * sizeof(sdv_patch) + 64);
+}
+
 // See >>exact-surface.
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -5340,6 +5454,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     }
     for (int i = 0; i < surface->levels && level.face_count && !context->result; i++) {
         sdv_prepare_level(&writer, surface, i, &level, &next, &next_arena);
+        if (i == 0 && surface->patches[0].count == 0) sdv_arena_free(&surface->around);
         sdv_arena_free(arena);
         *arena = next_arena;
         next_arena = sdv_scratch();
@@ -5370,20 +5485,35 @@ static void sdv_set_order(subdiv_surface *surface)
         order->cage.face_count ? sdv_first_inside(order, order->cage.face_count) : vertices;
 }
 
+// The first fine face of face f, or how many there are before any.
+static int sdv_first_fine_face(const subdiv_surface *surface, int f)
+{
+    const sdv_order *order = &surface->order;
+    if (surface->first_face) return surface->first_face[f];
+    return order->loop ? f * (order->n * order->n)
+                       : sdv_face_start(&order->cage, f) * (order->m * order->m);
+}
+
 // The faces of the result.
-static void sdv_count_fine_faces(subdiv_surface *surface, int keep_holes)
+static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, int keep_holes)
 {
     subdiv_mesh *fine = &surface->fine;
-    const sdv_order *order = &surface->order;
-    fine->face_size = order->loop ? 3 : 4;
+    int holes = 0, count = 0, *first_face;
+    fine->face_size = surface->order.loop ? 3 : 4;
+    for (int f = 0; f < surface->face_count; f++) holes += surface->hole[f] != 0;
+    fine->face_count = sdv_first_fine_face(surface, surface->face_count);
+    if (!holes) return;
+    first_face = SDV_NEW(context, &surface->arena, int, (size_t)surface->face_count + 1);
+    if (context->result) return;
     for (int f = 0; f < surface->face_count; f++) {
-        int size = sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f);
-        int parts = order->loop ? order->n * order->n : size * (order->m * order->m);
-        surface->first_face[f] = fine->face_count;
-        if (!surface->hole[f] || keep_holes) fine->face_count += parts;
+        int parts = sdv_first_fine_face(surface, f + 1) - sdv_first_fine_face(surface, f);
+        first_face[f] = count;
+        if (!surface->hole[f] || keep_holes) count += parts;
         if (surface->hole[f] && keep_holes) fine->hole_count += parts;
     }
-    surface->first_face[surface->face_count] = fine->face_count;
+    first_face[surface->face_count] = count;
+    fine->face_count = count;
+    surface->first_face = first_face;
 }
 
 // SUBDIV_EXACT has no result: no points, no faces.
@@ -5458,7 +5588,8 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
     made->first_face = SDV_NEW(context, &made->arena, int, (size_t)surface->face_count + 1);
     made->own_face = SDV_NEW(context, &made->arena, int, surface->face_count);
     if (context->result) return;
-    sdv_copy(made->first_face, surface->first_face, (size_t)surface->face_count + 1, sizeof(int));
+    for (int f = 0; f <= surface->face_count; f++)
+        made->first_face[f] = sdv_first_fine_face(surface, f);
 }
 
 // A surface of values over a surface that is being prepared from a cage.
@@ -5476,8 +5607,10 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.rule = values->rule;
     sdv_like(context, made, surface);
     sdv_new_levels(context, made);
+    if (!made->exact) sdv_reserve_around(context, made, work);
     if (!context->result)
-        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
+        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->around, &scratch,
+                        &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
@@ -5536,7 +5669,8 @@ static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
         int face = cage->statement_faces[i];
         size_t faces = (size_t)surface->face_count;
         while (f < faces && (surface->cage_face ? surface->cage_face[f] : (int)f) < face) f++;
-        fine->statement_faces[i] = surface->first_face ? surface->first_face[f] : (int)f;
+        int same = surface->levels == 0 || surface->exact;
+        fine->statement_faces[i] = same ? (int)f : sdv_first_fine_face(surface, (int)f);
         fine->statements[i] = strcpy(text, cage->statements[i]);
         text += strlen(text) + 1;
     }
@@ -5560,8 +5694,8 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 }
 
 // The cage's rules, and what the result will be.
-static void sdv_set_rules(subdiv_surface *surface, const subdiv_mesh *cage, const sdv_cage *built,
-                          const subdiv_options *opt)
+static void sdv_set_rules(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage,
+                          const sdv_cage *built, const subdiv_options *opt)
 {
     surface->order.cage = built->level;
     surface->hole = built->hole;
@@ -5575,7 +5709,7 @@ static void sdv_set_rules(subdiv_surface *surface, const subdiv_mesh *cage, cons
     surface->rules.creasing = cage->creasing;
     surface->rules.triangles = cage->triangles;
     sdv_set_order(surface);
-    sdv_count_fine_faces(surface, opt && opt->keep_holes);
+    sdv_count_fine_faces(context, surface, opt && opt->keep_holes);
 }
 
 // Prepares a surface for the positions and, in made, for values, if there are any; or, if
@@ -5605,14 +5739,16 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         return;
     }
 
-    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
+    if (!surface->exact) sdv_reserve_around(context, surface, &work);
+    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->around, &scratch,
+                   &built, &work);
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     sdv_new_levels(context, surface);
-    surface->first_face = SDV_NEW(context, &surface->arena, int, (size_t)work.face_count + 1);
     if (!context->result) {
-        sdv_set_rules(surface, cage, &built, opt);
-        if (made) sdv_prepare_values(context, made, surface, &work, &built, &values);
+        sdv_set_rules(context, surface, cage, &built, opt);
+        if (made && !context->result)
+            sdv_prepare_values(context, made, surface, &work, &built, &values);
     }
     if (!context->result && !alone && surface->exact) {
         sdv_no_result(surface);
@@ -5749,6 +5885,13 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
     sdv_arena_free(&scratch);
 }
 
+// What the fine faces do not need.
+static void sdv_free_points(subdiv_surface *surface)
+{
+    sdv_arena_free(&surface->points);
+    sdv_arena_free(&surface->around);
+}
+
 // The surface is itself the arena's first block, so the arena is taken out before it is freed.
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
@@ -5756,7 +5899,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
     sdv_arena arena = surface->arena;
-    sdv_arena_free(&surface->points);
+    sdv_free_points(surface);
     sdv_arena_free(&arena);
 }
 
@@ -6201,52 +6344,91 @@ static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
-// Of its three bottom or top points those that a patch owns, from rows of control points.
-static inline void sdv_put_three(const sdv_window *out, const sdv_grid *grid,
-                                 const sdv_patch *patch, const sdv_four *p, sdv_four bend, int top)
+// The control points of patch i, in room [16] if they have to be gathered. closed: see
+// sdv_gather_quad.
+static inline const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
+                                          int i, int closed, int *room)
 {
-    int row = patch->row + 2 * top, column = patch->column, owned = patch->owned;
+    size_t width = (size_t)sdv_control_points(&surface->rules);
+    if (patches->points) return patches->points + width * (size_t)i;
+    sdv_gather(&surface->order.cage, &surface->rules, &patches->items[i], patches->items[i].h,
+               closed, room);
+    return room;
+}
+
+// Where the point of vertex i of a quad with one level to go stands, and that of edge i. If there
+// is one level in all, its grid is the whole cage face.
+static inline int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
+                                  const sdv_patch *patch, int i)
+{
+    const int *at = sdv_corner_quad[i];
+    if (order->n == 2) return order->cage.face_vertices[patch->h + i];
+    return sdv_quad_index(grid, patch->row + at[0], patch->column + at[1]);
+}
+
+static inline int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
+                                const sdv_patch *patch, int i)
+{
+    const int *a = sdv_corner_quad[i], *b = sdv_corner_quad[i + 1];
+    if (order->n == 2) return order->first_edge_point + order->cage.face_edges[patch->h + i];
+    return sdv_quad_index(grid, patch->row + (a[0] + b[0]) / 2, patch->column + (a[1] + b[1]) / 2);
+}
+
+// The points of the bottom or top row that a patch owns, from rows of control points; a and b are
+// its vertices on that row.
+static inline void sdv_put_three(const sdv_window *out, const sdv_order *order,
+                                 const sdv_grid *grid, const sdv_patch *patch, const sdv_four *p,
+                                 sdv_four bend, int a, int b)
+{
+    int owned = patch->owned, edge = a ? 2 : 0;
     sdv_four left = sdv_spline_vertex(p[1], p[5], p[9], bend);
     sdv_four right = sdv_spline_vertex(p[2], p[6], p[10], bend);
-    if (owned & (top ? SDV_TOP : SDV_BOTTOM)) {
-        sdv_side line = sdv_grid_line(grid, row);
-        sdv_put_point(out, line.first + line.step * (column + 1), sdv_middle(left, right));
-    }
-    if (owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT)) {
+    if (owned >> edge & 1)
+        sdv_put_point(out, sdv_near_edge(order, grid, patch, edge), sdv_middle(left, right));
+    if (owned >> (4 + a) & 1) {
         sdv_four beside = sdv_spline_vertex(p[0], p[4], p[8], bend);
-        sdv_put_point(out, sdv_quad_index(grid, row, column),
+        sdv_put_point(out, sdv_near_vertex(order, grid, patch, a),
                       sdv_spline_vertex(beside, left, right, bend));
     }
-    if (owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT)) {
+    if (owned >> (4 + b) & 1) {
         sdv_four beside = sdv_spline_vertex(p[3], p[7], p[11], bend);
-        sdv_put_point(out, sdv_quad_index(grid, row, column + 2),
+        sdv_put_point(out, sdv_near_vertex(order, grid, patch, b),
                       sdv_spline_vertex(left, right, beside, bend));
     }
 }
 
-// A quad with one level to go: nine points at most, for which a polynomial is too much work.
-static void sdv_put_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                         const int *points, int linear, const float *work)
+// Of a quad the edges that bound a point that it owns.
+static int sdv_needed_sides(const sdv_patch *patch)
 {
-    int owned = patch->owned, row = patch->row + 1, column = patch->column + 1;
-    int middle = sdv_inside_index(grid, row, column);
-    int below = owned & (SDV_BOTTOM_LEFT | SDV_BOTTOM | SDV_BOTTOM_RIGHT) || patch->sharp;
-    int above = owned & (SDV_TOP_LEFT | SDV_TOP | SDV_TOP_RIGHT) || patch->sharp;
-    sdv_four p[16], u[4], bend = sdv_all(linear ? 0 : 0.125f);
+    int vertices = patch->owned >> 4;
+    return (patch->owned | vertices | vertices >> 1 | vertices << 3) & 15;
+}
+
+// A quad with one level to go: nine points at most, for which a polynomial is too much work.
+static void sdv_put_nine(const sdv_window *out, const subdiv_surface *surface,
+                         const sdv_patches *patches, int i, const sdv_grid *grid, const float *work)
+{
+    const sdv_order *order = &surface->order;
+    const sdv_patch *patch = &patches->items[i];
+    int sides = sdv_needed_sides(patch), sharp = patch->sharp, room[16];
+    const int *points = sdv_patch_points(surface, patches, i, sharp | (sides ^ 15), room);
+    sdv_four p[16], u[4], bend = sdv_all(surface->rules.linear ? 0 : 0.125f);
     sdv_load_points(points + 4, 8, work, p + 4);
-    if (below) sdv_load_points(points, 4, work, p);
-    if (above) sdv_load_points(points + 12, 4, work, p + 12);
-    if (patch->sharp) sdv_mirror_quad(patch, p);
-    for (int i = 0; i < 4; i++) u[i] = sdv_middle(p[4 + i], p[8 + i]);
-    sdv_put_point(out, middle, sdv_middle(u[1], u[2]));
-    if (owned & SDV_LEFT)
-        sdv_put_point(out, column > 1 ? middle - 1 : sdv_side_index(grid, 3, row),
+    if ((sides & 1) || sharp) sdv_load_points(points, 4, work, p);
+    if ((sides & 4) || sharp) sdv_load_points(points + 12, 4, work, p + 12);
+    if (sharp) sdv_mirror_quad(patch, p);
+    for (int k = 0; k < 4; k++) u[k] = sdv_middle(p[4 + k], p[8 + k]);
+    sdv_put_point(out, order->n == 2 ? sdv_first_inside(order, sdv_face_of(&order->cage, patch->h))
+                                     : sdv_inside_index(grid, patch->row + 1, patch->column + 1),
+                  sdv_middle(u[1], u[2]));
+    if (patch->owned & SDV_LEFT)
+        sdv_put_point(out, sdv_near_edge(order, grid, patch, 3),
                       sdv_spline_vertex(u[0], u[1], u[2], bend));
-    if (owned & SDV_RIGHT)
-        sdv_put_point(out, column + 1 < grid->size ? middle + 1 : sdv_side_index(grid, 1, row),
+    if (patch->owned & SDV_RIGHT)
+        sdv_put_point(out, sdv_near_edge(order, grid, patch, 1),
                       sdv_spline_vertex(u[1], u[2], u[3], bend));
-    if (below) sdv_put_three(out, grid, patch, p, bend, 0);
-    if (above) sdv_put_three(out, grid, patch, p + 4, bend, 1);
+    if (sides & 1) sdv_put_three(out, order, grid, patch, p, bend, 0, 1);
+    if (sides & 4) sdv_put_three(out, order, grid, patch, p + 4, bend, 3, 2);
 }
 
 // The control points of a quad, relative to its vertex 0, which is their origin.
@@ -6437,15 +6619,17 @@ static inline void sdv_limit_curve(const sdv_four *p, int step, int i, sdv_four 
 }
 
 // The same in the limit.
-static void sdv_put_limit_nine(const sdv_window *out, const sdv_grid *grid, const sdv_patch *patch,
-                               const int *points, const float *work)
+static void sdv_put_limit_nine(const sdv_window *out, const subdiv_surface *surface,
+                               const sdv_patches *patches, int number, const sdv_grid *grid,
+                               const float *work)
 {
     static const unsigned char owners[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
                                                 { SDV_LEFT, 0, SDV_RIGHT },
                                                 { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
-    int owned = patch->owned;
+    const sdv_patch *patch = &patches->items[number];
+    int owned = patch->owned, room[16];
     sdv_four p[16], x[4], rise[4];
-    sdv_load_points(points, 16, work, p);
+    sdv_load_points(sdv_patch_points(surface, patches, number, patch->sharp, room), 16, work, p);
     if (patch->sharp) sdv_mirror_quad(patch, p);
     for (int r = 0; r < 3; r++) {
         if (r != 1 && !(owned & (owners[r][0] | owners[r][1] | owners[r][2]))) continue;
@@ -6477,7 +6661,8 @@ static void sdv_begin_parts(const subdiv_surface *surface, const sdv_patches *pa
 {
     const sdv_rules *rules = &surface->rules;
     const sdv_patch *patch = &patches->items[i];
-    const int *points = patches->points + (size_t)sdv_control_points(rules) * (size_t)i;
+    int room[16];
+    const int *points = sdv_patch_points(surface, patches, i, patch->sharp, room);
     float h = 1.0f / (float)(1 << patches->depth), hh = rules->limit ? 0 : h * h;
     parts->up = NULL;
     parts->count = 1;
@@ -6533,19 +6718,20 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
                              const float *work, int face, int end, const sdv_window *out)
 {
     const sdv_order *order = &surface->order;
-    int linear = surface->rules.linear, n = 1 << patches->depth, h = -1;
-    int limit = surface->rules.limit, nine = !order->loop && n == 2 && !(limit && linear);
+    int n = 1 << patches->depth, h = -1, limit = surface->rules.limit;
+    int nine = !order->loop && n == 2 && !(limit && surface->rules.linear);
     int last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
     sdv_parts parts;
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
-        if (nine && !patch->up) {
-            const int *points = patches->points + 16 * (size_t)i;
-            if (limit) sdv_put_limit_nine(out, &grid, patch, points, work);
-            else sdv_put_nine(out, &grid, patch, points, linear, work);
+        int near = nine && !patch->up;
+        if (patch->h != h && (!near || limit || order->n > 2))
+            sdv_grid_at(order, h = patch->h, &grid);
+        if (near) {
+            if (limit) sdv_put_limit_nine(out, surface, patches, i, &grid, work);
+            else sdv_put_nine(out, surface, patches, i, &grid, work);
             continue;
         }
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
@@ -7260,7 +7446,7 @@ static void sdv_fine_faces_job(void *context, int job)
     const subdiv_surface *surface = out->surface;
     int end = sdv_share(surface->face_count, job + 1, out->jobs);
     for (int f = sdv_share(surface->face_count, job, out->jobs); f < end; f++) {
-        int first = surface->first_face[f], last = surface->first_face[f + 1];
+        int first = sdv_first_fine_face(surface, f), last = sdv_first_fine_face(surface, f + 1);
         int own = surface->own_face ? surface->own_face[f] : f;
         size_t size = (size_t)surface->fine.face_size;
         if (first == last) continue;
@@ -7313,8 +7499,8 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
         return;
     }
     for (int f = 0; f < surface->cage_face_count && surface->fine.hole_count; f++) {
-        int end = surface->hole[f] ? surface->first_face[f + 1] : 0;
-        for (int i = surface->first_face[f]; i < end; i++) *holes++ = i;
+        int end = surface->hole[f] ? sdv_first_fine_face(surface, f + 1) : 0;
+        for (int i = sdv_first_fine_face(surface, f); i < end; i++) *holes++ = i;
     }
 }
 
@@ -7333,11 +7519,9 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
                       const float **positions)
 {
     size_t count = 3 * (size_t)surface->cage_vertex_count;
-    int huge = 0;
+    if (*positions && sdv_find_exponent(*positions, count, SDV_HUGE) == count) return 1;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
     if (context->result || surface->levels == 0) return 1;
-    for (size_t i = 0; i < count; i++) huge |= fabsf((*positions)[i]) > FLT_MAX / 4096;
-    if (!huge) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
     memcpy(copy, *positions, count * sizeof(float));
@@ -7387,8 +7571,8 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
     sdv_arena_free(&arena);
-    if (once) sdv_arena_free(&once->points);
-    if (once && once->uv) sdv_arena_free(&once->uv->points);
+    if (once) sdv_free_points(once);
+    if (once && once->uv) sdv_free_points(once->uv);
     if (!context.result) {
         sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
@@ -7718,7 +7902,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     mesh.corner_vertices = crease;
     mesh.crease_sharpness = mesh.corner_sharpness = forever;
     if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
-    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
+    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &scratch, &cage, &mesh);
     if (!context->result && loop && n == 2 && kind->ring)
         sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
     if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
@@ -9443,8 +9627,8 @@ static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int coun
 static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
 {
     const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
-    size_t i = (size_t)record[1] * 65536 + (size_t)record[2];
-    const int *points = patches->points + i * (size_t)makers->width;
+    int i = (int)record[1] * 65536 + (int)record[2], room[16];
+    const int *points = sdv_patch_points(make->surface, patches, i, patches->items[i].sharp, room);
     double weights[3 * 16];
     for (int j = 0; j < makers->width; j++) {
         size_t group = makers->group * (size_t)(j / makers->lanes);
@@ -10308,7 +10492,7 @@ static void sdv_put_cell_corners(sdv_leaf_points *l)
             !(up ? cell->top == units : cell->bottom == 0)) continue;
         int h = tile->first + (tile->ngon ? l->corner : i);
         int v = tile->tiling->cage->face_vertices[h];
-        sdv_line_points point = { 0, 0, right, up, 0, 0, v, 0 };
+        sdv_line_points point = { 0, 0, (double)right, (double)up, 0, 0, v, 0 };
         int here = tile->tiling->home[v] == h;
         if (tile->ngon && i > 0) {
             here = i == 2 && l->corner == 0;
@@ -10847,7 +11031,7 @@ static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cag
 {
     subdiv_mesh shape = *mesh;
     shape.crease_count = shape.corner_count = shape.hole_count = 0;
-    sdv_cage_build(context, arena, arena, cage, &shape);
+    sdv_cage_build(context, arena, arena, arena, cage, &shape);
 }
 
 static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
@@ -11200,7 +11384,7 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     sdv_cage cage;
     subdiv_mesh shape = *mesh;
     shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
-    sdv_cage_build(&context, &arena, &arena, &cage, &shape);
+    sdv_cage_build(&context, &arena, &arena, &arena, &cage, &shape);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
     if (!context.result) sdv_count_sharp(&context, &arena, info, &cage.level, mesh);
     if (!context.result) {
@@ -13229,10 +13413,11 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     const subdiv_surface *uv = surface->uv;
     int size = surface->fine.face_size, statement = 0;
     for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
-        if (surface->first_face[f] == surface->first_face[f + 1]) continue;
+        int first = sdv_first_fine_face(surface, f);
+        if (first == sdv_first_fine_face(surface, f + 1)) continue;
         int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
-        statement = sdv_write_statements(out, &surface->fine, statement, surface->first_face[f]);
+        statement = sdv_write_statements(out, &surface->fine, statement, first);
         for (int g = 0; g < grids; g++) {
             sdv_grid grid, uv_grid;
             sdv_grid_at(order, start + g, &grid);
@@ -13986,7 +14171,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     x.rules.triangles = cage->triangles;
     if (cut) sdv_copy_faces(&context, cut, &work, cage);
-    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.arena, &x.cage, &work);
     if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
     if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
