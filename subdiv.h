@@ -10292,7 +10292,10 @@ static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_all(&context, mesh);
+    subdiv_mesh shape;
+    if (mesh) shape = *mesh;
+    shape.normals = NULL;                       // may be anything before
+    sdv_check_all(&context, mesh ? &shape : NULL);
     if (context.result) return context.result;
     sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
     size_t count = 3 * (size_t)mesh->vertex_count;
