@@ -845,7 +845,10 @@ static void     sdv_store_three(float *p, sdv_four a)
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
-static void     sdv_transpose(sdv_four *a)             { _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]); }
+static void     sdv_transpose(sdv_four *a)
+{
+    _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]);
+}
 #elif defined(__aarch64__) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
@@ -6649,7 +6652,7 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
 // What a limit's points have besides their place: tangents and normals. Where a patch is, its
 // polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
 
-typedef struct sdv_tangents {           // a part of the result, as the sdv_window that it belongs to
+typedef struct sdv_tangents {           // a part of the result, that of its sdv_window
     float *normals, *tangents;          // or NULL
     size_t stride, tangent_stride;      // floats from point to point
     int      count;                     // points that wait to be four:
