@@ -848,7 +848,10 @@ static void     sdv_store_three(float *p, sdv_four a)
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
-static void     sdv_transpose(sdv_four *a)             { _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]); }
+static void     sdv_transpose(sdv_four *a)
+{
+    _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]);
+}
 #elif defined(__aarch64__) || defined(_M_ARM64)
 #include <arm_neon.h>
 #define SDV_SIMD
@@ -6158,11 +6161,6 @@ static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
     return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
-// With its tangents, if they are wanted: cubics in x, at most.
-typedef struct sdv_curves {
-    sdv_curve curve, along, across;
-} sdv_curves;
-
 // The derivative of a polynomial across its rows, of what sdv_row_curve looks at.
 static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
 {
@@ -6185,25 +6183,33 @@ static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
     for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
 }
 
-static inline void sdv_make_row(const sdv_window *out, const sdv_part *part, float y, sdv_curves *row)
+// A row's tangents, along and across, if they are wanted: cubics in x, at most.
+typedef struct sdv_slopes {
+    sdv_curve along, across;
+} sdv_slopes;
+
+static inline void sdv_make_row(const sdv_window *out, const sdv_part *part, float y,
+                                sdv_curve *curve, sdv_slopes *slopes)
 {
-    sdv_row_curve(&part->q, y, &row->curve);
+    sdv_row_curve(&part->q, y, curve);
     if (!out->tangents) return;
-    sdv_row_curve(&part->rise, y, &row->across);
-    sdv_along_row(&row->curve, &row->along);
+    sdv_row_curve(&part->rise, y, &slopes->across);
+    sdv_along_row(curve, &slopes->along);
 }
 
-static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curves *row, float x)
+static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *curve,
+                                     const sdv_slopes *slopes, float x)
 {
     sdv_four t = sdv_all(x);
-    sdv_put_point(out, index, sdv_curve_point(&row->curve, t));
+    sdv_put_point(out, index, sdv_curve_point(curve, t));
     if (out->tangents)
-        sdv_put_tangents(out, index, sdv_horner3(row->along.a, t), sdv_horner3(row->across.a, t));
+        sdv_put_tangents(out, index, sdv_horner3(slopes->along.a, t),
+                         sdv_horner3(slopes->across.a, t));
 }
 
 // See >>limit-surface.
-static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curves *row,
-                                float x, float h);
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
+                                const sdv_slopes *slopes, float x, float h);
 
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
@@ -6226,8 +6232,8 @@ static inline void sdv_put_curve(const sdv_window *out, int index, int count,
     sdv_store_some(p, sdv_curve_point(&c, t), lanes);
 }
 
-static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curves *row,
-                               float x, float h)
+static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
+                               const sdv_slopes *slopes, float x, float h)
 {
     int first = index - out->first, skip = first < 0 ? -first : 0;
     if (count > out->count - first) count = out->count - first;
@@ -6235,8 +6241,8 @@ static inline void sdv_put_run(const sdv_window *out, int index, int count, cons
     first += skip;
     count -= skip;
     x += (float)skip * h;
-    if (out->values) sdv_put_curve(out, first, count, &row->curve, x, h);
-    if (out->tangents) sdv_put_tangent_run(out, first, count, row, x, h);
+    if (out->values) sdv_put_curve(out, first, count, curve, x, h);
+    if (out->tangents) sdv_put_tangent_run(out, first, count, slopes, x, h);
 }
 
 // The first or last row of a patch.
@@ -6251,18 +6257,20 @@ static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const
     int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
     int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
     if (!(left | inside | right)) return;
-    sdv_curves made;
+    sdv_curve curve;
+    sdv_slopes slopes;
     float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
-    sdv_make_row(out, part, y, &made);
-    if (left) sdv_put_row_point(out, sdv_grid_index(grid, row, column), &made, part->x);
+    sdv_make_row(out, part, y, &curve, &slopes);
+    if (left)
+        sdv_put_row_point(out, sdv_grid_index(grid, row, column), &curve, &slopes, part->x);
     if (right)
-        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &made,
+        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &curve, &slopes,
                           part->x + (float)part->columns * dx);
     if (inside) {
         sdv_side line = sdv_grid_line(grid, row);
         int forward = line.step == step, i = forward ? 1 : count - 1;
-        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &made,
-                    part->x + (float)i * dx, forward ? dx : -dx);
+        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
+                    &slopes, part->x + (float)i * dx, forward ? dx : -dx);
     }
 }
 
@@ -6291,13 +6299,14 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
         dx = turn = -h;
     }
     for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
-        sdv_curves made;
-        sdv_make_row(out, part, y, &made);
-        sdv_put_run(out, at, count, &made, x, dx);
+        sdv_curve curve;
+        sdv_slopes slopes;
+        sdv_make_row(out, part, y, &curve, &slopes);
+        sdv_put_run(out, at, count, &curve, &slopes, x, dx);
         if (left_side)
-            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &made, start);
+            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &curve, &slopes, start);
         if (right_side)
-            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &made,
+            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &curve, &slopes,
                               triangle ? 1 - y : end);
         at += across;
         across -= triangle;
@@ -6788,8 +6797,7 @@ static inline void sdv_net_sums(const sdv_net_values *net, const float *weights,
     x[3] = x3;
 }
 
-// Writes four points, channel by channel as above, to where they stand in the window: those that
-// are not in it have another place or, as an unsigned number, a larger one.
+// Writes four points, channel by channel as above, to where they stand in the window, if they do.
 static inline void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
                                 const int *at, int count)
 {
@@ -6874,7 +6882,7 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
 // What a limit's points have besides their place: tangents and normals. Where a patch is, its
 // polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
 
-typedef struct sdv_tangents {           // a part of the result, as the sdv_window that it belongs to
+typedef struct sdv_tangents {           // a part of the result, that of its sdv_window
     float *normals, *tangents;          // or NULL
     size_t stride, tangent_stride;      // floats from point to point
     int      count;                     // points that wait to be four:
@@ -6971,8 +6979,8 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
 }
 
 // Those of a run of points, see sdv_put_run: four by four, and the others wait.
-static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curves *row,
-                                float x, float h)
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
+                                const sdv_slopes *slopes, float x, float h)
 {
     const sdv_tangents *tangents = out->tangents;
     sdv_four t = sdv_all(x), step = sdv_all(h);
@@ -6980,8 +6988,8 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
     for (; i + 4 <= count && !tangents->tangents; i += 4) {
         sdv_four a[4], b[4], normal[4];
         for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
-            a[k] = sdv_horner3(row->along.a, t);
-            b[k] = sdv_horner3(row->across.a, t);
+            a[k] = sdv_horner3(slopes->along.a, t);
+            b[k] = sdv_horner3(slopes->across.a, t);
         }
         sdv_transpose(a);
         sdv_transpose(b);
@@ -6992,8 +7000,8 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
         for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
     }
     for (; i < count; i++, t = sdv_plus(t, step))
-        sdv_put_tangents(out, out->first + at + i, sdv_horner3(row->along.a, t),
-                         sdv_horner3(row->across.a, t));
+        sdv_put_tangents(out, out->first + at + i, sdv_horner3(slopes->along.a, t),
+                         sdv_horner3(slopes->across.a, t));
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
@@ -11162,7 +11170,10 @@ static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_all(&context, mesh);
+    subdiv_mesh shape;
+    if (mesh) shape = *mesh;
+    shape.normals = NULL;                       // may be anything before
+    sdv_check_all(&context, mesh ? &shape : NULL);
     if (context.result) return context.result;
     sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
     size_t count = 3 * (size_t)mesh->vertex_count;

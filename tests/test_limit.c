@@ -558,6 +558,34 @@ static void test_pieces(void)
     }
 }
 
+// The normals of tangents whose products floats cannot hold, or that are almost parallel: in
+// floats they would have no or few digits.
+static void test_sizes_and_skews(void)
+{
+    static test_cage c;
+    static char context[64];
+    static const int exponents[] = { -110, -60, -35, 0, 30, 60, 110 };
+    test_context = context;
+    for (int i = 0; i < 2 * 3 * 7; i++) {
+        subdiv_surface *s = NULL;
+        subdiv_options opt = {0};
+        float *p = c.positions, skew = (float)(i / 2 % 3 * 200);
+        double scale = ldexp(1, exponents[i / 6]);
+        sprintf(context, "size 2^%d, skew %g, %s", exponents[i / 6], (double)skew,
+                i & 1 ? "Loop" : "Catmull-Clark");
+        build_torus(&c, i & 1 ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK, 5, 4);
+        shake(&c, (unsigned)i);
+        for (int v = 0; v < c.mesh.vertex_count; v++, p += 3) {
+            p[0] += skew * p[1];
+            for (int k = 0; k < 3; k++) p[k] *= (float)scale;
+        }
+        opt.limit = 1;
+        CHECK_EQUAL(subdiv_prepare(&s, &c.mesh, 1 + i % 3, &opt), SUBDIV_OK);
+        if (s) check_pieces(s, c.positions);
+        subdiv_surface_free(s);
+    }
+}
+
 static void test_errors(void)
 {
     static test_cage c;
@@ -620,6 +648,7 @@ static void test_normals_of_a_mesh(void)
         CHECK_NEAR(normal_error(c.mesh.normals + 3 * v, unit(n)), 0, 1e-7);
     }
     for (int k = 0; k < 3; k++) CHECK(c.mesh.normals[3 * 6 + k] == 0);
+    memset(mine, 0xff, sizeof mine);                      // not finite
     c.mesh.normals = mine;                                // filled where they are
     void *memory = c.mesh.memory;
     CHECK_EQUAL(subdiv_normals(&c.mesh, NULL), SUBDIV_OK);
@@ -645,6 +674,7 @@ int main(void)
     RUN(test_sharpness_that_is_left);
     RUN(test_level_zero);
     RUN(test_pieces);
+    RUN(test_sizes_and_skews);
     RUN(test_errors);
     RUN(test_normals_of_a_mesh);
     return test_end("limit");
