@@ -10375,11 +10375,13 @@ static void sdv_put_tile_row(const sdv_leaf_points *l, const sdv_line_points *li
     double scale = cell->step * cell->scale * line->du;
     double x = cell->step * (cell->scale * line->u - cell->x);
     int index = line->index;
-    sdv_curves row;
-    memset(&row, 0, sizeof row);        // gcc cannot know that tangents are set where they are used
-    sdv_make_row(l->out, &l->part, (float)(cell->step * (cell->scale * line->v - cell->y)), &row);
+    float y = (float)(cell->step * (cell->scale * line->v - cell->y));
+    sdv_curve curve;
+    sdv_slopes slopes;
+    memset(&slopes, 0, sizeof slopes);      // gcc cannot know that they are used only if they are set
+    sdv_make_row(l->out, &l->part, y, &curve, &slopes);
     for (int64_t k = line->first; k <= line->last; k++, index += line->step)
-        sdv_put_row_point(l->out, index, &row, (float)(x + (double)k * scale));
+        sdv_put_row_point(l->out, index, &curve, &slopes, (float)(x + (double)k * scale));
 }
 
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
@@ -10662,10 +10664,11 @@ static void sdv_sample_job(void *context, int job)
     double small[4 * SDV_NEST_STACK], *large = NULL;
     int lanes = s->source->channels;
     sdv_tangents tangents;
-    sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, s->normals ? &tangents : NULL };
+    sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, NULL };
     memset(&tangents, 0, sizeof tangents);
     tangents.normals = s->normals;
     tangents.stride = 3;
+    if (s->normals) out.tangents = &tangents;
     sdv_patch_at at = sdv_find_patch(surface, i);
     for (; i < end && i < patches; i++, at.i++) {
         sdv_next_level(surface, &at);
