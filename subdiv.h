@@ -10378,7 +10378,7 @@ static void sdv_put_tile_row(const sdv_leaf_points *l, const sdv_line_points *li
     float y = (float)(cell->step * (cell->scale * line->v - cell->y));
     sdv_curve curve;
     sdv_slopes slopes;
-    memset(&slopes, 0, sizeof slopes);      // gcc cannot know that they are used only if they are set
+    memset(&slopes, 0, sizeof slopes);      // gcc cannot know that they are used only if set
     sdv_make_row(l->out, &l->part, y, &curve, &slopes);
     for (int64_t k = line->first; k <= line->last; k++, index += line->step)
         sdv_put_row_point(l->out, index, &curve, &slopes, (float)(x + (double)k * scale));
