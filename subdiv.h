@@ -7639,7 +7639,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 // A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
-#define SDV_NEST_DEPTH 5                // levels of a nest whose polynomials are kept
+#define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
 #define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
