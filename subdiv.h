@@ -3446,6 +3446,7 @@ typedef struct sdv_strip {
     int   origin, unit;                 // its own segment: where it starts, how long it is
     int   smooth;                       // beside a crease that is smooth by then; others: mirrored
     float rows[4][4];                   // smooth: its control rows, as sums of the patch's
+    double exact[4][4];                 // the same, for >>polynomials
 } sdv_strip;
 
 typedef struct sdv_strips {
@@ -3512,15 +3513,14 @@ static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int sm
 {
     sdv_strip *strip = &strips->items[strips->count++];
     int length = 1 << (strips->levels - c);
-    double row[4];
     strip->smooth = smooth;
     strip->from = first * length;
     strip->to = (last + 1) * length;
     strip->unit = smooth ? length : 1 << strips->levels;
     strip->origin = smooth ? strip->from : 0;
     for (int j = 0; j < 4 && smooth; j++) {
-        sdv_strip_row(strips, c, first + j - 1, row);
-        for (int k = 0; k < 4; k++) strip->rows[j][k] = (float)row[k];
+        sdv_strip_row(strips, c, first + j - 1, strip->exact[j]);
+        for (int k = 0; k < 4; k++) strip->rows[j][k] = (float)strip->exact[j][k];
     }
 }
 
@@ -5493,8 +5493,8 @@ static int sdv_first_fine_face(const subdiv_surface *surface, int f)
 {
     const sdv_order *order = &surface->order;
     if (surface->first_face) return surface->first_face[f];
-    return order->loop ? f * (order->n * order->n)
-                       : sdv_face_start(&order->cage, f) * (order->m * order->m);
+    int64_t n = order->n, m = order->m;         // of no faces any number of levels fits
+    return (int)(order->loop ? f * n * n : sdv_face_start(&order->cage, f) * m * m);
 }
 
 // The faces of the result.
@@ -8280,7 +8280,7 @@ typedef struct sdv_deep_patch {
     const sdv_patch  *patch;
     const sdv_strips *along, *up;       // or NULL
     double origin[4];
-    float  points[4 * 16];
+    double points[16][4];
 } sdv_deep_patch;
 
 static void sdv_load_deep(const subdiv_surface *surface, const sdv_patch *patch,
@@ -8294,7 +8294,7 @@ static void sdv_load_deep(const subdiv_surface *surface, const sdv_patch *patch,
     for (int c = 0; c < 4; c++) deep->origin[c] = origin[c];
     for (int i = 0; i < sdv_control_points(&surface->rules); i++)
         for (int c = 0; c < 4; c++)
-            deep->points[4 * i + c] = (float)(work[4 * (size_t)points[i] + (size_t)c] - origin[c]);
+            deep->points[i][c] = work[4 * (size_t)points[i] + (size_t)c] - origin[c];
 }
 
 static int sdv_deep_parts(const sdv_deep_patch *deep)
@@ -8302,12 +8302,53 @@ static int sdv_deep_parts(const sdv_deep_patch *deep)
     return deep->along ? deep->along->count * deep->up->count : 1;
 }
 
-// The polynomial of the part where two strips cross, from where their own segments start on, but in
-// the patch's units: powers of two make them longer.
-static void sdv_stretch(const sdv_strip *along, const sdv_strip *up, sdv_polynomial *q)
+// Four lines of control points, step from point to point and next from line to line, become sums
+// of themselves.
+static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)[4])
+{
+    for (int line = 0; line < 4; line++, p += next) {
+        double sums[4][4];
+        for (int j = 0; j < 4; j++)
+            for (int c = 0; c < 4; c++)
+                sums[j][c] = rows[j][0] * p[0][c] + rows[j][1] * p[step][c] +
+                             rows[j][2] * p[2 * step][c] + rows[j][3] * p[3 * step][c];
+        for (int j = 0; j < 4; j++) memcpy(p[j * step], sums[j], sizeof sums[j]);
+    }
+}
+
+// What sdv_mirror_quad and sdv_strip_points do, along one axis.
+static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high,
+                           const sdv_strips *strips, const sdv_strip *strip)
+{
+    double mirror[4][4] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } };
+    const double below[4] = { 0, 2, -1, 0 }, above[4] = { 0, -1, 2, 0 };
+    if (low || (!strip->smooth && strips->low > 0)) memcpy(mirror[0], below, sizeof below);
+    if (high || (!strip->smooth && strips->high > 0)) memcpy(mirror[3], above, sizeof above);
+    sdv_combine(p, step, next, (const double (*)[4])mirror);
+    if (strip->smooth) sdv_combine(p, step, next, (const double (*)[4])strip->exact);
+}
+
+// The part of a patch where two strips cross. It may be a thousandth of the patch, so its control
+// points are made in doubles, relative to one of them, origin. The polynomial starts where the
+// strips' own segments do, but is in the patch's units: powers of two make them longer.
+static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *along,
+                               const sdv_strip *up, sdv_polynomial *q, double *origin)
 {
     const float whole = 1 << SDV_STRIP_LEVELS;
     float dx = whole / (float)along->unit, dy = whole / (float)up->unit, xi = 1;
+    int sharp = deep->patch->sharp;
+    double points[16][4];
+    sdv_four p[16];
+    memcpy(points, deep->points, sizeof points);
+    sdv_cut_points(points, 1, 4, sharp & 8, sharp & 2, deep->along, along);
+    sdv_cut_points(points, 4, 1, sharp & 1, sharp & 4, deep->up, up);
+    for (int i = 0; i < 16; i++) {
+        float from[4];
+        for (int c = 0; c < 4; c++) from[c] = (float)(points[i][c] - points[5][c]);
+        p[i] = sdv_load(from);
+    }
+    for (int c = 0; c < 4; c++) origin[c] = deep->origin[c] + points[5][c];
+    sdv_quad_polynomial(p, 0, 0, 0, q);
     for (int i = 0; i < 4; i++, xi *= dx) {
         float scale = xi;
         for (int j = 0; j < 4; j++, scale *= dy)
@@ -8315,28 +8356,30 @@ static void sdv_stretch(const sdv_strip *along, const sdv_strip *up, sdv_polynom
     }
 }
 
-// The polynomial of part number i.
-static void sdv_deep_polynomial(const sdv_deep_patch *deep, int i, sdv_polynomial *q)
+// The polynomial of part number i, around its origin.
+static void sdv_deep_polynomial(const sdv_deep_patch *deep, int i, sdv_polynomial *q,
+                                double *origin)
 {
     static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    int count = sdv_control_points(deep->rules);
+    float points[4 * 16];
     sdv_four p[16];
-    if (deep->rules->loop) {
-        sdv_triangle_polynomial(deep->patch, same, 0, deep->rules->linear, deep->points, q);
-        return;
-    }
-    sdv_load_points(same, 16, deep->points, p);
     q->origin = sdv_all(0);
-    if (deep->patch->sharp) sdv_mirror_quad(deep->patch, p);
-    if (!deep->along) {
-        sdv_quad_polynomial(p, 0, 0, deep->rules->linear, q);
+    if (deep->along) {
+        int columns = deep->along->count;
+        sdv_cut_polynomial(deep, &deep->along->items[i % columns], &deep->up->items[i / columns],
+                           q, origin);
         return;
     }
-    const sdv_strip *along = &deep->along->items[i % deep->along->count];
-    const sdv_strip *up = &deep->up->items[i / deep->along->count];
-    sdv_strip_points(deep->along, along, 1, 4, p);
-    sdv_strip_points(deep->up, up, 4, 1, p);
-    sdv_quad_polynomial(p, 0, 0, 0, q);
-    sdv_stretch(along, up, q);
+    for (int c = 0; c < 4; c++) origin[c] = deep->origin[c];
+    for (int k = 0; k < 4 * count; k++) points[k] = (float)deep->points[k / 4][k % 4];
+    if (deep->rules->loop) {
+        sdv_triangle_polynomial(deep->patch, same, 0, deep->rules->linear, points, q);
+        return;
+    }
+    sdv_load_points(same, count, points, p);
+    if (deep->patch->sharp) sdv_mirror_quad(deep->patch, p);
+    sdv_quad_polynomial(p, 0, 0, deep->rules->linear, q);
 }
 
 // Where a patch is, of those of all levels, one level's behind the other's.
@@ -8471,24 +8514,34 @@ typedef struct sdv_exact_evaluation {
     float *out[6], *normals;
     size_t stride, normal_stride;
     int order;                          // of the highest derivative
-    unsigned char failed[256];          // jobs that got no memory
+    unsigned char failed[SDV_MOST_JOBS];        // jobs that got no memory
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// The coefficients of polynomial number i, channels c and on: of q, shrunk, around origin.
-static void sdv_keep_polynomial(const sdv_exact_evaluation *e, size_t i, int c,
-                                const sdv_polynomial *q, const double *origin, double shrink)
+// The coefficients of so many channels [SDV_SLOTS] of q, shrunk, around origin.
+static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
+                                int lanes, float *out)
 {
     float packed[4 * SDV_SLOTS];
     sdv_four slots[SDV_SLOTS];
-    float *out = e->memory.polynomials + SDV_SLOTS * ((size_t)e->channels * i + (size_t)c);
     sdv_pack(q, slots);
     for (int k = 0; k < SDV_SLOTS; k++)
         sdv_store(packed + 4 * k, sdv_times(sdv_all((float)shrink), slots[k]));
-    for (int l = 0; l < 4 && c + l < e->channels; l++, out += SDV_SLOTS) {
+    for (int l = 0; l < lanes; l++, out += SDV_SLOTS) {
         for (int k = 1; k < SDV_SLOTS; k++) out[k] = packed[4 * k + l];
         out[0] = (float)(origin[l] + (double)packed[l]);
     }
+}
+
+// Where polynomial number i is, from channel c on.
+static float *sdv_polynomial_at(const sdv_exact_evaluation *e, size_t i, int c)
+{
+    return e->memory.polynomials + SDV_SLOTS * ((size_t)e->channels * i + (size_t)c);
+}
+
+static int sdv_lanes_from(int channels, int c)
+{
+    return channels - c < 4 ? channels - c : 4;
 }
 
 // Those of a patch, of which i is the first one's number. Returns how many.
@@ -8497,14 +8550,16 @@ static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch 
 {
     sdv_deep_patch deep;
     sdv_polynomial q;
+    double origin[4];
     int parts = 0;
     for (int c = 0; c < e->channels; c += 4) {
         sdv_load_deep(e->surface, patch, points,
                       e->memory.work + (size_t)c * (size_t)e->surface->work_count, &deep);
         parts = sdv_deep_parts(&deep);
         for (int k = 0; k < parts; k++) {
-            sdv_deep_polynomial(&deep, k, &q);
-            sdv_keep_polynomial(e, i + (size_t)k, c, &q, deep.origin, 1);
+            sdv_deep_polynomial(&deep, k, &q, origin);
+            sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
+                                sdv_polynomial_at(e, i + (size_t)k, c));
         }
     }
     return parts;
@@ -8515,6 +8570,21 @@ static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int d
 {
     return (size_t)exact->polynomial_count +
            3 * ((size_t)face * SDV_NEST_DEPTH + (size_t)depth) + (size_t)child - 1;
+}
+
+// Those of a child of a nest's face, number `face` of its own, after a refinement.
+static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, int turn, int lanes,
+                                 float *out)
+{
+    const int *points;
+    const sdv_patch *patch = sdv_nest_patch(s->kind, face, child, turn, &points);
+    sdv_deep_patch deep;
+    sdv_polynomial q;
+    double origin[4];
+    sdv_load_deep(s->surface, patch, points, s->w, &deep);
+    sdv_deep_polynomial(&deep, 0, &q, origin);
+    for (int c = 0; c < 4; c++) origin[c] = s->base[c] + s->shrink * origin[c];
+    sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
 }
 
 // Those of a nest, of the children of its faces that are none of its own; w [4 * work_count].
@@ -8530,17 +8600,10 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
             if (depth > 0) sdv_nest_descend(&s);
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
-                int face = i / 3, child = i % 3 + 1, turn = exact->nest_faces[first + face].turn;
-                const int *points;
-                const sdv_patch *patch = sdv_nest_patch(s.kind, face, child, turn, &points);
-                sdv_deep_patch deep;
-                sdv_polynomial q;
-                sdv_load_deep(e->surface, patch, points, w, &deep);
-                sdv_deep_polynomial(&deep, 0, &q);
-                for (int k = 0; k < 4; k++)
-                    deep.origin[k] = s.base[k] + s.shrink * deep.origin[k];
-                sdv_keep_polynomial(e, sdv_nest_polynomial(exact, first + face, depth, child), c,
-                                    &q, deep.origin, s.shrink);
+                int face = i / 3, child = i % 3 + 1;
+                size_t at = sdv_nest_polynomial(exact, first + face, depth, child);
+                sdv_child_polynomial(&s, face, child, exact->nest_faces[first + face].turn,
+                                     sdv_lanes_from(e->channels, c), sdv_polynomial_at(e, at, c));
             }
         }
     }
@@ -8705,13 +8768,11 @@ static inline void sdv_triangle_values(const float *data, int lanes, float x, fl
 static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float s, sdv_four *out)
 {
     float data[4 * SDV_SLOTS];
+    double origin[4];
     sdv_polynomial q;
-    sdv_exact_evaluation here;
-    here.channels = 4;
-    here.memory.polynomials = data;
-    sdv_deep_polynomial(deep, 0, &q);
+    sdv_deep_polynomial(deep, 0, &q, origin);
     q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
-    sdv_keep_polynomial(&here, 0, 0, &q, deep->origin, 1);
+    sdv_keep_polynomial(&q, origin, 1, 4, data);
     if (deep->rules->loop) sdv_triangle_values(data, 4, x, y, s, 2, out);
     else sdv_quad_values(data, 4, x, y, s, 2, out);
 }
@@ -8738,8 +8799,7 @@ static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, i
                              float x, float y, float s, size_t i)
 {
     for (int c = 0; c < e->channels; c += 4)
-        sdv_put_lanes(e, data, loop, e->channels - c < 4 ? e->channels - c : 4, e->order, x, y, s,
-                      c, i);
+        sdv_put_lanes(e, data, loop, sdv_lanes_from(e->channels, c), e->order, x, y, s, c, i);
 }
 
 // Which child of a face, and where on it; a middle triangle is turned by half.
@@ -8766,8 +8826,37 @@ typedef struct sdv_nest_sample {
     int     face;
     double  x, y;                       // as seen from the vertex
     double  values[6][4];               // what comes out; derivatives are those in x and y
-    double  normal[2][4];               // tangents for the normal
+    double  tangents[2][4];             // for the normal
 } sdv_nest_sample;
+
+// The limit masks: of the vertex as seen from there, and its two tangents.
+static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
+{
+    const sdv_nest_kind *kind = s->kind;
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 4; c++) {
+            limit[k][c] = 0;
+            for (int i = 0; i < kind->points; i++)
+                limit[k][c] += kind->limit[k * kind->points + i] * s->w[4 * i + c];
+        }
+}
+
+static void sdv_cross(const double *a, const double *b, double *n)
+{
+    n[0] = a[1] * b[2] - a[2] * b[1];
+    n[1] = a[2] * b[0] - a[0] * b[2];
+    n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+// Are tangents parallel, but for rounding? The two edges of a face that is alone on its side of a
+// crease are, near the vertex: its normal is there already.
+static int sdv_parallel(const double *a, const double *b)
+{
+    double n[3], aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    sdv_cross(a, b, n);
+    return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] <= 1e-10 * aa * bb;
+}
 
 // From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time,
 // show how it weighs its control points. (On a sharp edge, those beside it not at all: there the
@@ -8780,14 +8869,17 @@ static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
     const int *points;
     const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
-    sdv_deep_patch unit = { &state->surface->rules, patch, NULL, NULL, { 0, 0, 0, 0 }, { 0 } };
+    sdv_deep_patch unit;
+    memset(&unit, 0, sizeof unit);
+    unit.rules = &state->surface->rules;
+    unit.patch = patch;
     sdv_nest_refine(&s->state);
     memset(s->values, 0, sizeof s->values);
     for (int first = 0; first < count; first += 4) {
         sdv_four weights[6];
-        for (int i = 0; i < 4; i++) unit.points[4 * (first + i) + i] = 1;
+        for (int i = 0; i < 4; i++) unit.points[first + i][i] = 1;
         sdv_deep_values(&unit, (float)x, (float)y, (float)scale, weights);
-        for (int i = 0; i < 4; i++) unit.points[4 * (first + i) + i] = 0;
+        for (int i = 0; i < 4; i++) unit.points[first + i][i] = 0;
         for (int d = 0; d < 6; d++) {
             float w[4];
             sdv_store(w, weights[d]);
@@ -8800,28 +8892,11 @@ static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
         s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
         for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
     }
-    memcpy(s->normal, s->values[1], sizeof s->normal);
-}
-
-// At the vertex itself: by the limit masks, if there are any. Else far down, along both edges and,
-// for the normal, between them. Second derivatives are 0.
-static void sdv_nest_masks(sdv_nest_sample *s)
-{
-    const sdv_nest_kind *kind = s->state.kind;
-    double sum[3][4], a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
-    for (int k = 0; k < 3; k++)
-        for (int c = 0; c < 4; c++) {
-            sum[k][c] = 0;
-            for (int i = 0; i < kind->points; i++)
-                sum[k][c] += kind->limit[k * kind->points + i] * s->state.w[4 * i + c];
-        }
-    for (int c = 0; c < 4; c++) {
-        s->values[0][c] = s->state.base[c] + s->state.shrink * sum[0][c];
-        for (int i = 0; i < 2; i++) {
-            s->values[1 + i][c] = cos((s->face + i) * a) * sum[1][c] +
-                                  sin((s->face + i) * a) * sum[2][c];
-            s->normal[i][c] = sum[1 + i][c];
-        }
+    memcpy(s->tangents, s->values[1], sizeof s->tangents);
+    if (state->kind->limit && sdv_parallel(s->tangents[0], s->tangents[1])) {
+        double limit[3][4];
+        sdv_nest_masks(state, limit);
+        memcpy(s->tangents, limit[1], sizeof s->tangents);
     }
 }
 
@@ -8833,20 +8908,31 @@ static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
     }
 }
 
+// At the vertex itself: by the limit masks, if there are any. Else far down, along both edges and,
+// for the normal, between them. Second derivatives are 0.
 static void sdv_nest_vertex(sdv_nest_sample *s)
 {
-    double along[2][4], normal[2][4];
-    if (s->state.kind->limit) {
-        sdv_nest_masks(s);
-    } else {
-        sdv_nest_go_down(s, 100);
-        for (int i = 0; i < 3; i++) {
-            sdv_nest_child(s, i == 1 ? 0 : 0.5, i == 0 ? 0 : 0.5);
-            if (i < 2) memcpy(along[i], s->values[1 + i], sizeof along[i]);
-            else memcpy(normal, s->normal, sizeof normal);
+    const sdv_nest_kind *kind = s->state.kind;
+    double a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
+    if (kind->limit) {
+        double limit[3][4];
+        sdv_nest_masks(&s->state, limit);
+        for (int c = 0; c < 4; c++) {
+            s->values[0][c] = s->state.base[c] + s->state.shrink * limit[0][c];
+            for (int i = 0; i < 2; i++)
+                s->values[1 + i][c] = cos((s->face + i) * a) * limit[1][c] +
+                                      sin((s->face + i) * a) * limit[2][c];
         }
+        memcpy(s->tangents, limit[1], sizeof s->tangents);
+    } else {
+        double along[2][4];
+        sdv_nest_go_down(s, 100);
+        sdv_nest_child(s, 0.5, 0);
+        memcpy(along[0], s->values[1], sizeof along[0]);
+        sdv_nest_child(s, 0, 0.5);
+        memcpy(along[1], s->values[2], sizeof along[1]);
+        sdv_nest_child(s, 0.5, 0.5);
         memcpy(s->values[1], along, sizeof along);
-        memcpy(s->normal, normal, sizeof normal);
         memcpy(s->values[0], s->state.base, sizeof s->state.base);
     }
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
@@ -8909,9 +8995,8 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
                 (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
         }
     if (!e->normals || c > 0) return;
-    const double *a = s->normal[0], *b = s->normal[1];
-    double n[3] = { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                    a[0] * b[1] - a[1] * b[0] };
+    double n[3];
+    sdv_cross(s->tangents[0], s->tangents[1], n);
     sdv_make_unit(n, e->normals + e->normal_stride * i);
 }
 
@@ -10327,8 +10412,8 @@ static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
     sdv_nest_vertex(vertex);
     for (int c = 0; c < 4; c++) {
         p[0][c] = (float)vertex->values[0][c];
-        p[1][c] = (float)vertex->normal[0][c];
-        p[2][c] = (float)vertex->normal[1][c];
+        p[1][c] = (float)vertex->tangents[0][c];
+        p[2][c] = (float)vertex->tangents[1][c];
     }
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
@@ -10350,9 +10435,10 @@ static void sdv_need_polynomial(sdv_leaf_points *l)
         if (!l->loaded)
             sdv_load_deep(l->samples->source->surface, l->patch, l->points, l->work, &l->deep);
         l->loaded = 1;
-        sdv_deep_polynomial(&l->deep, l->number, q);
+        double deep[4];
+        sdv_deep_polynomial(&l->deep, l->number, q, deep);
         sdv_four shrink = sdv_all((float)l->shrink);
-        for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * l->deep.origin[c]);
+        for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * deep[c]);
         q->origin = sdv_load(origin);
         for (int i = 0; i <= q->degree && l->shrink < 1; i++)
             for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
