@@ -498,7 +498,9 @@ typedef struct subdiv_derivatives {
 // units that shrink with the surface, as if the vertex were regular; at an infinitely sharp
 // corner or dart their lengths mean nothing. The second ones are 0 there. On a crease all belong
 // to the face. The dart of an infinite crease is where the surface around it ends up, which is not
-// where >>limit, as OpenSubdiv, puts it.
+// where >>limit, as OpenSubdiv, puts it. With 4 or more faces (Loop: 6) on its side of a crease or
+// boundary a vertex has no tangent plane, as other waves do not shrink faster than the crease: its
+// normal is that of the limit masks, and not what those beside it tend to.
 //
 // Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
 // face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
@@ -516,8 +518,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 //
 //     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
 //
-// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6. Weights that are
-// no more than rounding of the others are left out. Stencils of a surface of face-varying values
+// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6 of the largest.
+// Weights that are no more than rounding of the others are left out. Stencils of a surface of face-varying values
 // have numbers of values as indices.
 typedef struct subdiv_stencils {
     int     count;
@@ -8328,32 +8330,37 @@ static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high
     if (strip->smooth) sdv_combine(p, step, next, (const double (*)[4])strip->exact);
 }
 
-// The part of a patch where two strips cross. It may be a thousandth of the patch, so its control
-// points are made in doubles, relative to one of them, origin. The polynomial starts where the
-// strips' own segments do, but is in the patch's units: powers of two make them longer.
+// From control points to the coefficients of the limit's polynomial, see sdv_cubic, in units so
+// many times as long as the segment.
+static void sdv_cut_cubic(double (*p)[4], int step, int next, double unit)
+{
+    double u = unit, uu = u * u, uuu = uu * u;
+    const double rows[4][4] = { { 1.0 / 6, 2.0 / 3, 1.0 / 6, 0 }, { -u / 2, 0, u / 2, 0 },
+                                { uu / 2, -uu, uu / 2, 0 },
+                                { -uuu / 6, uuu / 2, -uuu / 2, uuu / 6 } };
+    sdv_combine(p, step, next, rows);
+}
+
+// The part of a patch where two strips cross. It may be a thousandth of the patch, so it is made in
+// doubles. The polynomial starts where the strips' own segments do, but is in the patch's units.
 static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *along,
                                const sdv_strip *up, sdv_polynomial *q, double *origin)
 {
-    const float whole = 1 << SDV_STRIP_LEVELS;
-    float dx = whole / (float)along->unit, dy = whole / (float)up->unit, xi = 1;
+    const double whole = 1 << SDV_STRIP_LEVELS;
     int sharp = deep->patch->sharp;
-    double points[16][4];
-    sdv_four p[16];
-    memcpy(points, deep->points, sizeof points);
-    sdv_cut_points(points, 1, 4, sharp & 8, sharp & 2, deep->along, along);
-    sdv_cut_points(points, 4, 1, sharp & 1, sharp & 4, deep->up, up);
-    for (int i = 0; i < 16; i++) {
-        float from[4];
-        for (int c = 0; c < 4; c++) from[c] = (float)(points[i][c] - points[5][c]);
-        p[i] = sdv_load(from);
+    double p[16][4];
+    memcpy(p, deep->points, sizeof p);
+    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, deep->along, along);
+    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, deep->up, up);
+    sdv_cut_cubic(p, 1, 4, whole / along->unit);
+    sdv_cut_cubic(p, 4, 1, whole / up->unit);
+    for (int c = 0; c < 4; c++) {
+        origin[c] = deep->origin[c] + p[0][c];
+        p[0][c] = 0;
     }
-    for (int c = 0; c < 4; c++) origin[c] = deep->origin[c] + points[5][c];
-    sdv_quad_polynomial(p, 0, 0, 0, q);
-    for (int i = 0; i < 4; i++, xi *= dx) {
-        float scale = xi;
-        for (int j = 0; j < 4; j++, scale *= dy)
-            q->c[i][j] = sdv_times(sdv_all(scale), q->c[i][j]);
-    }
+    for (int i = 0; i < 16; i++)
+        q->c[i % 4][i / 4] = sdv_of((float)p[i][0], (float)p[i][1], (float)p[i][2], (float)p[i][3]);
+    q->degree = 3;
 }
 
 // The polynomial of part number i, around its origin.
@@ -8848,16 +8855,6 @@ static void sdv_cross(const double *a, const double *b, double *n)
     n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// Are tangents parallel, but for rounding? The two edges of a face that is alone on its side of a
-// crease are, near the vertex: its normal is there already.
-static int sdv_parallel(const double *a, const double *b)
-{
-    double n[3], aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
-    sdv_cross(a, b, n);
-    return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] <= 1e-10 * aa * bb;
-}
-
 // From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time,
 // show how it weighs its control points. (On a sharp edge, those beside it not at all: there the
 // surface may grow without bound as seen from the vertex, while along the edge it does not.)
@@ -8893,11 +8890,6 @@ static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
         for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
     }
     memcpy(s->tangents, s->values[1], sizeof s->tangents);
-    if (state->kind->limit && sdv_parallel(s->tangents[0], s->tangents[1])) {
-        double limit[3][4];
-        sdv_nest_masks(state, limit);
-        memcpy(s->tangents, limit[1], sizeof s->tangents);
-    }
 }
 
 static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
@@ -9000,6 +8992,26 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
     sdv_make_unit(n, e->normals + e->normal_stride * i);
 }
 
+// Are tangents parallel, but for rounding?
+static int sdv_parallel(const double *a, const double *b)
+{
+    double n[3], aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    sdv_cross(a, b, n);
+    return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] <= 1e-10 * aa * bb;
+}
+
+// Of a face alone on its side of a crease they are, near the vertex: there the normal is the
+// vertex's, whose second tangent is how the crease bends.
+static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
+{
+    double limit[3][4];
+    if (!s->state.kind->limit || !sdv_parallel(s->tangents[0], s->tangents[1])) return;
+    sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
+    sdv_nest_masks(&s->state, limit);
+    memcpy(s->tangents, limit[1], sizeof s->tangents);
+}
+
 static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, double y, double scale,
                         size_t i)
 {
@@ -9017,9 +9029,10 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, dou
     if (s.x < 0) s.x = 0;
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
-        sdv_nest_load(&s.state, surface, face->nest,
-                      e->memory.work + (size_t)c * (size_t)surface->work_count, w);
+        const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
+        sdv_nest_load(&s.state, surface, face->nest, work, w);
         sdv_nest_evaluate(&s);
+        if (e->normals && c == 0) sdv_nest_normal(&s, face->nest, work);
         sdv_nest_turn(&s, t, scale);
         sdv_nest_put(e, &s, c, i);
     }

@@ -440,6 +440,66 @@ static void test_continuous(void)
     }
 }
 
+// ---------------------------------------------------------------------------------- hard places
+
+// A grid that is flat and evenly spaced (by numbers that floats have) stays so with a straight crease
+// of any sharpness: its second derivatives are 0, also in the thousandth of a face beside the crease.
+static void test_long_creases(void)
+{
+    static const float sharpness[] = { 0.3f, 1, 2.5f, 4, 5.5f, 7.5f, 8.5f, 9, 9.5f, 9.9f };
+    static const float along[3] = { 48103 / 65536.0f, -20382 / 65536.0f, 7 };
+    static const float across[3] = { 20382 / 65536.0f, 48103 / 65536.0f, 1001 / 1024.0f };
+    enum { N = 8, ROW = 4 };
+    for (int k = 0; k < 10; k++) {
+        test_cage c;
+        build_grid(&c, SUBDIV_CATMULL_CLARK, N, N);
+        for (int v = 0; v < c.mesh.vertex_count; v++)
+            for (int i = 0; i < 3; i++)
+                c.positions[3 * v + i] = (float)(v % (N + 1)) * along[i] +
+                                         (float)(v / (N + 1)) * across[i];
+        for (int i = 0; i < N; i++)
+            cage_crease(&c, ROW * (N + 1) + i, ROW * (N + 1) + i + 1, sharpness[k]);
+        ready r = get_ready(&c.mesh, NULL);
+        double worst = 0;
+        for (int i = 0; i < 300; i++) {
+            int above = i % 2, face = (above ? ROW : ROW - 1) * N + 3;
+            double far = ldexp(0.5 + i % 7 / 14.0, -(i % 13));
+            sample s = evaluate(&r, face, 0, 0.1 + i % 5 / 6.0, above ? far : 1 - far);
+            CHECK_NEAR(distance(s.du, along), 0, 1e-5);
+            CHECK_NEAR(distance(s.dv, across), 0, 1e-5);
+            worst = fmax(worst, fmax(length(s.duu), fmax(length(s.duv), length(s.dvv))));
+        }
+        CHECK_NEAR(worst, 0, 1e-3);
+        put_away(&r);
+    }
+}
+
+// At a vertex on the boundary with a single face the edges become parallel; a flat polygon has its
+// normal there all the same, however near.
+static void test_single_faces(void)
+{
+    for (int n = 3; n <= 6; n++) {
+        test_cage c;
+        build_fan(&c, n == 3 ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK, 1, 0);
+        int corners[6] = { 0, 1, 2, 3, 4, 5 };
+        c.mesh.vertex_count = c.mesh.face_size = n;
+        c.mesh.face_count = 1;
+        c.mesh.face_sizes = NULL;
+        c.mesh.face_vertices = corners;
+        for (int i = 0; i < n; i++) {
+            c.positions[3 * i] = (float)cos(6.283185307 * i / n + 0.3);
+            c.positions[3 * i + 1] = (float)sin(6.283185307 * i / n + 0.3);
+            c.positions[3 * i + 2] = 0;
+        }
+        ready r = get_ready(&c.mesh, NULL);
+        for (int k = 0; k < 120; k++) {
+            sample s = evaluate(&r, 0, 0, ldexp(0.9, -k), ldexp(0.07 * (k % 12), -k));
+            CHECK_NEAR(s.normal[2], 1, 1e-5);
+        }
+        put_away(&r);
+    }
+}
+
 // -------------------------------------------------------------------------------------- channels
 
 enum { MANY = 5000 };
@@ -671,6 +731,8 @@ int main(void)
     RUN(test_vertices);
     RUN(test_eigenvalues);
     RUN(test_continuous);
+    RUN(test_long_creases);
+    RUN(test_single_faces);
     RUN(test_channels);
     RUN(test_values);
     RUN(test_locations);
