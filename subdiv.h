@@ -519,8 +519,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 //     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
 //
 // A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6 of the largest.
-// Weights that are no more than rounding of the others are left out. Stencils of a surface of face-varying values
-// have numbers of values as indices.
+// Weights that are no more than rounding of the others are left out. Stencils of a surface of
+// face-varying values have numbers of values as indices.
 typedef struct subdiv_stencils {
     int     count;
     size_t *offsets;                  // [count + 1]
@@ -553,7 +553,8 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 // it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
 // refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
 // bytes are enough but for large faces and valences. Errors, which leave text empty: as
-// subdiv_refine, INDEX if there is no such point, TOO_LARGE if the text does not fit.
+// subdiv_refine, ARGUMENT if there is no room at all, INDEX if there is no such point, TOO_LARGE if
+// the text does not fit.
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt);
 
@@ -7783,38 +7784,47 @@ static void sdv_nest_mesh(const sdv_nest_kind *kind, int loop, int *faces)
     }
 }
 
+// How large tangent weights are, in those of the regular vertex: the square sums of the edges'
+// part, wave times cos or sin, of which inner leaves the first and last out, and the faces'.
+static double sdv_tangent_size(const double *t, int edges, int faces, int inner, double wave)
+{
+    double size = 0;
+    for (int i = inner; i < edges - inner; i++) size += t[1 + i] * t[1 + i] / wave;
+    for (int i = 0; i < faces; i++) size += t[1 + edges + i] * t[1 + edges + i];
+    return size;
+}
+
 // Weights of the limit and of tangents along the first edge and a quarter turn away, scaled so that
 // for a regular vertex they are the derivatives.
 static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nest_kind *kind,
                            sdv_arena *arena, sdv_arena *scratch)
 {
     int n = kind->faces, loop = rules->loop, width = loop ? 3 : 6, edges = n + !kind->ring;
-    double *t = SDV_NEW(context, scratch, double, 4 * (size_t)n + 8);
+    int across = loop ? 0 : n;                          // vertices across the faces
+    double *t0 = SDV_NEW(context, scratch, double, 2 * (size_t)n + 4);
+    double *t1 = SDV_NEW(context, scratch, double, 2 * (size_t)n + 4), size[3] = { 1, 0, 0 };
     sdv_mask mask = sdv_limit_mask(rules, kind->rule, n);
     kind->limit = SDV_NEW(context, arena, double, 3 * (size_t)kind->points);
     if (context->result) return;
-    double *t0 = t, *t1 = t + 2 * n + 4;
-    if (kind->ring) sdv_smooth_tangents(n, loop, t0, t1);
-    else sdv_crease_tangents(n, loop, t0, t1);
-    double norm[2] = { 0, 0 }, wave = 4;
-    if (loop && !kind->ring) wave = 1 + 2 * cos(3.14159265358979323846 / n);
-    for (int i = 0; i < edges; i++) {
-        int inner = kind->ring || (i > 0 && i < n);
-        norm[0] += t0[1 + i] * t0[1 + i] / (kind->ring ? 4 : 1);
-        norm[1] += inner ? t1[1 + i] * t1[1 + i] / wave : 0;
+    if (kind->ring) {
+        sdv_smooth_tangents(n, loop, t0, t1);
+        size[1] = sdv_tangent_size(t0, edges, across, 0, 4);
+        size[2] = sdv_tangent_size(t1, edges, across, 0, 4);
+    } else {
+        sdv_crease_tangents(n, loop, t0, t1);
+        size[1] = sdv_tangent_size(t0, edges, across, 0, 1);
+        size[2] = sdv_tangent_size(t1, edges, across, 1,
+                                   loop ? 1 + 2 * cos(3.14159265358979323846 / n) : 4);
     }
-    for (int i = 0; i < n && !loop; i++)
-        for (int k = 0; k < 2; k++) norm[k] += t[k * (2 * n + 4) + 1 + edges + i] *
-                                               t[k * (2 * n + 4) + 1 + edges + i];
     for (int k = 0; k < 3; k++) {
         double *w = kind->limit + k * kind->points, *from = k == 1 ? t0 : t1;
-        double scale = k && norm[k - 1] > 0 ? 1 / norm[k - 1] : 1;
+        double scale = size[k] > 0 ? 1 / size[k] : 1;
         for (int i = 0; i < kind->points; i++) w[i] = 0;
         w[0] = k ? scale * from[0] : mask.self;
         for (int i = 0; i < edges; i++)
             w[1 + width * i] = k ? scale * from[1 + i] :
                                mask.edge + (i == 0 || i == n ? mask.crease : 0);
-        for (int i = 0; i < n && !loop; i++)
+        for (int i = 0; i < across; i++)
             w[3 + width * i] = k ? scale * from[1 + edges + i] : mask.face;
     }
 }
@@ -7873,7 +7883,8 @@ static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rul
 
 
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
-// not one that both and their neighbours share as in the cage of a mesh.
+// not one that both and their neighbours share as in the cage of a mesh. The pairs are that edge's
+// face-vertices in the faces of sdv_nest_mesh.
 static void sdv_part_triangles(sdv_level *level, int dart)
 {
     static const int pairs[2][2] = { { 1, 5 }, { 13, 17 } };
@@ -8004,15 +8015,30 @@ static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, in
     return 1;
 }
 
+// A nest of so many faces from h on, counter-clockwise. Returns its number.
+static int sdv_new_nest(sdv_exact_maker *maker, const sdv_level *level, int h, int faces, int ring,
+                        sdv_rule rule)
+{
+    sdv_context *context = maker->writer->context;
+    int number = (int)maker->nests.count, kind = sdv_find_nest_kind(maker, faces, ring, rule);
+    sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
+    if (context->result) return -1;
+    size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
+    nest->kind = kind;
+    nest->first = (int)maker->nest_points.count;
+    nest->face = (int)maker->nest_faces.count;
+    int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
+    sdv_append(context, &maker->nest_faces, (size_t)faces, sizeof(sdv_nest_face));
+    if (points) sdv_nest_points(level, h, faces, ring, maker->surface->rules.loop, points);
+    return number;
+}
+
 // The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
-// number, or -2, at all its faces, and face_at where they stand in it. At a vertex that is not
-// manifold a crease may run apart from these faces: then they have none before the last level,
-// where the vertex has all but arrived.
+// number, or -2, at all its faces, and face_at where they stand in it.
 static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int depth, int h,
                           int *at, int *face_at)
 {
     const sdv_rules *rules = &maker->surface->rules;
-    sdv_context *context = maker->writer->context;
     int first = h, faces = 1, i, number = -2;
     while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
     int ring = i == h;
@@ -8020,22 +8046,15 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int de
     int last = first;
     for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
     sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
+    // A slit: the faces begin and end at the same sharp edge, which at a dart is the only one.
+    // Apart: at a vertex that is not manifold a crease may run beside these faces, not along them;
+    // then they have no nest before the last level, where the vertex has all but arrived.
     int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
     int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
     if ((!apart || depth + 1 == SDV_EXACT_LEVELS) &&
         sdv_is_nest(level, rules, first, faces, ring)) {
         if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
-        number = (int)maker->nests.count;
-        int kind = sdv_find_nest_kind(maker, faces, ring || dart, rule);
-        sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
-        if (context->result) return;
-        size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
-        nest->kind = kind;
-        nest->first = (int)maker->nest_points.count;
-        nest->face = (int)maker->nest_faces.count;
-        int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
-        sdv_append(context, &maker->nest_faces, (size_t)faces, sizeof(sdv_nest_face));
-        if (points) sdv_nest_points(level, first, faces, ring || dart, rules->loop, points);
+        number = sdv_new_nest(maker, level, first, faces, ring || dart, rule);
     }
     for (i = 0; i < faces; i++) {
         at[first] = number;
@@ -8276,27 +8295,27 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 // --------------------------------------------------------------------------- >>polynomials
 // What an evaluation of the exact surface begins with: the polynomials of all leaves.
 
-// A patch's control points, relative to one of them, and the strips that it is cut into.
+// A patch, its control points among work points in doubles, and the strips that it is cut into.
 typedef struct sdv_deep_patch {
     const sdv_rules  *rules;
     const sdv_patch  *patch;
+    const int        *points;
+    const double     *work;
     const sdv_strips *along, *up;       // or NULL
-    double origin[4];
-    double points[16][4];
 } sdv_deep_patch;
 
-static void sdv_load_deep(const subdiv_surface *surface, const sdv_patch *patch,
-                          const int *points, const double *work, sdv_deep_patch *deep)
+static sdv_deep_patch sdv_deep(const subdiv_surface *surface, const sdv_patch *patch,
+                               const int *points, const double *work)
 {
-    const double *origin = work + 4 * (size_t)points[surface->rules.loop ? 4 : 5];
-    deep->rules = &surface->rules;
-    deep->patch = patch;
-    deep->along = patch->up ? &surface->strips[patch->along - 1] : NULL;
-    deep->up = patch->up ? &surface->strips[patch->up - 1] : NULL;
-    for (int c = 0; c < 4; c++) deep->origin[c] = origin[c];
-    for (int i = 0; i < sdv_control_points(&surface->rules); i++)
-        for (int c = 0; c < 4; c++)
-            deep->points[i][c] = work[4 * (size_t)points[i] + (size_t)c] - origin[c];
+    sdv_deep_patch deep = { &surface->rules, patch, points, work, NULL, NULL };
+    if (patch->up) deep.along = &surface->strips[patch->along - 1];
+    if (patch->up) deep.up = &surface->strips[patch->up - 1];
+    return deep;
+}
+
+static const double *sdv_deep_point(const sdv_deep_patch *deep, int i)
+{
+    return deep->work + 4 * (size_t)deep->points[i];
 }
 
 static int sdv_deep_parts(const sdv_deep_patch *deep)
@@ -8349,13 +8368,14 @@ static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *alon
     const double whole = 1 << SDV_STRIP_LEVELS;
     int sharp = deep->patch->sharp;
     double p[16][4];
-    memcpy(p, deep->points, sizeof p);
+    for (int i = 0; i < 16; i++)
+        for (int c = 0; c < 4; c++) p[i][c] = sdv_deep_point(deep, i)[c] - origin[c];
     sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, deep->along, along);
     sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, deep->up, up);
     sdv_cut_cubic(p, 1, 4, whole / along->unit);
     sdv_cut_cubic(p, 4, 1, whole / up->unit);
     for (int c = 0; c < 4; c++) {
-        origin[c] = deep->origin[c] + p[0][c];
+        origin[c] += p[0][c];
         p[0][c] = 0;
     }
     for (int i = 0; i < 16; i++)
@@ -8363,23 +8383,26 @@ static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *alon
     q->degree = 3;
 }
 
-// The polynomial of part number i, around its origin.
+// The polynomial of part number i, around its origin: a control point, or where the part starts.
 static void sdv_deep_polynomial(const sdv_deep_patch *deep, int i, sdv_polynomial *q,
                                 double *origin)
 {
     static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    const double *first = sdv_deep_point(deep, deep->rules->loop ? 4 : 5);
     int count = sdv_control_points(deep->rules);
     float points[4 * 16];
     sdv_four p[16];
     q->origin = sdv_all(0);
+    for (int c = 0; c < 4; c++) origin[c] = first[c];
     if (deep->along) {
         int columns = deep->along->count;
         sdv_cut_polynomial(deep, &deep->along->items[i % columns], &deep->up->items[i / columns],
                            q, origin);
         return;
     }
-    for (int c = 0; c < 4; c++) origin[c] = deep->origin[c];
-    for (int k = 0; k < 4 * count; k++) points[k] = (float)deep->points[k / 4][k % 4];
+    for (int k = 0; k < count; k++)
+        for (int c = 0; c < 4; c++)
+            points[4 * k + c] = (float)(sdv_deep_point(deep, k)[c] - origin[c]);
     if (deep->rules->loop) {
         sdv_triangle_polynomial(deep->patch, same, 0, deep->rules->linear, points, q);
         return;
@@ -8555,13 +8578,12 @@ static int sdv_lanes_from(int channels, int c)
 static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
                                  const int *points, size_t i)
 {
-    sdv_deep_patch deep;
     sdv_polynomial q;
     double origin[4];
     int parts = 0;
     for (int c = 0; c < e->channels; c += 4) {
-        sdv_load_deep(e->surface, patch, points,
-                      e->memory.work + (size_t)c * (size_t)e->surface->work_count, &deep);
+        const double *work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
+        sdv_deep_patch deep = sdv_deep(e->surface, patch, points, work);
         parts = sdv_deep_parts(&deep);
         for (int k = 0; k < parts; k++) {
             sdv_deep_polynomial(&deep, k, &q, origin);
@@ -8585,10 +8607,9 @@ static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, i
 {
     const int *points;
     const sdv_patch *patch = sdv_nest_patch(s->kind, face, child, turn, &points);
-    sdv_deep_patch deep;
+    sdv_deep_patch deep = sdv_deep(s->surface, patch, points, s->w);
     sdv_polynomial q;
     double origin[4];
-    sdv_load_deep(s->surface, patch, points, s->w, &deep);
     sdv_deep_polynomial(&deep, 0, &q, origin);
     for (int c = 0; c < 4; c++) origin[c] = s->base[c] + s->shrink * origin[c];
     sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
@@ -8778,7 +8799,6 @@ static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float 
     double origin[4];
     sdv_polynomial q;
     sdv_deep_polynomial(deep, 0, &q, origin);
-    q.c[0][0] = sdv_plus(q.c[0][0], q.origin);
     sdv_keep_polynomial(&q, origin, 1, 4, data);
     if (deep->rules->loop) sdv_triangle_values(data, 4, x, y, s, 2, out);
     else sdv_quad_values(data, 4, x, y, s, 2, out);
@@ -8866,17 +8886,16 @@ static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
     const int *points;
     const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
-    sdv_deep_patch unit;
-    memset(&unit, 0, sizeof unit);
-    unit.rules = &state->surface->rules;
-    unit.patch = patch;
+    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    double unit[16][4] = { { 0 } };
+    sdv_deep_patch deep = sdv_deep(state->surface, patch, same, unit[0]);
     sdv_nest_refine(&s->state);
     memset(s->values, 0, sizeof s->values);
     for (int first = 0; first < count; first += 4) {
         sdv_four weights[6];
-        for (int i = 0; i < 4; i++) unit.points[first + i][i] = 1;
-        sdv_deep_values(&unit, (float)x, (float)y, (float)scale, weights);
-        for (int i = 0; i < 4; i++) unit.points[first + i][i] = 0;
+        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
+        sdv_deep_values(&deep, (float)x, (float)y, (float)scale, weights);
+        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
         for (int d = 0; d < 6; d++) {
             float w[4];
             sdv_store(w, weights[d]);
@@ -10383,8 +10402,7 @@ typedef struct sdv_leaf_points {
     const double    *work;
     double   base[4], shrink;
     sdv_nest_sample *vertex;            // or what is left of a nest
-    int      loaded, number, ready;     // number: of the part, if it is cut
-    sdv_deep_patch   deep;
+    int      number, ready;             // number: of the part, if it is cut
     sdv_part part;                      // its polynomial
 } sdv_leaf_points;
 
@@ -10445,13 +10463,11 @@ static void sdv_need_polynomial(sdv_leaf_points *l)
     if (l->vertex) {
         sdv_vertex_plane(l->vertex, q);
     } else {
-        if (!l->loaded)
-            sdv_load_deep(l->samples->source->surface, l->patch, l->points, l->work, &l->deep);
-        l->loaded = 1;
-        double deep[4];
-        sdv_deep_polynomial(&l->deep, l->number, q, deep);
+        sdv_deep_patch deep = sdv_deep(l->samples->source->surface, l->patch, l->points, l->work);
+        double from[4];
+        sdv_deep_polynomial(&deep, l->number, q, from);
         sdv_four shrink = sdv_all((float)l->shrink);
-        for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * deep[c]);
+        for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * from[c]);
         q->origin = sdv_load(origin);
         for (int i = 0; i <= q->degree && l->shrink < 1; i++)
             for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
@@ -10634,7 +10650,7 @@ static int sdv_begin_leaf(const sdv_samples *s, const sdv_window *out, int h, sd
     for (int c = 0; c < 4; c++) l->base[c] = 0;
     l->shrink = 1;
     l->vertex = NULL;
-    l->loaded = l->number = 0;
+    l->number = 0;
     return 1;
 }
 
@@ -10716,7 +10732,6 @@ static void sdv_put_nest_level(const sdv_samples *s, const sdv_window *out,
         for (int child = 1; child <= 3; child++) {
             l.patch = sdv_nest_patch(state->kind, i, child, face->turn, &l.points);
             l.cell = sdv_nest_cell(&l.tile, face, depth, child);
-            l.loaded = 0;
             sdv_put_cell(&l);
         }
     }

@@ -33,8 +33,8 @@ int main(void)
             away = fmax(away, distance(fine.positions + i, limit.positions + i));
             off = fmax(off, distance(fine.normals + i, limit.normals + i));
         }
-        printf("level %d: at most %.5f away, normals at most %.1f degrees off\n", level, away,
-               2 * asin(fmin(off / 2, 1)) * 57.29578);
+        if (!r) printf("level %d: at most %.5f away, normals at most %.1f degrees off\n", level,
+                       away, 2 * asin(fmin(off / 2, 1)) * 57.29578);
         if (!r && level == 3) r = subdiv_save_obj(&limit, "build/octopus_limit.obj", NULL);
         subdiv_mesh_free(&fine);
         subdiv_mesh_free(&limit);

@@ -52,8 +52,9 @@ int main(void)
     how.edge_rate = NULL;
     how.rate = view.largest;
     if (!r) r = subdiv_tessellate(&even, &cage, &how, NULL);
-    printf("rates up to %d, %d faces; rate %d for all, %d faces; %d open edges\n", view.largest,
-           seen.face_count, view.largest, even.face_count, info.boundary_edge_count);
+    if (!r) printf("rates up to %d, %d faces; rate %d for all, %d faces; %d open edges\n",
+                   view.largest, seen.face_count, view.largest, even.face_count,
+                   info.boundary_edge_count);
     puts(subdiv_result_string(r));
     subdiv_mesh_free(&even);
     subdiv_mesh_free(&seen);

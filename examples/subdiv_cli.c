@@ -152,8 +152,9 @@ static int set_option(command *cmd, int id, const char *value)
     }
     int number = strcmp(o->values, "N") == 0;
     int read = number ? read_number(value) : find_name(o->values, value);
-    if (number && (read < 0 || ((id == THREADS || id == TESSELLATE) && read < 1)))
-        return misused("--%s needs a whole number, not '%s'", o->name, value);
+    int least = id == THREADS || id == TESSELLATE;
+    if (number && read < least)
+        return misused("--%s needs a whole number from %d up, not '%s'", o->name, least, value);
     if (read < 0) return misused("--%s is one of %s, not '%s'", o->name, o->values, value);
     cmd->given[id] = read;
     return DONE;
@@ -692,7 +693,9 @@ static int read_samples(FILE *file, const command *cmd, samples *all)
     char text[256];
     for (int line = 1; fgets(text, sizeof text, file); line++) {
         subdiv_location at;
-        if (strchr(text, '\n') == NULL && !feof(file)) return bad_sample(cmd, line, "too long");
+        if (strchr(text, '\n') == NULL && !feof(file))
+            return bad_sample(cmd, line, strlen(text) + 1 < sizeof text ? "has a byte 0" : "too long");
+        text[strcspn(text, "#")] = 0;                                   // a comment
         if (text[strspn(text, " \t\r\n")] == 0) continue;
         if (!read_sample(text, &at))
             return bad_sample(cmd, line, "not 'face u v' or 'face/corner u v'");

@@ -385,7 +385,7 @@ fine "--tessellate writes normals" test "$(grep -c '^vn' tiles.obj)" = 56
 ends 0 --tessellate 3 -j 3 limit.obj threads.obj
 same threads.obj tiles.obj
 ends 2 --tessellate 0 limit.obj form.obj
-says "--tessellate needs a whole number"
+says "--tessellate needs a whole number from 1 up"
 ends 2 --tessellate 3 -l 2 limit.obj form.obj
 says "--tessellate has no levels"
 ends 2 --tessellate 3 --stream limit.obj form.obj
@@ -738,7 +738,7 @@ fine "--time --info: load" grep -q '^load ' err
 # The limit surface at samples: of a flat grid of nine quads, and of triangles around a point.
 { for y in 0 1 2 3; do for x in 0 1 2 3; do echo "v $x $y 0"; done; done
   for f in 1 2 3 5 6 7 9 10 11; do echo "f $f $((f + 1)) $((f + 5)) $((f + 4))"; done; } > flat.obj
-printf '4 0 0\n\n4 0.25 1\r\n 4\t1 .5\n' > samples.txt
+printf '# places\n4 0 0 # a vertex\n\n4 0.25 1\r\n 4\t1 .5\n' > samples.txt
 printf '1 1 0 1 0 0 0 1 0\n1.25 2 0 1 0 0 0 1 0\n2 1.5 0 1 0 0 0 1 0\n' > expected.txt
 ends 0 --eval samples.txt flat.obj
 same out expected.txt
