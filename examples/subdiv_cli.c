@@ -693,8 +693,9 @@ static int read_samples(FILE *file, const command *cmd, samples *all)
     char text[256];
     for (int line = 1; fgets(text, sizeof text, file); line++) {
         subdiv_location at;
+        int is_full = strlen(text) + 1 == sizeof text;
         if (strchr(text, '\n') == NULL && !feof(file))
-            return bad_sample(cmd, line, strlen(text) + 1 < sizeof text ? "has a byte 0" : "too long");
+            return bad_sample(cmd, line, is_full ? "too long" : "has a byte 0");
         text[strcspn(text, "#")] = 0;                                   // a comment
         if (text[strspn(text, " \t\r\n")] == 0) continue;
         if (!read_sample(text, &at))

@@ -442,8 +442,8 @@ static void test_continuous(void)
 
 // ---------------------------------------------------------------------------------- hard places
 
-// A grid that is flat and evenly spaced (by numbers that floats have) stays so with a straight crease
-// of any sharpness: its second derivatives are 0, also in the thousandth of a face beside the crease.
+// A grid that is flat and evenly spaced (by numbers that floats have) stays so with a straight
+// crease of any sharpness: its second derivatives are 0, also in the thousandth of a face beside it.
 static void test_long_creases(void)
 {
     static const float sharpness[] = { 0.3f, 1, 2.5f, 4, 5.5f, 7.5f, 8.5f, 9, 9.5f, 9.9f };
