@@ -149,9 +149,9 @@ static int is_at_crease(const subdiv_mesh *m, const order *o, order_place p)
     return at < m->vertex_count && at_infinite_crease(m, at);
 }
 
-static void compare_with_limit(random_cage *c, int level, subdiv_options opt, double *worst)
+static void compare_with_limit(const subdiv_mesh *m, int level, subdiv_options opt, double *worst)
 {
-    subdiv_mesh *m = &c->mesh, fine;
+    subdiv_mesh fine;
     opt.limit = 1;
     CHECK_EQUAL(subdiv_refine(&fine, m, level, &opt), SUBDIV_OK);
     ready r = get_ready(m, &opt);
@@ -189,7 +189,7 @@ static void test_limit_of_refined(void)
         tame_sharpness(c);
         snprintf(context, sizeof context, "seed %u", seed);
         test_context = context;
-        compare_with_limit(c, DEEP, opt, &worst);
+        compare_with_limit(&c->mesh, DEEP, opt, &worst);
         random_cage_free(c);
     }
     CHECK(worst > 0);
@@ -441,6 +441,64 @@ static void test_continuous(void)
 }
 
 // ---------------------------------------------------------------------------------- hard places
+
+// In a mesh of quads: where a vertex is in a face, or -1.
+static int corner_of(const subdiv_mesh *m, int f, int vertex)
+{
+    for (int i = 0; i < 4; i++) if (m->face_vertices[4 * f + i] == vertex) return i;
+    return -1;
+}
+
+// The other end of the edge that goes straight on from b, coming from a.
+static int straight_on(const subdiv_mesh *m, int a, int b)
+{
+    for (int f = 0; f < m->face_count; f++) {
+        int at = corner_of(m, f, b);
+        for (int k = 1; k <= 3 && at >= 0; k += 2) {
+            int to = m->face_vertices[4 * f + (at + k) % 4], beside = to == a;
+            for (int g = 0; g < m->face_count; g++)
+                beside |= corner_of(m, g, a) >= 0 && corner_of(m, g, b) >= 0 &&
+                          corner_of(m, g, to) >= 0;
+            if (!beside) return to;
+        }
+    }
+    return -1;
+}
+
+// A semi-sharp line that passes a smooth extraordinary vertex, touching the faces around it.
+static void test_passing_creases(void)
+{
+    static const float sharpness[] = { 0.4f, 1, 1.7f, 2.5f };
+    double worst = 0;
+    for (int k = 0; k < 12; k++) {
+        test_cage c;
+        subdiv_mesh fine;
+        subdiv_options opt = {0};
+        enum { EDGES = 5 };
+        int line[EDGES + 1], ends[2 * EDGES];
+        float sharp[EDGES];
+        build_hill(&c, 0, 3 + 2 * (k / 4));
+        CHECK_EQUAL(subdiv_refine(&fine, &c.mesh, 2, NULL), SUBDIV_OK);
+        int f = 0, at;
+        while (corner_of(&fine, f, 0) < 0) f++;
+        at = corner_of(&fine, f, 0);
+        line[1] = fine.face_vertices[4 * f + (at + 2) % 4];         // from across this face
+        line[2] = fine.face_vertices[4 * f + (at + 1) % 4];         // over a neighbour of vertex 0
+        line[0] = straight_on(&fine, line[2], line[1]);
+        for (int i = 2; i < EDGES; i++) line[i + 1] = straight_on(&fine, line[i - 1], line[i]);
+        for (int i = 0; i < EDGES; i++) {
+            ends[2 * i] = line[i];
+            ends[2 * i + 1] = line[i + 1];
+            sharp[i] = sharpness[k % 4];
+        }
+        fine.crease_count = EDGES;
+        fine.crease_vertices = ends;
+        fine.crease_sharpness = sharp;
+        compare_with_limit(&fine, DEEP, opt, &worst);
+        subdiv_mesh_free(&fine);
+    }
+    CHECK(worst > 0);
+}
 
 // A grid that is flat and evenly spaced (by numbers that floats have) stays so with a straight
 // crease of any sharpness: its second derivatives are 0, also in the thousandth of a face beside it.
@@ -731,6 +789,7 @@ int main(void)
     RUN(test_vertices);
     RUN(test_eigenvalues);
     RUN(test_continuous);
+    RUN(test_passing_creases);
     RUN(test_long_creases);
     RUN(test_single_faces);
     RUN(test_channels);
