@@ -7881,7 +7881,6 @@ static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rul
     kind->patches = made;
 }
 
-
 // Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
 // not one that both and their neighbours share as in the cage of a mesh. The pairs are that edge's
 // face-vertices in the faces of sdv_nest_mesh.
@@ -8963,8 +8962,8 @@ static void sdv_nest_evaluate(sdv_nest_sample *s)
     sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
 }
 
-// What the coordinates of a face are as seen from its vertex number turn: those of row 2 i and
-// 2 i + 1 times (u, v), plus an offset.
+// What directions of a face are as seen from its vertex number turn: the first two and the last two
+// numbers times (u, v). And what its places are.
 static const signed char sdv_turns[2][4][4] = {
     { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
     { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
