@@ -70,7 +70,8 @@
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
              >>exact-surface  and anywhere between the points: >>nests around irregular vertices,
-                         the >>tree of all leaves, their >>polynomials, >>samples of them
+                         the >>tree of all leaves, >>locations on it and the >>cells of those,
+                         their >>polynomials, >>samples of them
              >>stencils  all of them as weights
              >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
                          >>tessellator that makes a mesh of them
@@ -1000,13 +1001,15 @@ static void sdv_transpose(sdv_four *a)
 }
 #endif
 
-// Lane i: the sum of all lanes of vector number i, (0 + 1) + (2 + 3).
-static sdv_four sdv_sums(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    sdv_four four[4] = { a, b, c, d };
-    sdv_transpose(four);
-    return sdv_plus(sdv_plus(four[0], four[1]), sdv_plus(four[2], four[3]));
-}
+// For functions whose arguments are constants where they are called, so that each call is a loop of
+// its own kind.
+#if defined(__GNUC__)
+#define SDV_INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define SDV_INLINE static __forceinline
+#else
+#define SDV_INLINE static inline
+#endif
 
 static void sdv_prefetch(const float *p)
 {
@@ -5438,7 +5441,7 @@ static void sdv_reserve_around(sdv_context *context, subdiv_surface *surface,
 }
 
 // See >>exact-surface.
-static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface, int only_tiles);
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                               const unsigned char *hole, sdv_arena *arena);
 
@@ -5558,7 +5561,7 @@ typedef struct sdv_values {
     subdiv_uv_rule rule;
 } sdv_values;
 
-static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
+static subdiv_surface *sdv_new_surface(sdv_context *context, int levels, int only_tiles)
 {
     sdv_arena arena = sdv_new_arena(0);
     subdiv_surface *surface = SDV_NEW(context, &arena, subdiv_surface, 1);
@@ -5566,7 +5569,7 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
     memset(surface, 0, sizeof *surface);
     surface->arena = arena;
     surface->levels = levels;
-    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface);
+    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface, only_tiles);
     return surface;
 }
 
@@ -5787,10 +5790,10 @@ static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_
     if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
     if (!context.result && cage->colors)
         sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, borrows);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
-    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
+    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels, borrows);
     made->rules.limit = opt && opt->limit && !made->exact;
     made->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
@@ -5821,8 +5824,8 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
     if (!context.result) sdv_check_indices(&context, cage, value_count, indices);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
-    subdiv_surface *shape = made ? sdv_new_surface(&context, levels) : NULL;
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, 0);
+    subdiv_surface *shape = made ? sdv_new_surface(&context, levels, 0) : NULL;
     sdv_values values = { value_count, indices, rule };
     if (made) made->is_values = 1;
     if (shape) sdv_prepare(&context, shape, cage, made, values, 1, opt);
@@ -5866,7 +5869,7 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
                            float *weights)
 {
     sdv_arena scratch = sdv_scratch();
-    subdiv_surface *surface = sdv_new_surface(context, nets->depth);
+    subdiv_surface *surface = sdv_new_surface(context, nets->depth, 0);
     sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
     sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
     size_t points = (size_t)net->vertex_count, parts = (size_t)nets->parts;
@@ -7696,6 +7699,8 @@ typedef struct sdv_exact {
     int polynomial_count;               // of patches; those of nests' faces come behind
     int *nodes;                         // first those of faces, or of an n-gon's quads
     unsigned char *absent;              // [face_count] without surface; NULL: none
+    unsigned *cells;                    // see >>cells
+    int only_tiles;                     // no cells: nobody will ask for locations
     sdv_cut_patch *cuts;
     sdv_nest_kind *kinds;
     sdv_nest *nests;
@@ -8248,11 +8253,375 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
             exact->most_work = exact->kinds[i].work_count;
 }
 
-static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
+// -------------------------------------------------------------------------------- >>locations
+// Which leaf of the tree a location is on, and which polynomial of that.
+
+// Which child of a face, and where on it; a middle triangle is turned by half.
+static inline int sdv_descend_quad(double *x, double *y)
+{
+    int right = *x >= 0.5, up = *y >= 0.5;
+    *x = 2 * *x - right;
+    *y = 2 * *y - up;
+    return right ^ (up * 3);
+}
+
+static inline int sdv_descend_triangle(double *x, double *y, double *scale)
+{
+    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
+    *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
+    *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
+    if (child == 3) *scale = -*scale;
+    return child;
+}
+
+// What directions of a face are as seen from its vertex number turn: the first two and the last two
+// numbers times (u, v). And what its places are.
+static const signed char sdv_turns[2][4][4] = {
+    { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
+    { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
+
+static inline void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
+{
+    double w = 1 - u - v;
+    if (loop) {
+        *x = turn == 0 ? u : turn == 1 ? v : w;
+        *y = turn == 0 ? v : turn == 1 ? w : u;
+    } else {
+        *x = turn == 0 ? u : turn == 1 ? v : turn == 2 ? 1 - u : 1 - v;
+        *y = turn == 0 ? v : turn == 1 ? 1 - u : turn == 2 ? 1 - v : u;
+    }
+}
+
+// The number of the first polynomial of a child of a nest's face.
+static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int depth, int child)
+{
+    return (size_t)exact->polynomial_count +
+           3 * ((size_t)face * SDV_NEST_DEPTH + (size_t)depth) + (size_t)child - 1;
+}
+
+// A coordinate without its rounding.
+static inline float sdv_on_face(float u)
+{
+    u = u > 0 ? u : 0;
+    return u < 1 ? u : 1;
+}
+
+// Where a location is: on a leaf of the tree, and on a polynomial of that.
+typedef struct sdv_leaf {
+    int    slot;                        // 0: its face has no surface
+    int    deep;                        // in a nest, nearer to the vertex than polynomials are kept
+    size_t polynomial;
+    double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
+} sdv_leaf;
+
+// From the cell of the deepest level a location is in. Nothing is rounded.
+static inline void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
+{
+    const int cells = 1 << SDV_EXACT_LEVELS;
+    int x = (int)(u * (float)cells), y = (int)(v * (float)cells), level = SDV_EXACT_LEVELS;
+    x -= x >> SDV_EXACT_LEVELS;                         // 1 is in the last one
+    y -= y >> SDV_EXACT_LEVELS;
+    for (int turn = x ^ y; node >= 0; ) {
+        level--;
+        node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
+    }
+    float scale = (float)(cells >> level);
+    leaf->slot = node;
+    leaf->sx = leaf->sy = (double)scale;
+    leaf->x = (double)(u * scale - (float)(x >> level));
+    leaf->y = (double)(v * scale - (float)(y >> level));
+}
+
+static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
+                                       sdv_leaf *leaf)
+{
+    double scale = 1;
+    if (x + y > 1) y = 1 - x;
+    for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
+    leaf->slot = node;
+    leaf->x = x;
+    leaf->y = y;
+    leaf->sx = leaf->sy = scale;
+}
+
+static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
+                              sdv_leaf *leaf)
+{
+    float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
+    int f = at->face;
+    leaf->slot = leaf->deep = 0;
+    leaf->polynomial = 0;
+    if (surface->exact->absent && surface->exact->absent[f]) return;
+    if (surface->own_face) f = surface->own_face[f];
+    int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
+    if (loop) sdv_locate_triangle(surface->exact->nodes, node, (double)u, (double)v, leaf);
+    else sdv_locate_quad(surface->exact->nodes, node, u, v, leaf);
+}
+
+// The strip that a coordinate is on; it then counts in the strip's own segment.
+static inline int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
+{
+    const double whole = 1 << SDV_STRIP_LEVELS;
+    int i = 0;
+    while (i + 1 < strips->count && *x * whole >= strips->items[i].to) i++;
+    *x = (*x * whole - strips->items[i].origin) / strips->items[i].unit;
+    *scale *= whole / strips->items[i].unit;
+    return i;
+}
+
+static inline void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
+{
+    const sdv_cut_patch *cut = &surface->exact->cuts[number];
+    const sdv_strips *along = &surface->strips[cut->along - 1];
+    int row = sdv_find_strip(&surface->strips[cut->up - 1], &leaf->y, &leaf->sy);
+    int column = sdv_find_strip(along, &leaf->x, &leaf->sx);
+    leaf->polynomial = (size_t)(cut->polynomial + row * along->count + column);
+}
+
+// On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
+// as seen by the face again.
+static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
+{
+    int turn = exact->nest_faces[number].turn, depth = 0;
+    double x, y, scale = 2 * leaf->sx;
+    sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
+    while ((loop ? x + y : x > y ? x : y) < 0.5) {
+        if (++depth == SDV_NEST_DEPTH) {
+            leaf->deep = 1;
+            return;
+        }
+        x *= 2;
+        y *= 2;
+        scale *= 2;
+    }
+    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
+    sdv_turn_place(loop, turn ? (loop ? 3 : 4) - turn : 0, x, y, &leaf->x, &leaf->y);
+    leaf->sx = leaf->sy = scale;
+    leaf->polynomial = sdv_nest_polynomial(exact, number, depth, child);
+}
+
+static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
+{
+    int what = ~leaf->slot & 3, number = ~leaf->slot >> 2;
+    leaf->polynomial = (size_t)number;
+    if (what == SDV_LEAF_CUT) sdv_find_in_cut(surface, number, leaf);
+    if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
+}
+
+// ------------------------------------------------------------------------------------ >>cells
+// A faster way to the same polynomials, for locations in any order: on a walk down the tree the
+// processor would guess its branches wrong. Each face is one cell or, if there is more than one
+// polynomial on it, a grid of 16 cells, and such a cell may be a grid again.
+//
+//     +--+--+--+--+     A cell is a number: 2 first + 1 of a grid whose cells are those from first
+//     |  |  |  |  |     on. Or it has the number of the polynomial that is all over it, and which
+//     +--+--+--+--+     part of the face that covers: one in 2^across columns and 2^up rows (they
+//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. What
+//     +--+--+--+--+     is smaller than the cells of the second grid is left to the tree.
+//     |  |  |##|  |
+//     +--+--+--+--+     Loop: the triangle below the diagonal of a square has the square's number,
+//     |  |  |  |  |     the one above that of the opposite square (15 less it), behind the long
+//     +--+--+--+--+     side, where there is no triangle.
+
+#define SDV_CELL_LEVELS 4               // of two grids
+#define SDV_CELL_BITS 8                 // of what is not the polynomial's number
+#define SDV_CELL_NONE 14u               // ask the tree
+
+static unsigned sdv_pack_cell(size_t polynomial, int across, int up, int turned)
+{
+    return (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(turned << 7 | up << 4 | across << 1);
+}
+
+// A square of the face after so many splits; Loop: the triangle below its diagonal, or above.
+typedef struct sdv_square {
+    int level, x, y, above;
+} sdv_square;
+
+static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
+{
+    sdv_leaf leaf;
+    at.u = u;
+    at.v = v;
+    sdv_locate(surface, surface->rules.loop, &at, &leaf);
+    if (leaf.slot) sdv_find_polynomial(surface, surface->rules.loop, &leaf);
+    return leaf;
+}
+
+// Does one polynomial of a cut patch reach from corner to corner?
+static int sdv_is_one_part(const subdiv_surface *surface, subdiv_location at, sdv_square square)
+{
+    float size = ldexpf(1, -square.level), low = ldexpf(size, -1 - SDV_STRIP_LEVELS);
+    float u = size * (float)square.x, v = size * (float)square.y, high = size - low;
+    return sdv_leaf_at(surface, at, u + low, v + low).polynomial ==
+           sdv_leaf_at(surface, at, u + high, v + high).polynomial;
+}
+
+// The cell of a square of the face of `at`.
+static unsigned sdv_make_cell(const subdiv_surface *surface, subdiv_location at, sdv_square square)
+{
+    float size = ldexpf(1, -square.level);
+    float middle = surface->rules.loop ? (float)(1 + square.above) / 3 : 0.5f;
+    sdv_leaf leaf = sdv_leaf_at(surface, at, size * ((float)square.x + middle),
+                                size * ((float)square.y + middle));
+    int across, up;
+    frexp(fabs(leaf.sx) / 2, &across);
+    frexp(fabs(leaf.sy) / 2, &up);
+    if (leaf.deep || across > square.level || up > square.level) return SDV_CELL_NONE;
+    if ((~leaf.slot & 3) == SDV_LEAF_CUT && !sdv_is_one_part(surface, at, square))
+        return SDV_CELL_NONE;
+    if (leaf.polynomial >> (32 - SDV_CELL_BITS)) return SDV_CELL_NONE;
+    return sdv_pack_cell(leaf.polynomial, across, up, leaf.sx < 0);
+}
+
+// Number k of the 16 in it.
+static sdv_square sdv_square_in(const sdv_square *whole, int loop, int k)
+{
+    int x = k % 4, y = k / 4, above = loop && x + y > 3;
+    if (above != whole->above) {
+        x = 3 - x;
+        y = 3 - y;
+    }
+    above ^= whole->above;
+    sdv_square square = { whole->level + 2, 4 * whole->x + x, 4 * whole->y + y, above };
+    return square;
+}
+
+// Makes cell number i, and its grid.
+static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_surface *surface,
+                           subdiv_location at, sdv_square square, size_t i)
+{
+    unsigned cell = sdv_make_cell(surface, at, square);
+    int grid = cell == SDV_CELL_NONE && square.level < SDV_CELL_LEVELS;
+    size_t first = cells->count;
+    if (first > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
+    if (context->result || (grid && !sdv_append(context, cells, 16, sizeof(unsigned)))) return;
+    ((unsigned *)sdv_items(cells))[i] = grid ? 2 * (unsigned)first + 1 : cell;
+    for (int k = 0; k < 16 && grid; k++)
+        sdv_make_cells(context, cells, surface, at,
+                       sdv_square_in(&square, surface->rules.loop, k), first + (size_t)k);
+}
+
+// The cells of all faces, and one for those without a surface.
+static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
+{
+    const sdv_level *cage = &surface->order.cage;
+    const sdv_square whole = { 0, 0, 0, 0 };
+    sdv_exact *exact = surface->exact;
+    sdv_array cells;
+    int loop = surface->rules.loop, size = loop ? 3 : 4;
+    memset(&cells, 0, sizeof cells);
+    size_t roots = (size_t)cage->face_vertex_count + 1;
+    sdv_append(context, &cells, roots, sizeof(unsigned));
+    for (size_t i = 0; i < roots && !context->result; i++)
+        ((unsigned *)sdv_items(&cells))[i] = SDV_CELL_NONE;
+    for (int f = 0; f < surface->face_count && !context->result; f++) {
+        int own = surface->own_face ? surface->own_face[f] : f;
+        if (exact->absent && exact->absent[f]) continue;
+        int count = sdv_face_end(cage, own) - sdv_face_start(cage, own);
+        for (int corner = 0; corner < (count == size ? 1 : count); corner++) {
+            subdiv_location at = { f, corner, 0, 0 };
+            sdv_make_cells(context, &cells, surface, at, whole,
+                           (size_t)sdv_face_node(cage, loop, own, corner));
+        }
+    }
+    exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
+}
+
+// Locations that are looked up together, in loops without branches that the compiler may do in
+// lanes.
+#define SDV_LOOKUP 32
+
+typedef struct sdv_lookup {
+    float u[SDV_LOOKUP], v[SDV_LOOKUP];
+    float left[SDV_LOOKUP], bottom[SDV_LOOKUP];         // of their squares of the last level
+    int   first[SDV_LOOKUP], second[SDV_LOOKUP];        // their numbers in the two grids
+    unsigned cells[SDV_LOOKUP];
+    float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
+} sdv_lookup;
+
+SDV_INLINE void sdv_find_squares(sdv_lookup *l, int loop)
+{
+    const int side = 1 << SDV_CELL_LEVELS;
+    for (int k = 0; k < SDV_LOOKUP; k++) {
+        float u = l->u[k] * (float)side, v = l->v[k] * (float)side;
+        int x = (int)u, y = (int)v, above = 0, most = side - 1;
+        y -= y >> SDV_CELL_LEVELS;                      // 1 is in the last one
+        if (loop) most -= y;
+        x = x < most ? x : most;
+        if (loop) above = (u - (float)x + (v - (float)y) >= 1) & (x < most);
+        int first_above = loop & ((x & 3) + (y & 3) + above > 3);
+        l->left[k] = (float)x;
+        l->bottom[k] = (float)y;
+        l->first[k] = ((y & 12) | x >> 2) ^ (-first_above & 15);
+        l->second[k] = ((y & 3) << 2 | (x & 3)) ^ (-above & 15);
+    }
+}
+
+SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop,
+                               const subdiv_location *locations, sdv_lookup *l)
+{
+    const sdv_level *cage = &surface->order.cage;
+    const unsigned *cells = surface->exact->cells;
+    const int *own_face = surface->own_face;
+    int regular = cage->face_size == (loop ? 3 : 4), none = cage->face_vertex_count;
+    for (int k = 0; k < SDV_LOOKUP; k++) {
+        int f = locations[k].face;
+        if (own_face) f = own_face[f] < 0 ? none : own_face[f];
+        if (!regular && f != none) f = sdv_face_start(cage, f) + locations[k].corner;
+        unsigned cell = cells[f], grid = -(cell & 1);
+        cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
+        if (cell & 1) cell = cells[(cell >> 1) + (unsigned)l->second[k]];   // hardly ever
+        l->cells[k] = cell;
+    }
+}
+
+// 2 to the powers of cells, by the bits of a float.
+SDV_INLINE void sdv_find_scales(sdv_lookup *l, int loop)
+{
+    for (int k = 0; k < SDV_LOOKUP; k++) {
+        uint32_t across = ((l->cells[k] >> 1 & 7) + 127) << 23;
+        uint32_t up = loop ? across : ((l->cells[k] >> 4 & 7) + 127) << 23;
+        memcpy(&l->sx[k], &across, sizeof across);
+        memcpy(&l->sy[k], &up, sizeof up);
+    }
+}
+
+SDV_INLINE void sdv_find_places(sdv_lookup *l, int loop)
+{
+    const float unit = 1.0f / (1 << SDV_CELL_LEVELS);
+    for (int k = 0; k < SDV_LOOKUP; k++) {
+        float sx = l->sx[k], sy = l->sy[k];
+        float x = l->u[k] * sx - (float)(int)(l->left[k] * sx * unit);
+        float y = l->v[k] * sy - (float)(int)(l->bottom[k] * sy * unit);
+        float turned = (float)(int)(l->cells[k] >> 7 & 1), sign = 1 - 2 * turned;
+        l->x[k] = loop ? sign * (x - turned) : x;
+        l->y[k] = loop ? sign * (y - turned) : y;
+        l->sx[k] = loop ? sign * sx : sx;
+        l->sy[k] = loop ? sign * sy : sy;
+    }
+}
+
+SDV_INLINE void sdv_look_up(const subdiv_surface *surface, int loop,
+                            const subdiv_location *locations, sdv_lookup *l)
+{
+    for (int k = 0; k < SDV_LOOKUP; k++) {
+        l->u[k] = sdv_on_face(locations[k].u);
+        l->v[k] = sdv_on_face(locations[k].v);
+    }
+    sdv_find_squares(l, loop);
+    sdv_find_cells(surface, loop, locations, l);
+    sdv_find_scales(l, loop);
+    sdv_find_places(l, loop);
+}
+
+// All of it.
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface, int only_tiles)
 {
     surface->levels = SDV_EXACT_LEVELS;
     surface->exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
-    if (surface->exact) memset(surface->exact, 0, sizeof *surface->exact);
+    if (!surface->exact) return;
+    memset(surface->exact, 0, sizeof *surface->exact);
+    surface->exact->only_tiles = only_tiles;
 }
 
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -8286,6 +8655,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
+    if (!context->result && !surface->exact->only_tiles) sdv_make_all_cells(context, surface);
     sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
@@ -8501,6 +8871,8 @@ typedef struct sdv_exact_memory {
     float  *polynomials;                // [SDV_SLOTS] each, channel by channel
 } sdv_exact_memory;
 
+#define SDV_CACHE_LINE 64
+
 static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
 {
     return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
@@ -8516,19 +8888,23 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
     const sdv_exact *exact = surface->exact;
     size_t count = (size_t)exact->polynomial_count +
                    3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
-    return sizeof(double) + sdv_exact_work_size(surface, channels) +
+    return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
            sdv_exact_nest_size(surface) + SDV_SLOTS * sizeof(float) * (size_t)channels * count;
+}
+
+static char *sdv_align(void *memory)
+{
+    return (char *)memory + (SDV_CACHE_LINE - (uintptr_t)memory % SDV_CACHE_LINE) % SDV_CACHE_LINE;
 }
 
 static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int channels, void *scratch)
 {
     sdv_exact_memory memory;
-    size_t beyond = (size_t)((uintptr_t)scratch % sizeof(double));
-    char *base = (char *)scratch + (beyond ? sizeof(double) - beyond : 0);
+    char *base = sdv_align(scratch);
     memory.work = (double *)(void *)base;
     base += sdv_exact_work_size(surface, channels);
     memory.nest = (double *)(void *)base;
-    memory.polynomials = (float *)(void *)(base + sdv_exact_nest_size(surface));
+    memory.polynomials = (float *)(void *)sdv_align(base + sdv_exact_nest_size(surface));
     return memory;
 }
 
@@ -8547,19 +8923,30 @@ typedef struct sdv_exact_evaluation {
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// The coefficients of so many channels [SDV_SLOTS] of q, shrunk, around origin.
+// A part of a cut patch in units of its own segments, not the patch's: all powers of 2.
+static void sdv_shrink_part(const sdv_deep_patch *deep, int i, sdv_polynomial *q)
+{
+    const float whole = 1 << SDV_STRIP_LEVELS;
+    float across = (float)deep->along->items[i % deep->along->count].unit / whole;
+    float up = (float)deep->up->items[i / deep->along->count].unit / whole, x = 1;
+    for (int j = 0; j < 4; j++, x *= across) {
+        float unit = x;
+        for (int k = 0; k < 4; k++, unit *= up) q->c[j][k] = sdv_times(q->c[j][k], sdv_all(unit));
+    }
+}
+
+// The coefficients of so many channels of q [lanes * SDV_SLOTS], shrunk, around origin.
 static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
                                 int lanes, float *out)
 {
-    float packed[4 * SDV_SLOTS];
-    sdv_four slots[SDV_SLOTS];
+    sdv_four slots[SDV_SLOTS], times = sdv_all((float)shrink);
+    float first[4];
     sdv_pack(q, slots);
-    for (int k = 0; k < SDV_SLOTS; k++)
-        sdv_store(packed + 4 * k, sdv_times(sdv_all((float)shrink), slots[k]));
-    for (int l = 0; l < lanes; l++, out += SDV_SLOTS) {
-        for (int k = 1; k < SDV_SLOTS; k++) out[k] = packed[4 * k + l];
-        out[0] = (float)(origin[l] + (double)packed[l]);
-    }
+    for (int k = 0; k < SDV_SLOTS; k++) slots[k] = sdv_times(times, slots[k]);
+    sdv_store(first, slots[0]);
+    for (int l = 0; l < 4; l++) first[l] = (float)(origin[l] + (double)first[l]);
+    slots[0] = sdv_load(first);
+    for (int k = 0; k < SDV_SLOTS; k++) sdv_store_some(out + lanes * k, slots[k], lanes);
 }
 
 // Where polynomial number i is, from channel c on.
@@ -8586,18 +8973,12 @@ static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch 
         parts = sdv_deep_parts(&deep);
         for (int k = 0; k < parts; k++) {
             sdv_deep_polynomial(&deep, k, &q, origin);
+            if (deep.along) sdv_shrink_part(&deep, k, &q);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
                                 sdv_polynomial_at(e, i + (size_t)k, c));
         }
     }
     return parts;
-}
-
-// The number of the first polynomial of a child of a nest's face.
-static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int depth, int child)
-{
-    return (size_t)exact->polynomial_count +
-           3 * ((size_t)face * SDV_NEST_DEPTH + (size_t)depth) + (size_t)child - 1;
 }
 
 // Those of a child of a nest's face, number `face` of its own, after a refinement.
@@ -8711,106 +9092,99 @@ static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const sub
 // ------------------------------------------------------------------------------- >>samples
 // Samples: which polynomial a location is on, and what that has there; or down into a nest.
 
-// The lanes of up to four channels' sums.
-static inline sdv_four sdv_lane_sums(const sdv_four *sum, int lanes)
-{
-    return sdv_sums(sum[0], sum[lanes > 1 ? 1 : 0], sum[lanes > 2 ? 2 : 0], sum[lanes > 3 ? 3 : 0]);
-}
+// Where a location is on a polynomial: sx times u and sy times v, less where that starts.
+typedef struct sdv_where {
+    float x, y, sx, sy;
+} sdv_where;
 
-// Values at (x, y) and derivatives up to an order, in the order of subdiv_derivatives, of up to
-// four channels: a cubic in y whose coefficients are cubics in x. First derivatives are scaled by
-// s, second ones by its square.
-static inline void sdv_quad_values(const float *data, int lanes, float x, float y, float s,
-                                   int order, sdv_four *out)
+// A polynomial and its first two derivatives, by Horner's scheme. (What is not asked for below, the
+// compiler leaves out.)
+SDV_INLINE void sdv_horner(const sdv_four *c, int degree, sdv_four t, sdv_four *out)
 {
-    float xx = x * x, ss = s * s;
-    sdv_four p = sdv_of(1, x, xx, x * xx), dp = sdv_of(0, s, 2 * s * x, 3 * s * xx);
-    sdv_four ddp = sdv_of(0, 0, 2 * ss, 6 * ss * x), sum[6][4];
-    sdv_four y1 = sdv_all(y), s1 = sdv_all(s), sy2 = sdv_all(2 * s * y);
-    sdv_four syy3 = sdv_all(3 * s * (y * y)), ss2 = sdv_all(2 * ss), ssy6 = sdv_all(6 * ss * y);
-    for (int l = 0; l < lanes; l++, data += SDV_SLOTS) {
-        sdv_four a = sdv_load(data), b = sdv_load(data + 4);
-        sdv_four c = sdv_load(data + 8), d = sdv_load(data + 12);
-        sdv_four row = sdv_plus(c, sdv_times(d, y1));
-        row = sdv_plus(a, sdv_times(sdv_plus(b, sdv_times(row, y1)), y1));
-        sum[0][l] = sdv_times(row, p);
-        if (order == 0) continue;
-        sdv_four up = sdv_plus(sdv_times(b, s1), sdv_plus(sdv_times(c, sy2), sdv_times(d, syy3)));
-        sum[1][l] = sdv_times(row, dp);
-        sum[2][l] = sdv_times(up, p);
-        if (order == 1) continue;
-        sum[3][l] = sdv_times(row, ddp);
-        sum[4][l] = sdv_times(up, dp);
-        sum[5][l] = sdv_times(sdv_plus(sdv_times(c, ss2), sdv_times(d, ssy6)), p);
+    sdv_four value = sdv_plus(sdv_times(c[degree], t), c[degree - 1]);
+    sdv_four slope = c[degree], bend = slope;           // bend: half the second derivative
+    for (int i = degree - 2; i >= 0; i--) {
+        if (i < degree - 2) bend = sdv_plus(sdv_times(bend, t), slope);
+        slope = sdv_plus(sdv_times(slope, t), value);
+        value = sdv_plus(sdv_times(value, t), c[i]);
     }
-    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++) out[k] = sdv_lane_sums(sum[k], lanes);
+    out[0] = value;
+    out[1] = slope;
+    out[2] = degree > 1 ? sdv_plus(bend, bend) : sdv_all(0);
 }
 
-// The weights of the coefficients of a triangle for the same.
-static inline void sdv_triangle_weights(float x, float y, float s, int order, sdv_four (*w)[4])
+// Row j of a polynomial: the coefficient of y^j, and its derivatives in x.
+SDV_INLINE void sdv_make_power(const sdv_four *c, int degree, sdv_four x, sdv_four (*rows)[5],
+                               int j)
 {
-    float xx = x * x, yy = y * y, ss = s * s;
-    w[0][0] = sdv_of(1, x, xx, x * xx);
-    w[0][1] = sdv_times(w[0][0], sdv_all(y));
-    w[0][2] = sdv_of(yy, x * yy, y * yy, x * (y * yy));
-    w[0][3] = sdv_of(yy * yy, xx * xx, 0, 0);
+    sdv_four row[3];
+    sdv_horner(c, degree, x, row);
+    for (int d = 0; d < 3; d++) rows[d][j] = row[d];
+}
+
+// From the rows to values and derivatives up to an order, as subdiv_derivatives has them.
+SDV_INLINE void sdv_put_columns(sdv_four (*rows)[5], int loop, const sdv_where *at, int order,
+                                sdv_four *out)
+{
+    sdv_four y = sdv_all(at->y), sx = sdv_all(at->sx), sy = sdv_all(at->sy), column[3];
+    sdv_horner(rows[0], 3 + loop, y, column);
+    out[0] = column[0];
+    out[2] = sdv_times(sy, column[1]);
+    out[5] = sdv_times(sdv_times(sy, sy), column[2]);
     if (order == 0) return;
-    w[1][0] = sdv_of(0, s, 2 * s * x, 3 * s * xx);
-    w[1][1] = sdv_times(w[1][0], sdv_all(y));
-    w[1][2] = sdv_of(0, s * yy, 0, s * (y * yy));
-    w[1][3] = sdv_of(0, 4 * s * (x * xx), 0, 0);
-    w[2][0] = sdv_all(0);
-    w[2][1] = sdv_times(w[0][0], sdv_all(s));
-    w[2][2] = sdv_of(2 * s * y, 2 * s * (x * y), 3 * s * yy, 3 * s * (x * yy));
-    w[2][3] = sdv_of(4 * s * (y * yy), 0, 0, 0);
+    sdv_horner(rows[1], 3, y, column);
+    out[1] = sdv_times(sx, column[0]);
+    out[4] = sdv_times(sdv_times(sx, sy), column[1]);
     if (order == 1) return;
-    w[3][0] = sdv_of(0, 0, 2 * ss, 6 * ss * x);
-    w[3][1] = sdv_times(w[3][0], sdv_all(y));
-    w[3][2] = w[4][0] = w[4][3] = w[5][0] = w[5][1] = sdv_all(0);
-    w[3][3] = sdv_of(0, 12 * ss * xx, 0, 0);
-    w[4][1] = sdv_times(w[1][0], sdv_all(s));
-    w[4][2] = sdv_of(0, 2 * ss * y, 0, 3 * ss * yy);
-    w[5][2] = sdv_of(2 * ss, 2 * ss * x, 6 * ss * y, 6 * ss * (x * y));
-    w[5][3] = sdv_of(12 * ss * yy, 0, 0, 0);
+    sdv_horner(rows[2], loop ? 2 : 3, y, column);
+    out[3] = sdv_times(sdv_times(sx, sx), column[0]);
 }
 
-static inline void sdv_triangle_values(const float *data, int lanes, float x, float y, float s,
-                                       int order, sdv_four *out)
+// The values of up to four channels.
+SDV_INLINE void sdv_quad_values(const float *data, int lanes, const sdv_where *at, int order,
+                                sdv_four *out)
 {
-    sdv_four w[6][4], sum[4];
-    sdv_triangle_weights(x, y, s, order, w);
-    for (int k = 0; k < (order + 1) * (order + 2) / 2; k++) {
-        for (int l = 0; l < lanes; l++) {
-            const float *p = data + SDV_SLOTS * l;
-            sum[l] = sdv_plus(sdv_plus(sdv_times(sdv_load(p), w[k][0]),
-                                       sdv_times(sdv_load(p + 4), w[k][1])),
-                              sdv_plus(sdv_times(sdv_load(p + 8), w[k][2]),
-                                       sdv_times(sdv_load(p + 12), w[k][3])));
-        }
-        out[k] = sdv_lane_sums(sum, lanes);
-    }
+    sdv_four c[SDV_SLOTS], rows[3][5], x = sdv_all(at->x);
+    for (int i = 0; i < SDV_SLOTS; i++) c[i] = sdv_load(data + lanes * i);
+    for (int j = 0; j < 4; j++) sdv_make_power(c + 4 * j, 3, x, rows, j);
+    sdv_put_columns(rows, 0, at, order, out);
+}
+
+SDV_INLINE void sdv_triangle_values(const float *data, int lanes, const sdv_where *at, int order,
+                                    sdv_four *out)
+{
+    sdv_four c[SDV_SLOTS], rows[3][5], x = sdv_all(at->x);
+    for (int i = 0; i < SDV_SLOTS; i++) c[i] = sdv_load(data + lanes * i);
+    sdv_four first[5] = { c[0], c[1], c[2], c[3], c[13] };
+    sdv_make_power(first, 4, x, rows, 0);
+    sdv_make_power(c + 4, 3, x, rows, 1);
+    sdv_make_power(c + 8, 1, x, rows, 2);
+    sdv_make_power(c + 10, 1, x, rows, 3);
+    rows[0][4] = c[12];
+    sdv_put_columns(rows, 1, at, order, out);
 }
 
 // The same of four channels straight from a patch.
 static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float s, sdv_four *out)
 {
+    sdv_where at = { x, y, s, s };
     float data[4 * SDV_SLOTS];
     double origin[4];
     sdv_polynomial q;
     sdv_deep_polynomial(deep, 0, &q, origin);
     sdv_keep_polynomial(&q, origin, 1, 4, data);
-    if (deep->rules->loop) sdv_triangle_values(data, 4, x, y, s, 2, out);
-    else sdv_quad_values(data, 4, x, y, s, 2, out);
+    if (deep->rules->loop) sdv_triangle_values(data, 4, &at, 2, out);
+    else sdv_quad_values(data, 4, &at, 2, out);
 }
 
 // What is asked for of a patch, at location i, of channels from c on.
-static inline void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
-                                 int lanes, int order, float x, float y, float s, int c, size_t i)
+SDV_INLINE void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
+                              int lanes, int order, const sdv_where *at, int c, size_t i)
 {
     sdv_four values[6];
     data += SDV_SLOTS * c;
-    if (loop) sdv_triangle_values(data, lanes, x, y, s, order, values);
-    else sdv_quad_values(data, lanes, x, y, s, order, values);
+    if (loop) sdv_triangle_values(data, lanes, at, order, values);
+    else sdv_quad_values(data, lanes, at, order, values);
     for (int k = 0; k < (order + 1) * (order + 2) / 2; k++)
         if (e->out[k]) sdv_store_some(e->out[k] + e->stride * i + c, values[k], lanes);
     if (order > 0 && e->normals && c == 0) {
@@ -8822,28 +9196,14 @@ static inline void sdv_put_lanes(const sdv_exact_evaluation *e, const float *dat
 }
 
 static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, int loop,
-                             float x, float y, float s, size_t i)
+                             const sdv_where *at, size_t i)
 {
-    for (int c = 0; c < e->channels; c += 4)
-        sdv_put_lanes(e, data, loop, sdv_lanes_from(e->channels, c), e->order, x, y, s, c, i);
-}
-
-// Which child of a face, and where on it; a middle triangle is turned by half.
-static inline int sdv_descend_quad(double *x, double *y)
-{
-    int right = *x >= 0.5, up = *y >= 0.5;
-    *x = 2 * *x - right;
-    *y = 2 * *y - up;
-    return right ^ (up * 3);
-}
-
-static inline int sdv_descend_triangle(double *x, double *y, double *scale)
-{
-    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
-    *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
-    *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
-    if (child == 3) *scale = -*scale;
-    return child;
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = sdv_lanes_from(e->channels, c);
+        if (e->order == 0) sdv_put_lanes(e, data, loop, lanes, 0, at, c, i);
+        else if (e->order == 1) sdv_put_lanes(e, data, loop, lanes, 1, at, c, i);
+        else sdv_put_lanes(e, data, loop, lanes, 2, at, c, i);
+    }
 }
 
 // A sample in a nest, four channels at a time.
@@ -8962,24 +9322,6 @@ static void sdv_nest_evaluate(sdv_nest_sample *s)
     sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
 }
 
-// What directions of a face are as seen from its vertex number turn: the first two and the last two
-// numbers times (u, v). And what its places are.
-static const signed char sdv_turns[2][4][4] = {
-    { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
-    { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
-
-static inline void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
-{
-    double w = 1 - u - v;
-    if (loop) {
-        *x = turn == 0 ? u : turn == 1 ? v : w;
-        *y = turn == 0 ? v : turn == 1 ? w : u;
-    } else {
-        *x = turn == 0 ? u : turn == 1 ? v : turn == 2 ? 1 - u : 1 - v;
-        *y = turn == 0 ? v : turn == 1 ? 1 - u : turn == 2 ? 1 - v : u;
-    }
-}
-
 // Derivatives in u and v from those in x and y, with the scale of the face.
 static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
 {
@@ -9066,164 +9408,85 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-// A coordinate without its rounding.
-static inline float sdv_on_face(float u)
-{
-    u = u > 0 ? u : 0;
-    return u < 1 ? u : 1;
-}
-
-// Where a location is: on a leaf of the tree, and on a polynomial of that.
-typedef struct sdv_leaf {
-    int    slot;                        // 0: its face has no surface
-    int    deep;                        // in a nest, nearer to the vertex than polynomials are kept
-    size_t polynomial;
-    double x, y, scale;                 // of the coordinates on the face
-} sdv_leaf;
-
-// From the cell of the deepest level a location is in. Nothing is rounded.
-static inline void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
-{
-    const int cells = 1 << SDV_EXACT_LEVELS;
-    int x = (int)(u * (float)cells), y = (int)(v * (float)cells), level = SDV_EXACT_LEVELS;
-    x -= x >> SDV_EXACT_LEVELS;                         // 1 is in the last one
-    y -= y >> SDV_EXACT_LEVELS;
-    for (int turn = x ^ y; node >= 0; ) {
-        level--;
-        node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
-    }
-    float scale = (float)(cells >> level);
-    leaf->slot = node;
-    leaf->scale = (double)scale;
-    leaf->x = (double)(u * scale - (float)(x >> level));
-    leaf->y = (double)(v * scale - (float)(y >> level));
-}
-
-static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
-                                       sdv_leaf *leaf)
-{
-    leaf->scale = 1;
-    if (x + y > 1) y = 1 - x;
-    for (; node >= 0; leaf->scale *= 2)
-        node = nodes[node + sdv_descend_triangle(&x, &y, &leaf->scale)];
-    leaf->slot = node;
-    leaf->x = x;
-    leaf->y = y;
-}
-
-static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
-                              sdv_leaf *leaf)
-{
-    float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
-    int f = at->face;
-    leaf->slot = leaf->deep = 0;
-    leaf->polynomial = 0;
-    if (surface->exact->absent && surface->exact->absent[f]) return;
-    if (surface->own_face) f = surface->own_face[f];
-    int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop) sdv_locate_triangle(surface->exact->nodes, node, (double)u, (double)v, leaf);
-    else sdv_locate_quad(surface->exact->nodes, node, u, v, leaf);
-}
-
-// The strip that a coordinate is on; it then counts from the strip's origin.
-static inline int sdv_find_strip(const sdv_strips *strips, double *x)
-{
-    const double whole = 1 << SDV_STRIP_LEVELS;
-    int i = 0;
-    while (i + 1 < strips->count && *x * whole >= strips->items[i].to) i++;
-    *x -= strips->items[i].origin / whole;
-    return i;
-}
-
-static inline void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
-{
-    const sdv_cut_patch *cut = &surface->exact->cuts[number];
-    const sdv_strips *along = &surface->strips[cut->along - 1];
-    int row = sdv_find_strip(&surface->strips[cut->up - 1], &leaf->y);
-    leaf->polynomial = (size_t)(cut->polynomial + row * along->count +
-                                sdv_find_strip(along, &leaf->x));
-}
-
-// On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
-// as seen by the face again.
-static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
-{
-    int turn = exact->nest_faces[number].turn, depth = 0;
-    double x, y, scale = 2 * leaf->scale;
-    sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
-    while ((loop ? x + y : x > y ? x : y) < 0.5) {
-        if (++depth == SDV_NEST_DEPTH) {
-            leaf->deep = 1;
-            return;
-        }
-        x *= 2;
-        y *= 2;
-        scale *= 2;
-    }
-    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
-    sdv_turn_place(loop, turn ? (loop ? 3 : 4) - turn : 0, x, y, &leaf->x, &leaf->y);
-    leaf->scale = scale;
-    leaf->polynomial = sdv_nest_polynomial(exact, number, depth, child);
-}
-
-static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
-{
-    int what = ~leaf->slot & 3, number = ~leaf->slot >> 2;
-    leaf->polynomial = (size_t)number;
-    if (what == SDV_LEAF_CUT) sdv_find_in_cut(surface, number, leaf);
-    if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
-}
-
-// Loops of their own for what is asked for most: points, and first derivatives, of three channels.
-static inline void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job,
-                                size_t i)
+static void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job, size_t i)
 {
     const float *data = e->memory.polynomials + SDV_SLOTS * (size_t)e->channels * leaf->polynomial;
-    float x = (float)leaf->x, y = (float)leaf->y, scale = (float)leaf->scale;
+    sdv_where at = { (float)leaf->x, (float)leaf->y, (float)leaf->sx, (float)leaf->sy };
     if (leaf->slot == 0)
         sdv_put_zeros(e, i);
     else if (leaf->deep)
-        e->failed[job] |= !sdv_put_nest(e, ~leaf->slot >> 2, leaf->x, leaf->y, leaf->scale, i);
-    else if (e->channels != 3 || e->order == 2)
-        sdv_put_channels(e, data, loop, x, y, scale, i);
-    else if (e->order == 0)
-        sdv_put_lanes(e, data, loop, 3, 0, x, y, scale, 0, i);
+        e->failed[job] |= !sdv_put_nest(e, ~leaf->slot >> 2, leaf->x, leaf->y, leaf->sx, i);
     else
-        sdv_put_lanes(e, data, loop, 3, 1, x, y, scale, 0, i);
+        sdv_put_channels(e, data, loop, &at, i);
 }
 
-// All are located before the first is evaluated: what they need of memory comes at the same time.
-static inline void sdv_put_locations(sdv_exact_evaluation *e, int loop, int job)
+// By the tree: at a location that is in no cell.
+static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
 {
-    enum { block = 32 };
-    sdv_leaf leaves[block];
+    subdiv_location at = e->locations[i];
+    sdv_leaf leaf = sdv_leaf_at(e->surface, at, at.u, at.v);
+    sdv_put_leaf(e, &leaf, loop, job, i);
+}
+
+// A job's locations, of which all of a lookup are found before the first is evaluated: what they
+// need of memory comes at the same time. lanes, order: known for what is asked for most, else 0.
+SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
+{
+    sdv_lookup l;
+    const float *data[SDV_LOOKUP];
     size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     while (i < end) {
-        int count = end - i < block ? (int)(end - i) : block;
-        for (int k = 0; k < count; k++) {
-            sdv_leaf *leaf = &leaves[k];
-            sdv_locate(e->surface, loop, &e->locations[i + (size_t)k], leaf);
-            if (leaf->slot) sdv_find_polynomial(e->surface, loop, leaf);
-            if (leaf->slot == 0 || leaf->deep) continue;
-            const float *data = e->memory.polynomials + width * leaf->polynomial;
-            sdv_prefetch(data);
-            sdv_prefetch(data + width / 3);
-            sdv_prefetch(data + width / 3 * 2);
-            sdv_prefetch(data + width - 1);
+        subdiv_location few[SDV_LOOKUP];
+        const subdiv_location *locations = e->locations + i;
+        int count = end - i < SDV_LOOKUP ? (int)(end - i) : SDV_LOOKUP;
+        for (int k = 0; k < SDV_LOOKUP && count < SDV_LOOKUP; k++)
+            few[k] = locations[k < count ? k : 0];
+        sdv_look_up(e->surface, loop, count < SDV_LOOKUP ? few : locations, &l);
+        for (int k = 0; k < SDV_LOOKUP; k++) {
+            data[k] = e->memory.polynomials + width * (l.cells[k] >> SDV_CELL_BITS);
+            sdv_prefetch(data[k]);
+            sdv_prefetch(data[k] + 16);
+            sdv_prefetch(data[k] + 32);
+            if (l.cells[k] == SDV_CELL_NONE) data[k] = NULL;
         }
-        for (int k = 0; k < count; k++, i++) sdv_put_leaf(e, &leaves[k], loop, job, i);
+        for (int k = 0; k < count; k++, i++) {
+            sdv_where at = { l.x[k], l.y[k], l.sx[k], l.sy[k] };
+            if (!data[k]) sdv_put_location(e, loop, job, i);
+            else if (lanes) sdv_put_lanes(e, data[k], loop, lanes, order, &at, 0, i);
+            else sdv_put_channels(e, data[k], loop, &at, i);
+        }
     }
 }
 
-static void sdv_quads_job(void *context, int job)
+static void sdv_quad_job(void *context, int job)
 {
-    sdv_put_locations((sdv_exact_evaluation *)context, 0, job);
+    sdv_put_locations((sdv_exact_evaluation *)context, job, 0, 0, 0);
 }
 
-static void sdv_triangles_job(void *context, int job)
+static void sdv_quad_points_job(void *context, int job)
 {
-    sdv_put_locations((sdv_exact_evaluation *)context, 1, job);
+    sdv_put_locations((sdv_exact_evaluation *)context, job, 0, 3, 0);
+}
+
+static void sdv_quad_slopes_job(void *context, int job)
+{
+    sdv_put_locations((sdv_exact_evaluation *)context, job, 0, 3, 1);
+}
+
+static void sdv_triangle_job(void *context, int job)
+{
+    sdv_put_locations((sdv_exact_evaluation *)context, job, 1, 0, 0);
+}
+
+static void sdv_triangle_points_job(void *context, int job)
+{
+    sdv_put_locations((sdv_exact_evaluation *)context, job, 1, 3, 0);
+}
+
+static void sdv_triangle_slopes_job(void *context, int job)
+{
+    sdv_put_locations((sdv_exact_evaluation *)context, job, 1, 3, 1);
 }
 
 // Is a location there?
@@ -9246,9 +9509,17 @@ static inline int sdv_is_location(const subdiv_surface *surface, const subdiv_lo
 static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
                                 const subdiv_location *locations)
 {
-    int i = 0;
-    while (i < count && sdv_is_location(surface, &locations[i])) i++;
-    if (i == count) return;
+    const float under = -1e-6f, over = 1 + 1e-6f;
+    unsigned faces = (unsigned)surface->face_count;
+    int odd = 0, loop = surface->rules.loop, i;
+    for (i = 0; i < count; i++) {
+        float u = locations[i].u, v = locations[i].v;
+        odd |= ((unsigned)locations[i].face >= faces) | (locations[i].corner != 0) |
+               !((u >= under) & (v >= under) & (u <= over) & (v <= over)) |
+               (loop & (u + v > over));
+    }
+    for (i = 0; i < count && odd && sdv_is_location(surface, &locations[i]); i++);
+    if (!odd || i == count) return;
     subdiv_location at = locations[i];
     if (at.face < 0 || at.face >= surface->face_count) {
         sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
@@ -9310,7 +9581,10 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
-    sdv_run(opt, surface->rules.loop ? sdv_triangles_job : sdv_quads_job, &e, e.jobs);
+    static void (*const run[2][3])(void *, int) = {
+        { sdv_quad_points_job, sdv_quad_slopes_job, sdv_quad_job },
+        { sdv_triangle_points_job, sdv_triangle_slopes_job, sdv_triangle_job } };
+    sdv_run(opt, run[surface->rules.loop][channels == 3 ? e.order : 2], &e, e.jobs);
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
@@ -11110,7 +11384,8 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
     sdv_context context = sdv_begin(opt);
     if (!fine || fine == cage)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
-    if (!context.result) context.result = subdiv_prepare(&surface, cage, SUBDIV_EXACT, opt);
+    if (!context.result)
+        context.result = sdv_prepare_surface(&surface, cage, SUBDIV_EXACT, 1, opt);
     if (!context.result)
         context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
     subdiv_surface_free(surface);
@@ -14289,7 +14564,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     if (context.result) return context.result;
 
     subdiv_mesh work = *cage;
-    cut = sdv_new_surface(&context, 1);
+    cut = sdv_new_surface(&context, 1, 0);
     x.context = &context;
     x.arena = sdv_scratch();
     x.out.text = text;
