@@ -8296,7 +8296,7 @@ static inline void sdv_turn_place(int loop, int turn, double u, double v, double
 static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int depth, int child)
 {
     return (size_t)exact->polynomial_count +
-           3 * ((size_t)face * SDV_NEST_DEPTH + (size_t)depth) + (size_t)child - 1;
+           3 * ((size_t)depth * (size_t)exact->nest_face_count + (size_t)face) + (size_t)child - 1;
 }
 
 // A coordinate without its rounding.
@@ -9097,70 +9097,88 @@ typedef struct sdv_where {
     float x, y, sx, sy;
 } sdv_where;
 
-// A polynomial and its first two derivatives, by Horner's scheme. (What is not asked for below, the
-// compiler leaves out.)
-SDV_INLINE void sdv_horner(const sdv_four *c, int degree, sdv_four t, sdv_four *out)
+// A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
+SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
 {
-    sdv_four value = sdv_plus(sdv_times(c[degree], t), c[degree - 1]);
-    sdv_four slope = c[degree], bend = slope;           // bend: half the second derivative
-    for (int i = degree - 2; i >= 0; i--) {
-        if (i < degree - 2) bend = sdv_plus(sdv_times(bend, t), slope);
-        slope = sdv_plus(sdv_times(slope, t), value);
-        value = sdv_plus(sdv_times(value, t), c[i]);
-    }
-    out[0] = value;
-    out[1] = slope;
-    out[2] = degree > 1 ? sdv_plus(bend, bend) : sdv_all(0);
+    p[2] = sdv_plus(sdv_times(p[2], t), p[1]);
+    p[1] = sdv_plus(sdv_times(p[1], t), p[0]);
+    p[0] = sdv_plus(sdv_times(p[0], t), next);
 }
 
-// Row j of a polynomial: the coefficient of y^j, and its derivatives in x.
-SDV_INLINE void sdv_make_power(const sdv_four *c, int degree, sdv_four x, sdv_four (*rows)[5],
-                               int j)
+// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. The first steps have zeros less.
+// (What is not asked for below, the compiler leaves out.)
+SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
 {
-    sdv_four row[3];
-    sdv_horner(c, degree, x, row);
-    for (int d = 0; d < 3; d++) rows[d][j] = row[d];
+    sdv_four highest = c[degree * step];
+    p[0] = sdv_plus(sdv_times(highest, t), c[(degree - 1) * step]);
+    p[1] = highest;
+    p[2] = sdv_all(0);
+    if (degree == 1) return;
+    p[2] = highest;
+    p[1] = sdv_plus(sdv_times(highest, t), p[0]);
+    p[0] = sdv_plus(sdv_times(p[0], t), c[(degree - 2) * step]);
+    if (degree >= 3) sdv_horner_step(p, t, c[(degree - 3) * step]);
+    if (degree == 4) sdv_horner_step(p, t, c[0]);
 }
 
-// From the rows to values and derivatives up to an order, as subdiv_derivatives has them.
-SDV_INLINE void sdv_put_columns(sdv_four (*rows)[5], int loop, const sdv_where *at, int order,
+// From rows, the coefficients of powers of y with their derivatives in x, to values and derivatives
+// up to an order, as subdiv_derivatives has them.
+SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *at, int order,
                                 sdv_four *out)
 {
-    sdv_four y = sdv_all(at->y), sx = sdv_all(at->sx), sy = sdv_all(at->sy), column[3];
-    sdv_horner(rows[0], 3 + loop, y, column);
-    out[0] = column[0];
-    out[2] = sdv_times(sy, column[1]);
-    out[5] = sdv_times(sdv_times(sy, sy), column[2]);
+    sdv_four y = sdv_all(at->y), sx = sdv_all(at->sx), sy = sdv_all(at->sy), p[3];
+    sdv_horner(&rows[0][0], 3, 3 + loop, y, p);
+    out[0] = p[0];
+    out[2] = sdv_times(sy, p[1]);
+    out[5] = sdv_times(sdv_times(sy, sy), sdv_plus(p[2], p[2]));
     if (order == 0) return;
-    sdv_horner(rows[1], 3, y, column);
-    out[1] = sdv_times(sx, column[0]);
-    out[4] = sdv_times(sdv_times(sx, sy), column[1]);
+    sdv_horner(&rows[0][1], 3, 3, y, p);
+    out[1] = sdv_times(sx, p[0]);
+    out[4] = sdv_times(sdv_times(sx, sy), p[1]);
     if (order == 1) return;
-    sdv_horner(rows[2], loop ? 2 : 3, y, column);
-    out[3] = sdv_times(sdv_times(sx, sx), column[0]);
+    sdv_horner(&rows[0][2], 3, loop ? 2 : 3, y, p);
+    out[3] = sdv_times(sdv_times(sx, sx), sdv_plus(p[0], p[0]));
+}
+
+// Four coefficients.
+SDV_INLINE void sdv_load_row(const float *data, int lanes, sdv_four *c)
+{
+    c[0] = sdv_load(data);
+    c[1] = sdv_load(data + lanes);
+    c[2] = sdv_load(data + 2 * lanes);
+    c[3] = sdv_load(data + 3 * lanes);
 }
 
 // The values of up to four channels.
 SDV_INLINE void sdv_quad_values(const float *data, int lanes, const sdv_where *at, int order,
                                 sdv_four *out)
 {
-    sdv_four c[SDV_SLOTS], rows[3][5], x = sdv_all(at->x);
-    for (int i = 0; i < SDV_SLOTS; i++) c[i] = sdv_load(data + lanes * i);
-    for (int j = 0; j < 4; j++) sdv_make_power(c + 4 * j, 3, x, rows, j);
+    sdv_four c[4][4], rows[4][3], x = sdv_all(at->x);
+    sdv_load_row(data, lanes, c[0]);
+    sdv_load_row(data + 4 * lanes, lanes, c[1]);
+    sdv_load_row(data + 8 * lanes, lanes, c[2]);
+    sdv_load_row(data + 12 * lanes, lanes, c[3]);
+    sdv_horner(c[0], 1, 3, x, rows[0]);
+    sdv_horner(c[1], 1, 3, x, rows[1]);
+    sdv_horner(c[2], 1, 3, x, rows[2]);
+    sdv_horner(c[3], 1, 3, x, rows[3]);
     sdv_put_columns(rows, 0, at, order, out);
 }
 
+// See sdv_powers.
 SDV_INLINE void sdv_triangle_values(const float *data, int lanes, const sdv_where *at, int order,
                                     sdv_four *out)
 {
-    sdv_four c[SDV_SLOTS], rows[3][5], x = sdv_all(at->x);
-    for (int i = 0; i < SDV_SLOTS; i++) c[i] = sdv_load(data + lanes * i);
-    sdv_four first[5] = { c[0], c[1], c[2], c[3], c[13] };
-    sdv_make_power(first, 4, x, rows, 0);
-    sdv_make_power(c + 4, 3, x, rows, 1);
-    sdv_make_power(c + 8, 1, x, rows, 2);
-    sdv_make_power(c + 10, 1, x, rows, 3);
-    rows[0][4] = c[12];
+    sdv_four c[13], rows[5][3], x = sdv_all(at->x);
+    sdv_load_row(data, lanes, c);
+    sdv_load_row(data + 4 * lanes, lanes, c + 5);
+    sdv_load_row(data + 8 * lanes, lanes, c + 9);
+    rows[4][0] = sdv_load(data + 12 * lanes);
+    c[4] = sdv_load(data + 13 * lanes);
+    sdv_horner(c, 1, 4, x, rows[0]);
+    sdv_horner(c + 5, 1, 3, x, rows[1]);
+    sdv_horner(c + 9, 1, 1, x, rows[2]);
+    sdv_horner(c + 11, 1, 1, x, rows[3]);
     sdv_put_columns(rows, 1, at, order, out);
 }
 
