@@ -8473,32 +8473,39 @@ static unsigned sdv_make_cell(const subdiv_surface *surface, subdiv_location at,
     return sdv_pack_cell(leaf.polynomial, across, up, leaf.sx < 0);
 }
 
-// Number k of the 16 in it.
-static sdv_square sdv_square_in(const sdv_square *whole, int loop, int k)
+// Number k of the four that a split makes of it.
+static sdv_square sdv_split_square(sdv_square square, int loop, int k)
 {
-    int x = k % 4, y = k / 4, above = loop && x + y > 3;
-    if (above != whole->above) {
-        x = 3 - x;
-        y = 3 - y;
-    }
-    above ^= whole->above;
-    sdv_square square = { whole->level + 2, 4 * whole->x + x, 4 * whole->y + y, above };
-    return square;
+    int middle = loop && k == 3, x = middle ? 0 : k & 1, y = middle ? 0 : k >> 1;
+    sdv_square part = { square.level + 1, 2 * square.x + (square.above ? 1 - x : x),
+                        2 * square.y + (square.above ? 1 - y : y), square.above ^ middle };
+    return part;
 }
 
-// Makes cell number i, and its grid.
+static size_t sdv_number_in_grid(sdv_square square)
+{
+    int i = (square.y & 3) << 2 | (square.x & 3);
+    return (size_t)(square.above ? 15 - i : i);
+}
+
+// Makes cell number i, and its grid: where a quarter of that has one polynomial, all at once.
 static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_surface *surface,
                            subdiv_location at, sdv_square square, size_t i)
 {
     unsigned cell = sdv_make_cell(surface, at, square);
-    int grid = cell == SDV_CELL_NONE && square.level < SDV_CELL_LEVELS;
+    int loop = surface->rules.loop, grid = cell == SDV_CELL_NONE && square.level < SDV_CELL_LEVELS;
     size_t first = cells->count;
     if (first > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
     if (context->result || (grid && !sdv_append(context, cells, 16, sizeof(unsigned)))) return;
     ((unsigned *)sdv_items(cells))[i] = grid ? 2 * (unsigned)first + 1 : cell;
-    for (int k = 0; k < 16 && grid; k++)
-        sdv_make_cells(context, cells, surface, at,
-                       sdv_square_in(&square, surface->rules.loop, k), first + (size_t)k);
+    for (int k = 0; k < 16 && grid; k++) {
+        sdv_square quarter = sdv_split_square(square, loop, k / 4);
+        sdv_square small = sdv_split_square(quarter, loop, k % 4);
+        size_t number = first + sdv_number_in_grid(small);
+        if (k % 4 == 0) cell = sdv_make_cell(surface, at, quarter);
+        if (cell == SDV_CELL_NONE) sdv_make_cells(context, cells, surface, at, small, number);
+        else ((unsigned *)sdv_items(cells))[number] = cell;
+    }
 }
 
 // The cells of all faces, and one for those without a surface.
