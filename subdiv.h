@@ -8546,10 +8546,10 @@ typedef struct sdv_lookup {
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
 
-SDV_INLINE void sdv_find_squares(sdv_lookup *l, int loop)
+SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
 {
     const int side = 1 << SDV_CELL_LEVELS;
-    for (int k = 0; k < SDV_LOOKUP; k++) {
+    for (int k = 0; k < count; k++) {
         float u = l->u[k] * (float)side, v = l->v[k] * (float)side;
         int x = (int)u, y = (int)v, above = 0, most = side - 1;
         y -= y >> SDV_CELL_LEVELS;                      // 1 is in the last one
@@ -8565,17 +8565,17 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int loop)
 }
 
 SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop,
-                               const subdiv_location *locations, sdv_lookup *l)
+                               const subdiv_location *locations, int count, sdv_lookup *l)
 {
     const sdv_level *cage = &surface->order.cage;
     const unsigned *cells = surface->exact->cells;
     const int *own_face = surface->own_face;
     int regular = cage->face_size == (loop ? 3 : 4), none = cage->face_vertex_count;
-    for (int k = 0; k < SDV_LOOKUP; k++) {
+    for (int k = 0; k < count; k++) {
         int f = locations[k].face;
         if (own_face) f = own_face[f] < 0 ? none : own_face[f];
         if (!regular && f != none) f = sdv_face_start(cage, f) + locations[k].corner;
-        unsigned cell = cells[f], grid = -(cell & 1);
+        unsigned cell = cells[f], grid = 0u - (cell & 1);
         cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
         if (cell & 1) cell = cells[(cell >> 1) + (unsigned)l->second[k]];   // hardly ever
         l->cells[k] = cell;
@@ -8583,9 +8583,9 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop,
 }
 
 // 2 to the powers of cells, by the bits of a float.
-SDV_INLINE void sdv_find_scales(sdv_lookup *l, int loop)
+SDV_INLINE void sdv_find_scales(sdv_lookup *l, int count, int loop)
 {
-    for (int k = 0; k < SDV_LOOKUP; k++) {
+    for (int k = 0; k < count; k++) {
         uint32_t across = ((l->cells[k] >> 1 & 7) + 127) << 23;
         uint32_t up = loop ? across : ((l->cells[k] >> 4 & 7) + 127) << 23;
         memcpy(&l->sx[k], &across, sizeof across);
@@ -8593,10 +8593,10 @@ SDV_INLINE void sdv_find_scales(sdv_lookup *l, int loop)
     }
 }
 
-SDV_INLINE void sdv_find_places(sdv_lookup *l, int loop)
+SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
 {
     const float unit = 1.0f / (1 << SDV_CELL_LEVELS);
-    for (int k = 0; k < SDV_LOOKUP; k++) {
+    for (int k = 0; k < count; k++) {
         float sx = l->sx[k], sy = l->sy[k];
         float x = l->u[k] * sx - (float)(int)(l->left[k] * sx * unit);
         float y = l->v[k] * sy - (float)(int)(l->bottom[k] * sy * unit);
@@ -8609,16 +8609,16 @@ SDV_INLINE void sdv_find_places(sdv_lookup *l, int loop)
 }
 
 SDV_INLINE void sdv_look_up(const subdiv_surface *surface, int loop,
-                            const subdiv_location *locations, sdv_lookup *l)
+                            const subdiv_location *locations, int count, sdv_lookup *l)
 {
-    for (int k = 0; k < SDV_LOOKUP; k++) {
+    for (int k = 0; k < count; k++) {
         l->u[k] = sdv_on_face(locations[k].u);
         l->v[k] = sdv_on_face(locations[k].v);
     }
-    sdv_find_squares(l, loop);
-    sdv_find_cells(surface, loop, locations, l);
-    sdv_find_scales(l, loop);
-    sdv_find_places(l, loop);
+    sdv_find_squares(l, count, loop);
+    sdv_find_cells(surface, loop, locations, count, l);
+    sdv_find_scales(l, count, loop);
+    sdv_find_places(l, count, loop);
 }
 
 // All of it.
@@ -9453,35 +9453,45 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
     sdv_put_leaf(e, &leaf, loop, job, i);
 }
 
-// A job's locations, of which all of a lookup are found before the first is evaluated: what they
-// need of memory comes at the same time. lanes, order: known for what is asked for most, else 0.
-SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
+// Locations from i on, which are all found before the first is evaluated: what they need of memory
+// comes at the same time. lanes, order: known for what is asked for most, else 0.
+SDV_INLINE void sdv_put_lookup(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
+                               size_t i, int count)
 {
     sdv_lookup l;
     const float *data[SDV_LOOKUP];
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs), width = SDV_SLOTS * (size_t)e->channels;
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    while (i < end) {
-        subdiv_location few[SDV_LOOKUP];
-        const subdiv_location *locations = e->locations + i;
-        int count = end - i < SDV_LOOKUP ? (int)(end - i) : SDV_LOOKUP;
-        for (int k = 0; k < SDV_LOOKUP && count < SDV_LOOKUP; k++)
-            few[k] = locations[k < count ? k : 0];
-        sdv_look_up(e->surface, loop, count < SDV_LOOKUP ? few : locations, &l);
-        for (int k = 0; k < SDV_LOOKUP; k++) {
-            data[k] = e->memory.polynomials + width * (l.cells[k] >> SDV_CELL_BITS);
-            sdv_prefetch(data[k]);
-            sdv_prefetch(data[k] + 16);
-            sdv_prefetch(data[k] + 32);
-            if (l.cells[k] == SDV_CELL_NONE) data[k] = NULL;
-        }
-        for (int k = 0; k < count; k++, i++) {
-            sdv_where at = { l.x[k], l.y[k], l.sx[k], l.sy[k] };
-            if (!data[k]) sdv_put_location(e, loop, job, i);
-            else if (lanes) sdv_put_lanes(e, data[k], loop, lanes, order, &at, 0, i);
-            else sdv_put_channels(e, data[k], loop, &at, i);
-        }
+    size_t width = SDV_SLOTS * (size_t)e->channels;
+    sdv_look_up(e->surface, loop, e->locations + i, count, &l);
+    for (int k = 0; k < count; k++) {
+        data[k] = e->memory.polynomials + width * (l.cells[k] >> SDV_CELL_BITS);
+        sdv_prefetch(data[k]);
+        sdv_prefetch(data[k] + width / 3);
+        sdv_prefetch(data[k] + width / 3 * 2);
+        if (l.cells[k] == SDV_CELL_NONE) data[k] = NULL;
     }
+    for (int k = 0; k < count; k++, i++) {
+        sdv_where at = { l.x[k], l.y[k], l.sx[k], l.sy[k] };
+        if (!data[k]) sdv_put_location(e, loop, job, i);
+        else if (lanes) sdv_put_lanes(e, data[k], loop, lanes, order, &at, 0, i);
+        else sdv_put_channels(e, data[k], loop, &at, i);
+    }
+}
+
+// The last of a job's locations.
+static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, size_t end)
+{
+    if (i == end) return;
+    if (loop) sdv_put_lookup(e, job, 1, 0, 0, i, (int)(end - i));
+    else sdv_put_lookup(e, job, 0, 0, 0, i, (int)(end - i));
+}
+
+SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
+{
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
+    for (; end - i >= SDV_LOOKUP; i += SDV_LOOKUP)
+        sdv_put_lookup(e, job, loop, lanes, order, i, SDV_LOOKUP);
+    sdv_put_rest(e, job, loop, i, end);
 }
 
 static void sdv_quad_job(void *context, int job)

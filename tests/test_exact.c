@@ -607,6 +607,12 @@ static void check_channels(random_cage *c, int channels)
                 SUBDIV_OK);
     for (int i = 0; i < MANY * channels; i++)
         CHECK(memcmp(&dense[i], &out[0][i / channels * 11 + i % channels], sizeof(float)) == 0);
+    for (int i = 0; i < MANY; i++) {                            // one by one: the same bits
+        subdiv_derivatives single = { dense, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+        CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch + 4, 1, &at[i], &single, NULL),
+                    SUBDIV_OK);
+        CHECK(memcmp(dense, out[0] + 11 * i, sizeof(float) * (size_t)channels) == 0);
+    }
     for (int k = 0; k < channels; k++) {
         for (int v = 0; v < m->vertex_count; v++) one[v] = in[v * channels + k];
         subdiv_derivatives some = { alone[0], alone[1], alone[2], alone[3], alone[4], alone[5],
