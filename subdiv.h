@@ -8299,7 +8299,7 @@ static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int d
            3 * ((size_t)depth * (size_t)exact->nest_face_count + (size_t)face) + (size_t)child - 1;
 }
 
-// A coordinate without its rounding.
+// A coordinate, clamped to [0, 1].
 static inline float sdv_on_face(float u)
 {
     u = u > 0 ? u : 0;
@@ -8418,7 +8418,7 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
 //     +--+--+--+--+     part of the face that covers: one in 2^across columns and 2^up rows (they
 //     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. What
 //     +--+--+--+--+     is smaller than the cells of the second grid is left to the tree.
-//     |  |  |##|  |
+//     |  |  |  |  |
 //     +--+--+--+--+     Loop: the triangle below the diagonal of a square has the square's number,
 //     |  |  |  |  |     the one above that of the opposite square (15 less it), behind the long
 //     +--+--+--+--+     side, where there is no triangle.
@@ -8582,7 +8582,7 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop,
     }
 }
 
-// 2 to the powers of cells, by the bits of a float.
+// The scales 2^across and 2^up, put together as the bits of floats.
 SDV_INLINE void sdv_find_scales(sdv_lookup *l, int count, int loop)
 {
     for (int k = 0; k < count; k++) {
@@ -8614,6 +8614,7 @@ SDV_INLINE void sdv_look_up(const subdiv_surface *surface, int loop,
     for (int k = 0; k < count; k++) {
         l->u[k] = sdv_on_face(locations[k].u);
         l->v[k] = sdv_on_face(locations[k].v);
+        if (loop) l->v[k] = l->v[k] < 1 - l->u[k] ? l->v[k] : 1 - l->u[k];
     }
     sdv_find_squares(l, count, loop);
     sdv_find_cells(surface, loop, locations, count, l);
@@ -8621,7 +8622,7 @@ SDV_INLINE void sdv_look_up(const subdiv_surface *surface, int loop,
     sdv_find_places(l, count, loop);
 }
 
-// All of it.
+// Preparing an exact surface: its tree level by level, then its cells.
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface, int only_tiles)
 {
     surface->levels = SDV_EXACT_LEVELS;
@@ -9477,7 +9478,7 @@ SDV_INLINE void sdv_put_lookup(sdv_exact_evaluation *e, int job, int loop, int l
     }
 }
 
-// The last of a job's locations.
+// Fewer than a whole batch, at the end of a job.
 static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, size_t end)
 {
     if (i == end) return;
