@@ -4748,7 +4748,8 @@ struct subdiv_surface {
     sdv_arena arena;
     sdv_arena points;                   // of what makes points alone: rows and patches;
     sdv_arena around;                   // those of level 0 and what they are gathered from
-    int       borrows;                  // the cage's faces, as the cage outlives the surface
+    int       borrows;                  // the cage's faces, as the cage outlives the surface; it
+                                        // is the library's own: nobody asks it for locations
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
@@ -5441,7 +5442,7 @@ static void sdv_reserve_around(sdv_context *context, subdiv_surface *surface,
 }
 
 // See >>exact-surface.
-static void sdv_new_exact(sdv_context *context, subdiv_surface *surface, int only_tiles);
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                               const unsigned char *hole, sdv_arena *arena);
 
@@ -5561,7 +5562,7 @@ typedef struct sdv_values {
     subdiv_uv_rule rule;
 } sdv_values;
 
-static subdiv_surface *sdv_new_surface(sdv_context *context, int levels, int only_tiles)
+static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
 {
     sdv_arena arena = sdv_new_arena(0);
     subdiv_surface *surface = SDV_NEW(context, &arena, subdiv_surface, 1);
@@ -5569,7 +5570,7 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, int levels, int onl
     memset(surface, 0, sizeof *surface);
     surface->arena = arena;
     surface->levels = levels;
-    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface, only_tiles);
+    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface);
     return surface;
 }
 
@@ -5790,12 +5791,13 @@ static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_
     if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
     if (!context.result && cage->colors)
         sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, borrows);
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
-    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels, borrows);
+    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
     made->rules.limit = opt && opt->limit && !made->exact;
     made->borrows = borrows;
+    if (made->uv) made->uv->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
@@ -5824,8 +5826,8 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
     if (!context.result) sdv_check_indices(&context, cage, value_count, indices);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, 0);
-    subdiv_surface *shape = made ? sdv_new_surface(&context, levels, 0) : NULL;
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
+    subdiv_surface *shape = made ? sdv_new_surface(&context, levels) : NULL;
     sdv_values values = { value_count, indices, rule };
     if (made) made->is_values = 1;
     if (shape) sdv_prepare(&context, shape, cage, made, values, 1, opt);
@@ -5869,7 +5871,7 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
                            float *weights)
 {
     sdv_arena scratch = sdv_scratch();
-    subdiv_surface *surface = sdv_new_surface(context, nets->depth, 0);
+    subdiv_surface *surface = sdv_new_surface(context, nets->depth);
     sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
     sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
     size_t points = (size_t)net->vertex_count, parts = (size_t)nets->parts;
@@ -7700,7 +7702,6 @@ typedef struct sdv_exact {
     int *nodes;                         // first those of faces, or of an n-gon's quads
     unsigned char *absent;              // [face_count] without surface; NULL: none
     unsigned *cells;                    // see >>cells
-    int only_tiles;                     // no cells: nobody will ask for locations
     sdv_cut_patch *cuts;
     sdv_nest_kind *kinds;
     sdv_nest *nests;
@@ -8409,9 +8410,9 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
 }
 
 // ------------------------------------------------------------------------------------ >>cells
-// A faster way to the same polynomials, for locations in any order: on a walk down the tree the
-// processor would guess its branches wrong. Each face is one cell or, if there is more than one
-// polynomial on it, a grid of 16 cells, and such a cell may be a grid again.
+// A faster way to the same polynomials, for locations in any order: a walk down the tree has its
+// branches mispredicted. Each face is one cell or, if there is more than one polynomial on it, a
+// grid of 16 cells, and such a cell may be a grid again.
 //
 //     +--+--+--+--+     A cell is a number: 2 first + 1 of a grid whose cells are those from first
 //     |  |  |  |  |     on. Or it has the number of the polynomial that is all over it, and which
@@ -8534,8 +8535,8 @@ static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
     exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
 }
 
-// Locations that are looked up together, in loops without branches that the compiler may do in
-// lanes.
+// Locations are looked up in batches of so many, in loops without branches, which compilers
+// vectorize.
 #define SDV_LOOKUP 32
 
 typedef struct sdv_lookup {
@@ -8623,13 +8624,11 @@ SDV_INLINE void sdv_look_up(const subdiv_surface *surface, int loop,
 }
 
 // Preparing an exact surface: its tree level by level, then its cells.
-static void sdv_new_exact(sdv_context *context, subdiv_surface *surface, int only_tiles)
+static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
 {
     surface->levels = SDV_EXACT_LEVELS;
     surface->exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
-    if (!surface->exact) return;
-    memset(surface->exact, 0, sizeof *surface->exact);
-    surface->exact->only_tiles = only_tiles;
+    if (surface->exact) memset(surface->exact, 0, sizeof *surface->exact);
 }
 
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -8663,7 +8662,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result && !surface->exact->only_tiles) sdv_make_all_cells(context, surface);
+    if (!context->result && !surface->borrows) sdv_make_all_cells(context, surface);
     sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
@@ -8726,31 +8725,28 @@ static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high
     if (strip->smooth) sdv_combine(p, step, next, (const double (*)[4])strip->exact);
 }
 
-// From control points to the coefficients of the limit's polynomial, see sdv_cubic, in units so
-// many times as long as the segment.
-static void sdv_cut_cubic(double (*p)[4], int step, int next, double unit)
+// From control points to the coefficients of the limit's polynomial, see sdv_cubic.
+static void sdv_cut_cubic(double (*p)[4], int step, int next)
 {
-    double u = unit, uu = u * u, uuu = uu * u;
-    const double rows[4][4] = { { 1.0 / 6, 2.0 / 3, 1.0 / 6, 0 }, { -u / 2, 0, u / 2, 0 },
-                                { uu / 2, -uu, uu / 2, 0 },
-                                { -uuu / 6, uuu / 2, -uuu / 2, uuu / 6 } };
+    static const double rows[4][4] = {
+        { 1.0 / 6, 2.0 / 3, 1.0 / 6, 0 }, { -0.5, 0, 0.5, 0 }, { 0.5, -1, 0.5, 0 },
+        { -1.0 / 6, 0.5, -0.5, 1.0 / 6 } };
     sdv_combine(p, step, next, rows);
 }
 
 // The part of a patch where two strips cross. It may be a thousandth of the patch, so it is made in
-// doubles. The polynomial starts where the strips' own segments do, but is in the patch's units.
+// doubles. The polynomial starts where the strips' own segments do, which are its units.
 static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *along,
                                const sdv_strip *up, sdv_polynomial *q, double *origin)
 {
-    const double whole = 1 << SDV_STRIP_LEVELS;
     int sharp = deep->patch->sharp;
     double p[16][4];
     for (int i = 0; i < 16; i++)
         for (int c = 0; c < 4; c++) p[i][c] = sdv_deep_point(deep, i)[c] - origin[c];
     sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, deep->along, along);
     sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, deep->up, up);
-    sdv_cut_cubic(p, 1, 4, whole / along->unit);
-    sdv_cut_cubic(p, 4, 1, whole / up->unit);
+    sdv_cut_cubic(p, 1, 4);
+    sdv_cut_cubic(p, 4, 1);
     for (int c = 0; c < 4; c++) {
         origin[c] += p[0][c];
         p[0][c] = 0;
@@ -8896,6 +8892,7 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
     const sdv_exact *exact = surface->exact;
     size_t count = (size_t)exact->polynomial_count +
                    3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
+    // Room for two alignments, and for loads of four floats that end behind the last polynomial.
     return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
            sdv_exact_nest_size(surface) + SDV_SLOTS * sizeof(float) * (size_t)channels * count;
 }
@@ -8930,18 +8927,6 @@ typedef struct sdv_exact_evaluation {
     unsigned char failed[SDV_MOST_JOBS];        // jobs that got no memory
     const subdiv_options *opt;
 } sdv_exact_evaluation;
-
-// A part of a cut patch in units of its own segments, not the patch's: all powers of 2.
-static void sdv_shrink_part(const sdv_deep_patch *deep, int i, sdv_polynomial *q)
-{
-    const float whole = 1 << SDV_STRIP_LEVELS;
-    float across = (float)deep->along->items[i % deep->along->count].unit / whole;
-    float up = (float)deep->up->items[i / deep->along->count].unit / whole, x = 1;
-    for (int j = 0; j < 4; j++, x *= across) {
-        float unit = x;
-        for (int k = 0; k < 4; k++, unit *= up) q->c[j][k] = sdv_times(q->c[j][k], sdv_all(unit));
-    }
-}
 
 // The coefficients of so many channels of q [lanes * SDV_SLOTS], shrunk, around origin.
 static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
@@ -8981,7 +8966,6 @@ static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch 
         parts = sdv_deep_parts(&deep);
         for (int k = 0; k < parts; k++) {
             sdv_deep_polynomial(&deep, k, &q, origin);
-            if (deep.along) sdv_shrink_part(&deep, k, &q);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
                                 sdv_polynomial_at(e, i + (size_t)k, c));
         }
@@ -9113,8 +9097,8 @@ SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
     p[0] = sdv_plus(sdv_times(p[0], t), next);
 }
 
-// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. The first steps have zeros less.
-// (What is not asked for below, the compiler leaves out.)
+// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. Its first steps leave out
+// what is 0; what is not asked for below, the compiler leaves out.
 SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
 {
     sdv_four highest = c[degree * step];
@@ -9144,11 +9128,11 @@ SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *
     out[1] = sdv_times(sx, p[0]);
     out[4] = sdv_times(sdv_times(sx, sy), p[1]);
     if (order == 1) return;
-    sdv_horner(&rows[0][2], 3, loop ? 2 : 3, y, p);
+    sdv_horner(&rows[0][2], 3, loop ? 1 : 3, y, p);
     out[3] = sdv_times(sdv_times(sx, sx), sdv_plus(p[0], p[0]));
 }
 
-// Four coefficients.
+// Four coefficients in a row, of up to four channels.
 SDV_INLINE void sdv_load_row(const float *data, int lanes, sdv_four *c)
 {
     c[0] = sdv_load(data);
@@ -9454,8 +9438,8 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
     sdv_put_leaf(e, &leaf, loop, job, i);
 }
 
-// Locations from i on, which are all found before the first is evaluated: what they need of memory
-// comes at the same time. lanes, order: known for what is asked for most, else 0.
+// Locations from i on, all found before the first is evaluated, so that their cache misses overlap.
+// lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
 SDV_INLINE void sdv_put_lookup(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
                                size_t i, int count)
 {
@@ -9495,34 +9479,16 @@ SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, in
     sdv_put_rest(e, job, loop, i, end);
 }
 
-static void sdv_quad_job(void *context, int job)
+static void sdv_samples_job(void *context, int job)
 {
-    sdv_put_locations((sdv_exact_evaluation *)context, job, 0, 0, 0);
-}
-
-static void sdv_quad_points_job(void *context, int job)
-{
-    sdv_put_locations((sdv_exact_evaluation *)context, job, 0, 3, 0);
-}
-
-static void sdv_quad_slopes_job(void *context, int job)
-{
-    sdv_put_locations((sdv_exact_evaluation *)context, job, 0, 3, 1);
-}
-
-static void sdv_triangle_job(void *context, int job)
-{
-    sdv_put_locations((sdv_exact_evaluation *)context, job, 1, 0, 0);
-}
-
-static void sdv_triangle_points_job(void *context, int job)
-{
-    sdv_put_locations((sdv_exact_evaluation *)context, job, 1, 3, 0);
-}
-
-static void sdv_triangle_slopes_job(void *context, int job)
-{
-    sdv_put_locations((sdv_exact_evaluation *)context, job, 1, 3, 1);
+    sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
+    if (loop && order == 0) sdv_put_locations(e, job, 1, 3, 0);
+    else if (loop && order == 1) sdv_put_locations(e, job, 1, 3, 1);
+    else if (loop) sdv_put_locations(e, job, 1, 0, 0);
+    else if (order == 0) sdv_put_locations(e, job, 0, 3, 0);
+    else if (order == 1) sdv_put_locations(e, job, 0, 3, 1);
+    else sdv_put_locations(e, job, 0, 0, 0);
 }
 
 // Is a location there?
@@ -9617,10 +9583,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
-    static void (*const run[2][3])(void *, int) = {
-        { sdv_quad_points_job, sdv_quad_slopes_job, sdv_quad_job },
-        { sdv_triangle_points_job, sdv_triangle_slopes_job, sdv_triangle_job } };
-    sdv_run(opt, run[surface->rules.loop][channels == 3 ? e.order : 2], &e, e.jobs);
+    sdv_run(opt, sdv_samples_job, &e, e.jobs);
     if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
@@ -10696,7 +10659,7 @@ typedef struct sdv_cell {
     int     bits;                       // 2^bits units are a side of the grid: it is, in these,
     int64_t left, right, bottom, top;   // from left to right and from bottom to top
     int     step;                       // -1: turned
-    double  scale, x, y;                // coordinates of its polynomial: step (scale t - x),
+    double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
 } sdv_cell;                             // where t is from 0 to 1 along a side of the grid
 
 // Makes them. The polynomial is made for the first point that asks for it.
@@ -10724,8 +10687,9 @@ static int64_t sdv_units(const sdv_cell *cell)
 static sdv_cell sdv_cell_at(int bits, int64_t x, int64_t y, int step)
 {
     int64_t left = step > 0 ? x : x - 1, bottom = step > 0 ? y : y - 1;
-    sdv_cell cell = { bits, left, left + 1, bottom, bottom + 1, step,
-                      (double)((int64_t)1 << bits), (double)x, (double)y };
+    double scale = (double)((int64_t)1 << bits);
+    sdv_cell cell = { bits, left, left + 1, bottom, bottom + 1, step, scale, scale,
+                      (double)x, (double)y };
     return cell;
 }
 
@@ -10739,8 +10703,10 @@ static sdv_cell sdv_cell_of_strips(sdv_cell cell, const sdv_strip *along, const 
     cell.right = x + along->to;
     cell.bottom = y + up->from;
     cell.top = y + up->to;
-    cell.x += (double)along->origin / (double)whole;
-    cell.y += (double)up->origin / (double)whole;
+    cell.sx *= (double)whole / along->unit;
+    cell.sy *= (double)whole / up->unit;
+    cell.x = (cell.x * (double)whole + along->origin) / along->unit;
+    cell.y = (cell.y * (double)whole + up->origin) / up->unit;
     return cell;
 }
 
@@ -10796,10 +10762,10 @@ typedef struct sdv_line_points {
 static void sdv_put_tile_row(const sdv_leaf_points *l, const sdv_line_points *line)
 {
     const sdv_cell *cell = &l->cell;
-    double scale = cell->step * cell->scale * line->du;
-    double x = cell->step * (cell->scale * line->u - cell->x);
+    double scale = cell->step * cell->sx * line->du;
+    double x = cell->step * (cell->sx * line->u - cell->x);
     int index = line->index;
-    float y = (float)(cell->step * (cell->scale * line->v - cell->y));
+    float y = (float)(cell->step * (cell->sy * line->v - cell->y));
     sdv_curve curve;
     sdv_slopes slopes;
     memset(&slopes, 0, sizeof slopes);      // gcc cannot know that they are used only if set
@@ -14600,7 +14566,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     if (context.result) return context.result;
 
     subdiv_mesh work = *cage;
-    cut = sdv_new_surface(&context, 1, 0);
+    cut = sdv_new_surface(&context, 1);
     x.context = &context;
     x.arena = sdv_scratch();
     x.out.text = text;

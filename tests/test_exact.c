@@ -501,7 +501,8 @@ static void test_passing_creases(void)
 }
 
 // A grid that is flat and evenly spaced (by numbers that floats have) stays so with a straight
-// crease of any sharpness: its second derivatives are 0, also in the thousandth of a face beside it.
+// crease of any sharpness: its second derivatives are 0, also in the thousandth of a face beside
+// it.
 static void test_long_creases(void)
 {
     static const float sharpness[] = { 0.3f, 1, 2.5f, 4, 5.5f, 7.5f, 8.5f, 9, 9.5f, 9.9f };
@@ -530,6 +531,38 @@ static void test_long_creases(void)
         CHECK_NEAR(worst, 0, 1e-3);
         put_away(&r);
     }
+}
+
+// Powers of 2 change nothing but the size, as far up as positions may go, also beside a crease of
+// nearly 10.
+static void test_sizes(void)
+{
+    enum { N = 8, POWER = 115 };
+    test_cage c;
+    build_grid(&c, SUBDIV_CATMULL_CLARK, N, N);
+    for (int v = 0; v < c.mesh.vertex_count; v++) {
+        c.positions[3 * v] = (float)sin(0.4 * (v % (N + 1)));
+        c.positions[3 * v + 1] = (float)sin(0.3 * (v / (N + 1)));
+        c.positions[3 * v + 2] = (float)cos(0.7 * v);
+    }
+    for (int i = 0; i < N; i++)
+        cage_crease(&c, 4 * (N + 1) + i, 4 * (N + 1) + i + 1, 9.5f);
+    ready small = get_ready(&c.mesh, NULL);
+    for (int i = 0; i < 3 * c.mesh.vertex_count; i++)
+        c.positions[i] = ldexpf(c.positions[i], POWER);
+    ready large = get_ready(&c.mesh, NULL);
+    for (int i = 0; i < 300; i++) {
+        double far = ldexp(0.5 + i % 7 / 14.0, -(i % 13)), u = 0.1 + i % 5 / 6.0;
+        sample a = evaluate(&small, 4 * N + 3, 0, u, far);
+        sample b = evaluate(&large, 4 * N + 3, 0, u, far);
+        for (int k = 0; k < 3; k++) {
+            CHECK(ldexpf(a.p[k], POWER) == b.p[k]);
+            CHECK(ldexpf(a.du[k], POWER) == b.du[k]);
+            CHECK(ldexpf(a.dv[k], POWER) == b.dv[k]);
+        }
+    }
+    put_away(&small);
+    put_away(&large);
 }
 
 // At a vertex on the boundary with a single face the edges become parallel; a flat polygon has its
@@ -562,6 +595,7 @@ static void test_single_faces(void)
 
 enum { MANY = 5000 };
 
+// A third of them where polynomials meet.
 static void random_places(random_cage *c, subdiv_location *at)
 {
     const subdiv_mesh *m = &c->mesh;
@@ -571,6 +605,10 @@ static void random_places(random_cage *c, subdiv_location *at)
         at[i].corner = m->scheme == SUBDIV_LOOP || size == 4 ? 0 : random_below(c, size);
         at[i].u = random_real(c, 0, 1);
         at[i].v = random_real(c, 0, 1);
+        if (i % 3 == 0) {
+            at[i].u = floorf(at[i].u * 17) / 16;
+            at[i].v = floorf(at[i].v * 17) / 16;
+        }
         if (m->scheme == SUBDIV_LOOP && at[i].u + at[i].v > 1) {
             at[i].u = 1 - at[i].u;
             at[i].v = 1 - at[i].v;
@@ -797,6 +835,7 @@ int main(void)
     RUN(test_continuous);
     RUN(test_passing_creases);
     RUN(test_long_creases);
+    RUN(test_sizes);
     RUN(test_single_faces);
     RUN(test_channels);
     RUN(test_values);
