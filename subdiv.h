@@ -505,9 +505,9 @@ typedef struct subdiv_derivatives {
 //
 // Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
 // face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
-// give zeros. Errors, before anything is written: INDEX, ARGUMENT (u, v outside the face by more
-// than rounding, normals of fewer than 3 channels, a surface not prepared so); and MEMORY: samples
-// close to a vertex of high valence take some.
+// give zeros. Errors: INDEX and ARGUMENT (normals of fewer than 3 channels, a surface not prepared
+// so); those, for a location that does not exist (u, v outside the face by more than rounding), and
+// MEMORY (samples close to a vertex of high valence take some) may leave some others evaluated.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -7707,7 +7707,7 @@ typedef struct sdv_exact {
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
-    int cut_count, kind_count, nest_count, nest_face_count;
+    int cut_count, kind_count, nest_count, nest_point_count, nest_face_count;
     int most_work;                      // of the kinds' work_counts
 } sdv_exact;
 
@@ -8237,6 +8237,7 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->cut_count = (int)maker->cuts.count;
     exact->kind_count = (int)maker->kinds.count;
     exact->nest_count = (int)maker->nests.count;
+    exact->nest_point_count = (int)maker->nest_points.count;
     exact->nest_face_count = (int)maker->nest_faces.count;
     exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
     exact->cuts = (sdv_cut_patch *)sdv_keep_array(context, arena, &maker->cuts,
@@ -8535,17 +8536,61 @@ static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
     exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
 }
 
+// Is a location there?
+static int sdv_is_location(const subdiv_surface *surface, subdiv_location at)
+{
+    const float under = -1e-6f, over = 1 + 1e-6f;
+    const sdv_level *cage = &surface->order.cage;
+    int f = at.face, size = surface->rules.loop ? 3 : 4;
+    if (f < 0 || f >= surface->face_count) return 0;
+    if (!(at.u >= under && at.v >= under && at.u <= over && at.v <= over)) return 0;
+    if (surface->rules.loop && at.u + at.v > over) return 0;
+    if (surface->own_face) f = surface->own_face[f];
+    if (f < 0) return at.corner >= 0;
+    int count = sdv_face_end(cage, f) - sdv_face_start(cage, f);
+    return at.corner >= 0 && at.corner < (count == size ? 1 : count);
+}
+
 // Locations are looked up in batches of so many, in loops without branches, which compilers
 // vectorize.
 #define SDV_LOOKUP 32
 
 typedef struct sdv_lookup {
+    int   face[SDV_LOOKUP], corner[SDV_LOOKUP];
     float u[SDV_LOOKUP], v[SDV_LOOKUP];
     float left[SDV_LOOKUP], bottom[SDV_LOOKUP];         // of their squares of the last level
     int   first[SDV_LOOKUP], second[SDV_LOOKUP];        // their numbers in the two grids
     unsigned cells[SDV_LOOKUP];
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
+
+// Clamps them to their faces. Are those there, and are they on them without?
+SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
+                                  const subdiv_location *locations, int count, sdv_lookup *l)
+{
+    unsigned faces = (unsigned)surface->face_count, odd = 0;
+    for (int k = 0; k < count; k++) {
+        l->face[k] = locations[k].face;
+        l->corner[k] = locations[k].corner;
+        l->x[k] = locations[k].u;
+        l->y[k] = locations[k].v;
+    }
+    for (int k = 0; k < count; k++) {
+        float u = sdv_on_face(l->x[k]), v = sdv_on_face(l->y[k]);
+        l->u[k] = u;
+        l->v[k] = loop && !(v < 1 - u) ? 1 - u : v;
+    }
+    for (int k = 0; k < count; k++) {
+        unsigned now[2], before[2];                     // bits, as these loops vectorize better
+        memcpy(&now[0], &l->u[k], sizeof(float));
+        memcpy(&now[1], &l->v[k], sizeof(float));
+        memcpy(&before[0], &l->x[k], sizeof(float));
+        memcpy(&before[1], &l->y[k], sizeof(float));
+        odd |= (now[0] ^ before[0]) | (now[1] ^ before[1]);
+        odd |= (unsigned)l->face[k] >= faces;
+    }
+    return !odd;
+}
 
 SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
 {
@@ -8565,18 +8610,41 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
     }
 }
 
-SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop,
-                               const subdiv_location *locations, int count, sdv_lookup *l)
+// The first cell of a face, or of its corner; *odd: there is no such corner.
+SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
+                              unsigned *odd)
 {
     const sdv_level *cage = &surface->order.cage;
+    int size = loop ? 3 : 4, corners = 1, first;
+    if (surface->own_face) f = surface->own_face[f];
+    if (f < 0) {
+        *odd |= corner < 0;
+        return cage->face_vertex_count;
+    }
+    first = cage->face_size == size ? f : sdv_face_start(cage, f);
+    if (cage->face_size != size) corners = sdv_face_end(cage, f) - first;
+    if (corners == size) corners = 1;
+    *odd |= (unsigned)corner >= (unsigned)corners;
+    return first + ((unsigned)corner < (unsigned)corners ? corner : 0);
+}
+
+// Puts those in the place of the faces. Are all corners there?
+SDV_INLINE int sdv_find_roots(const subdiv_surface *surface, int loop, int count, sdv_lookup *l)
+{
+    unsigned odd = 0;
+    if (!surface->own_face && surface->order.cage.face_size == (loop ? 3 : 4))
+        for (int k = 0; k < count; k++) odd |= (unsigned)l->corner[k];
+    else
+        for (int k = 0; k < count; k++)
+            l->face[k] = sdv_first_cell(surface, loop, l->face[k], l->corner[k], &odd);
+    return !odd;
+}
+
+SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_lookup *l)
+{
     const unsigned *cells = surface->exact->cells;
-    const int *own_face = surface->own_face;
-    int regular = cage->face_size == (loop ? 3 : 4), none = cage->face_vertex_count;
     for (int k = 0; k < count; k++) {
-        int f = locations[k].face;
-        if (own_face) f = own_face[f] < 0 ? none : own_face[f];
-        if (!regular && f != none) f = sdv_face_start(cage, f) + locations[k].corner;
-        unsigned cell = cells[f], grid = 0u - (cell & 1);
+        unsigned cell = cells[l->face[k]], grid = 0u - (cell & 1);
         cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
         if (cell & 1) cell = cells[(cell >> 1) + (unsigned)l->second[k]];   // hardly ever
         l->cells[k] = cell;
@@ -8609,18 +8677,18 @@ SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
     }
 }
 
-SDV_INLINE void sdv_look_up(const subdiv_surface *surface, int loop,
-                            const subdiv_location *locations, int count, sdv_lookup *l)
+// Returns 0 if one of them is not there.
+SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
+                           const subdiv_location *locations, int count, sdv_lookup *l)
 {
-    for (int k = 0; k < count; k++) {
-        l->u[k] = sdv_on_face(locations[k].u);
-        l->v[k] = sdv_on_face(locations[k].v);
-        if (loop) l->v[k] = l->v[k] < 1 - l->u[k] ? l->v[k] : 1 - l->u[k];
-    }
+    if (!sdv_load_locations(surface, loop, locations, count, l))
+        for (int k = 0; k < count; k++) if (!sdv_is_location(surface, locations[k])) return 0;
     sdv_find_squares(l, count, loop);
-    sdv_find_cells(surface, loop, locations, count, l);
+    int found = sdv_find_roots(surface, loop, count, l);
+    sdv_find_cells(surface, count, l);
     sdv_find_scales(l, count, loop);
     sdv_find_places(l, count, loop);
+    return found;
 }
 
 // Preparing an exact surface: its tree level by level, then its cells.
@@ -8836,6 +8904,18 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
             w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
 }
 
+// What sdv_nest_polynomials ended with.
+static void sdv_nest_resume(sdv_nest_state *s, const subdiv_surface *surface, int number,
+                            const double *kept, double *w)
+{
+    s->surface = surface;
+    s->kind = &surface->exact->kinds[surface->exact->nests[number].kind];
+    s->w = w;
+    s->shrink = ldexp(1, -SDV_NEST_DEPTH);
+    memcpy(s->base, kept, sizeof s->base);
+    memcpy(w, kept + 4, 4 * sizeof(double) * (size_t)s->kind->points);
+}
+
 // Makes the points of the next level.
 static void sdv_nest_refine(sdv_nest_state *s)
 {
@@ -8868,18 +8948,30 @@ static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int 
 }
 
 // The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
-// in their last digits alone; a nest's; then the coefficients of each polynomial.
+// in their last digits alone; a nest's; what each nest has behind its last polynomials: the base, and
+// its points as seen from there; then the coefficients of each polynomial.
 typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
     double *nest;                       // [4 * most_work]
+    double *deep;                       // [4 * (nest_count + nest_point_count)] for every four
     float  *polynomials;                // [SDV_SLOTS] each, channel by channel
 } sdv_exact_memory;
 
 #define SDV_CACHE_LINE 64
 
+static size_t sdv_exact_doubles(int channels, size_t count)
+{
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * count;
+}
+
 static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
 {
-    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
+    return sdv_exact_doubles(channels, (size_t)surface->work_count);
+}
+
+static size_t sdv_exact_deep_count(const sdv_exact *exact)
+{
+    return (size_t)exact->nest_count + (size_t)exact->nest_point_count;
 }
 
 static size_t sdv_exact_nest_size(const subdiv_surface *surface)
@@ -8894,7 +8986,8 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
                    3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
     // Room for two alignments, and for loads of four floats that end behind the last polynomial.
     return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
-           sdv_exact_nest_size(surface) + SDV_SLOTS * sizeof(float) * (size_t)channels * count;
+           sdv_exact_nest_size(surface) +
+           sdv_exact_doubles(channels, sdv_exact_deep_count(exact)) + SDV_SLOTS * sizeof(float) * (size_t)channels * count;
 }
 
 static char *sdv_align(void *memory)
@@ -8909,7 +9002,10 @@ static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int chann
     memory.work = (double *)(void *)base;
     base += sdv_exact_work_size(surface, channels);
     memory.nest = (double *)(void *)base;
-    memory.polynomials = (float *)(void *)sdv_align(base + sdv_exact_nest_size(surface));
+    base += sdv_exact_nest_size(surface);
+    memory.deep = (double *)(void *)base;
+    base += sdv_exact_doubles(channels, sdv_exact_deep_count(surface->exact));
+    memory.polynomials = (float *)(void *)sdv_align(base);
     return memory;
 }
 
@@ -8925,6 +9021,7 @@ typedef struct sdv_exact_evaluation {
     size_t stride, normal_stride;
     int order;                          // of the highest derivative
     unsigned char failed[SDV_MOST_JOBS];        // jobs that got no memory
+    unsigned char refused[SDV_MOST_JOBS];       // jobs with a location that is not there
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
@@ -8946,6 +9043,14 @@ static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, d
 static float *sdv_polynomial_at(const sdv_exact_evaluation *e, size_t i, int c)
 {
     return e->memory.polynomials + SDV_SLOTS * ((size_t)e->channels * i + (size_t)c);
+}
+
+// What is kept of a nest, of channels from c on.
+static double *sdv_deep_nest(const sdv_exact_evaluation *e, int number, int c)
+{
+    const sdv_exact *exact = e->surface->exact;
+    return e->memory.deep + (size_t)c * sdv_exact_deep_count(exact) +
+           4 * ((size_t)exact->nests[number].first + (size_t)number);
 }
 
 static int sdv_lanes_from(int channels, int c)
@@ -8997,7 +9102,6 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
         sdv_nest_load(&s, e->surface, number,
                       e->memory.work + (size_t)c * (size_t)e->surface->work_count, w);
         for (int depth = 0; depth < SDV_NEST_DEPTH; depth++) {
-            if (depth > 0) sdv_nest_descend(&s);
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
                 int face = i / 3, child = i % 3 + 1;
@@ -9005,7 +9109,11 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
                 sdv_child_polynomial(&s, face, child, exact->nest_faces[first + face].turn,
                                      sdv_lanes_from(e->channels, c), sdv_polynomial_at(e, at, c));
             }
+            sdv_nest_descend(&s);
         }
+        double *kept = sdv_deep_nest(e, number, c);
+        memcpy(kept, s.base, sizeof s.base);
+        memcpy(kept + 4, w, 4 * sizeof(double) * (size_t)s.kind->points);
     }
 }
 
@@ -9318,18 +9426,51 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
 }
 
-static void sdv_nest_evaluate(sdv_nest_sample *s)
+// Are tangents parallel, but for rounding?
+static int sdv_parallel(const double *a, const double *b)
 {
-    double size = s->state.surface->rules.loop ? s->x + s->y : s->x > s->y ? s->x : s->y;
+    double n[3], aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    sdv_cross(a, b, n);
+    return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] <= 1e-10 * aa * bb;
+}
+
+// Of a face alone on its side of a crease they are, near the vertex: there the normal is the
+// vertex's, whose second tangent is how the crease bends.
+static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
+{
+    double limit[3][4];
+    if (!s->state.kind->limit || !sdv_parallel(s->tangents[0], s->tangents[1])) return;
+    sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
+    sdv_nest_masks(&s->state, limit);
+    memcpy(s->tangents, limit[1], sizeof s->tangents);
+}
+
+// How many levels down a sample is, in the nest of each.
+static int sdv_nest_levels(const sdv_nest_sample *s, int loop)
+{
     int down;
-    if (size <= 0) {
+    frexp(loop ? s->x + s->y : s->x > s->y ? s->x : s->y, &down);
+    return down > 0 ? 0 : -down;
+}
+
+// From the nest, or from where the polynomials of its levels end.
+static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e, int nest, int c,
+                              double *w)
+{
+    const subdiv_surface *surface = e->surface;
+    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(s, surface->rules.loop);
+    int deep = e->memory.deep && !vertex && down >= SDV_NEST_DEPTH;
+    const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
+    if (deep) sdv_nest_resume(&s->state, surface, nest, sdv_deep_nest(e, nest, c), w);
+    else sdv_nest_load(&s->state, surface, nest, work, w);
+    if (vertex) {
         sdv_nest_vertex(s);
-        return;
+    } else {
+        sdv_nest_go_down(s, deep ? down - SDV_NEST_DEPTH : down);
+        sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
     }
-    frexp(size, &down);
-    down = down > 0 ? 0 : -down;
-    sdv_nest_go_down(s, down);
-    sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
+    if (e->normals && c == 0) sdv_nest_normal(s, nest, work);
 }
 
 // Derivatives in u and v from those in x and y, with the scale of the face.
@@ -9362,26 +9503,6 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
     sdv_make_unit(n, e->normals + e->normal_stride * i);
 }
 
-// Are tangents parallel, but for rounding?
-static int sdv_parallel(const double *a, const double *b)
-{
-    double n[3], aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
-    sdv_cross(a, b, n);
-    return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] <= 1e-10 * aa * bb;
-}
-
-// Of a face alone on its side of a crease they are, near the vertex: there the normal is the
-// vertex's, whose second tangent is how the crease bends.
-static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
-{
-    double limit[3][4];
-    if (!s->state.kind->limit || !sdv_parallel(s->tangents[0], s->tangents[1])) return;
-    sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
-    sdv_nest_masks(&s->state, limit);
-    memcpy(s->tangents, limit[1], sizeof s->tangents);
-}
-
 static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, double y, double scale,
                         size_t i)
 {
@@ -9399,10 +9520,7 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, dou
     if (s.x < 0) s.x = 0;
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
-        const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
-        sdv_nest_load(&s.state, surface, face->nest, work, w);
-        sdv_nest_evaluate(&s);
-        if (e->normals && c == 0) sdv_nest_normal(&s, face->nest, work);
+        sdv_nest_evaluate(&s, e, face->nest, c, w);
         sdv_nest_turn(&s, t, scale);
         sdv_nest_put(e, &s, c, i);
     }
@@ -9438,45 +9556,70 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
     sdv_put_leaf(e, &leaf, loop, job, i);
 }
 
-// Locations from i on, all found before the first is evaluated, so that their cache misses overlap.
-// lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
-SDV_INLINE void sdv_put_lookup(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
-                               size_t i, int count)
-{
-    sdv_lookup l;
+// Locations, looked up, and where their polynomials are; NULL: ask the tree.
+typedef struct sdv_batch {
+    sdv_lookup at;
     const float *data[SDV_LOOKUP];
+} sdv_batch;
+
+SDV_INLINE int sdv_find_batch(sdv_exact_evaluation *e, int job, int loop, size_t i, int count,
+                              sdv_batch *batch)
+{
     size_t width = SDV_SLOTS * (size_t)e->channels;
-    sdv_look_up(e->surface, loop, e->locations + i, count, &l);
+    if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) {
+        e->refused[job] = 1;
+        return 0;
+    }
     for (int k = 0; k < count; k++) {
-        data[k] = e->memory.polynomials + width * (l.cells[k] >> SDV_CELL_BITS);
-        sdv_prefetch(data[k]);
-        sdv_prefetch(data[k] + width / 3);
-        sdv_prefetch(data[k] + width / 3 * 2);
-        if (l.cells[k] == SDV_CELL_NONE) data[k] = NULL;
+        unsigned cell = batch->at.cells[k];
+        const float *data = e->memory.polynomials + width * (cell >> SDV_CELL_BITS);
+        batch->data[k] = cell == SDV_CELL_NONE ? NULL : data;
     }
-    for (int k = 0; k < count; k++, i++) {
-        sdv_where at = { l.x[k], l.y[k], l.sx[k], l.sy[k] };
-        if (!data[k]) sdv_put_location(e, loop, job, i);
-        else if (lanes) sdv_put_lanes(e, data[k], loop, lanes, order, &at, 0, i);
-        else sdv_put_channels(e, data[k], loop, &at, i);
-    }
+    return 1;
+}
+
+// lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
+SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
+                              const sdv_batch *batch, int k, size_t i)
+{
+    const sdv_lookup *l = &batch->at;
+    sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
+    if (!batch->data[k]) sdv_put_location(e, loop, job, i);
+    else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
+    else sdv_put_channels(e, batch->data[k], loop, &at, i);
 }
 
 // Fewer than a whole batch, at the end of a job.
-static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, size_t end)
+static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, int count)
 {
-    if (i == end) return;
-    if (loop) sdv_put_lookup(e, job, 1, 0, 0, i, (int)(end - i));
-    else sdv_put_lookup(e, job, 0, 0, 0, i, (int)(end - i));
+    sdv_batch batch;
+    int found = loop ? sdv_find_batch(e, job, 1, i, count, &batch)
+                     : sdv_find_batch(e, job, 0, i, count, &batch);
+    for (int k = 0; k < count && found; k++)
+        sdv_put_found(e, job, loop, 0, 0, &batch, k, i + (size_t)k);
 }
 
+// While a batch is evaluated, the polynomials of the next one, which is looked up, are fetched. (The
+// last one is its own next one.)
 SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
 {
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs), ahead;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    for (; end - i >= SDV_LOOKUP; i += SDV_LOOKUP)
-        sdv_put_lookup(e, job, loop, lanes, order, i, SDV_LOOKUP);
-    sdv_put_rest(e, job, loop, i, end);
+    size_t third = SDV_SLOTS * (size_t)e->channels / 3;
+    sdv_batch batches[2], *batch = batches, *next = batches + 1, *swap;
+    if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, loop, i, SDV_LOOKUP, next)) return;
+    while (end - i >= SDV_LOOKUP) {
+        swap = batch, batch = next, next = swap;
+        ahead = end - i >= 2 * SDV_LOOKUP ? i + SDV_LOOKUP : i;
+        if (!sdv_find_batch(e, job, loop, ahead, SDV_LOOKUP, next)) return;
+        for (int k = 0; k < SDV_LOOKUP; k++, i++) {
+            sdv_prefetch(next->data[k]);
+            sdv_prefetch(next->data[k] + third);
+            sdv_prefetch(next->data[k] + 2 * third);
+            sdv_put_found(e, job, loop, lanes, order, batch, k, i);
+        }
+    }
+    if (i < end) sdv_put_rest(e, job, loop, i, (int)(end - i));
 }
 
 static void sdv_samples_job(void *context, int job)
@@ -9491,37 +9634,13 @@ static void sdv_samples_job(void *context, int job)
     else sdv_put_locations(e, job, 0, 0, 0);
 }
 
-// Is a location there?
-static inline int sdv_is_location(const subdiv_surface *surface, const subdiv_location *at)
-{
-    const float under = -1e-6f, over = 1 + 1e-6f;
-    const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop, f = at->face;
-    if ((unsigned)f >= (unsigned)surface->face_count) return 0;
-    if (!(at->u >= under && at->v >= under && at->u <= over && at->v <= over)) return 0;
-    if (loop && at->u + at->v > over) return 0;
-    if (at->corner == 0) return 1;
-    if (surface->own_face) f = surface->own_face[f];
-    if (f < 0) return at->corner > 0;
-    return at->corner > 0 && sdv_is_ngon(&surface->order, f) &&
-           at->corner < sdv_face_end(cage, f) - sdv_face_start(cage, f);
-}
-
 // The first location that is not there.
 static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
                                 const subdiv_location *locations)
 {
-    const float under = -1e-6f, over = 1 + 1e-6f;
-    unsigned faces = (unsigned)surface->face_count;
-    int odd = 0, loop = surface->rules.loop, i;
-    for (i = 0; i < count; i++) {
-        float u = locations[i].u, v = locations[i].v;
-        odd |= ((unsigned)locations[i].face >= faces) | (locations[i].corner != 0) |
-               !((u >= under) & (v >= under) & (u <= over) & (v <= over)) |
-               (loop & (u + v > over));
-    }
-    for (i = 0; i < count && odd && sdv_is_location(surface, &locations[i]); i++);
-    if (!odd || i == count) return;
+    int i;
+    for (i = 0; i < count && sdv_is_location(surface, locations[i]); i++);
+    if (i == count) return;
     subdiv_location at = locations[i];
     if (at.face < 0 || at.face >= surface->face_count) {
         sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
@@ -9529,7 +9648,7 @@ static void sdv_check_locations(sdv_context *context, const subdiv_surface *surf
         return;
     }
     at.u = at.v = 0;
-    if (sdv_is_location(surface, &at))
+    if (sdv_is_location(surface, at))
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
     else
         sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i, at.face,
@@ -9552,8 +9671,6 @@ static void sdv_check_exact(sdv_context *context, const subdiv_surface *surface,
     else if (out->stride && ((values && out->stride < channels) ||
                              (out->normals && out->stride < 3) || out->stride < 0))
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is too small", out->stride);
-    else
-        sdv_check_locations(context, surface, count, locations);
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
@@ -9584,7 +9701,9 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
     sdv_run(opt, sdv_samples_job, &e, e.jobs);
-    if (memchr(e.failed, 1, sizeof e.failed))
+    if (memchr(e.refused, 1, sizeof e.refused))
+        sdv_check_locations(&context, surface, count, locations);
+    else if (memchr(e.failed, 1, sizeof e.failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
 }
@@ -10134,6 +10253,7 @@ static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_s
     probe->weights = SDV_NEW(context, arena, double, 3 * most);
     if (context->result) return;
     probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
+    probe->memory.deep = NULL;
     memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
     memset(probe->seen, 0, work);
 }
@@ -10248,6 +10368,7 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (stencils) memset(stencils, 0, sizeof *stencils);
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_exact(&context, surface, 4, count, locations, &none);
+    if (!context.result) sdv_check_locations(&context, surface, count, locations);
     if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
     return context.result;
 }

@@ -675,6 +675,121 @@ static void test_channels(void)
     }
 }
 
+// -------------------------------------------------------------------------------------- batches
+
+// Of many locations the first one that does not exist is named, in any order of jobs.
+static void check_first_refused(random_cage *c, const subdiv_surface *surface, const void *scratch)
+{
+    static subdiv_location at[MANY];
+    static float p[3 * MANY];
+    static const float odd[4] = { -0.001f, 1.001f, HUGE_VALF, -HUGE_VALF };
+    const float nan = HUGE_VALF - HUGE_VALF;
+    const subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+    const subdiv_mesh *m = &c->mesh;
+    for (int round = 0; round < 40; round++) {
+        char text[32];
+        subdiv_error error;
+        subdiv_options opt;
+        memset(&opt, 0, sizeof opt);
+        opt.error = &error;
+        opt.run = run_backwards;
+        random_places(c, at);
+        int count = 1 + random_below(c, round % 2 ? 40 : MANY), first = random_below(c, count);
+        for (int i = first; i < count; i += 1 + random_below(c, MANY / 4)) {
+            int f = at[i].face, size = m->scheme == SUBDIV_LOOP ? 4 : face_size(m, f);
+            switch (random_below(c, 6)) {
+            case 0: at[i].face = random_below(c, 2) ? -1 - f : m->face_count + f; break;
+            case 1: at[i].corner = random_below(c, 2) ? -1 : size == 4 ? 1 : size; break;
+            case 2: at[i].u = odd[random_below(c, 4)]; break;
+            case 3: at[i].v = odd[random_below(c, 4)]; break;
+            case 4: at[i].u = nan; break;
+            default: at[i].v = nan;
+            }
+        }
+        CHECK(subdiv_evaluate_at(surface, 3, scratch, count, at, &out, &opt) != SUBDIV_OK);
+        snprintf(text, sizeof text, "location %d:", first);
+        CHECK(strncmp(error.message, text, strlen(text)) == 0);
+    }
+}
+
+// Those outside of their faces by rounding are on them.
+static void check_rounded(random_cage *c, const subdiv_surface *surface, const void *scratch)
+{
+    static subdiv_location at[2][MANY];
+    static float p[2][3 * MANY];
+    random_places(c, at[0]);
+    for (int i = 0; i < MANY; i++) {
+        if (i % 4 == 0) at[0][i].u = at[0][i].v = 0;
+        if (i % 4 == 1) at[0][i].u = 1, at[0][i].v = 0;
+        at[1][i] = at[0][i];
+        if (i % 4 == 0) at[1][i].u = -9e-7f, at[1][i].v = -0.0f;
+        if (i % 4 == 1) at[1][i].u = 1 + 9e-7f, at[1][i].v = -1e-30f;
+    }
+    for (int k = 0; k < 2; k++) {
+        const subdiv_derivatives out = { p[k], NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+        CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, MANY, at[k], &out, NULL), SUBDIV_OK);
+    }
+    CHECK(memcmp(p[0], p[1], sizeof p[0]) == 0);
+}
+
+static void test_batches(void)
+{
+    for (int i = 0; i < 8; i++) {
+        random_cage *c = random_cage_new((unsigned)(950 + i), RANDOM_ALL & ~RANDOM_HOLES);
+        subdiv_surface *surface = NULL;
+        c->mesh.boundary = SUBDIV_BOUNDARY_EDGE;
+        CHECK_EQUAL(subdiv_prepare(&surface, &c->mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+        void *scratch = malloc(subdiv_scratch_size(surface, 3));
+        CHECK_EQUAL(subdiv_evaluate_begin(surface, 3, c->mesh.positions, 0, scratch, NULL),
+                    SUBDIV_OK);
+        check_first_refused(c, surface, scratch);
+        check_rounded(c, surface, scratch);
+        free(scratch);
+        subdiv_surface_free(surface);
+        random_cage_free(c);
+    }
+}
+
+// A pentagon without values beside a quad that has some: it has five corners all the same.
+static void test_without_values(void)
+{
+    float positions[21] = { 0,0,0, 1,0,0, 1,1,0, 0,1,0, 2,0,0, 3,1,0, 2,2,0 }, p[32 * 2];
+    float values[8] = { 1, 2, 3, 4, 5, 6, 7, 9 };
+    int sizes[2] = { 5, 4 }, corners[9] = { 1, 4, 5, 6, 2, 0, 1, 2, 3 };
+    int value_corners[9] = { -1, -1, -1, -1, -1, 0, 1, 2, 3 };
+    subdiv_mesh m;
+    subdiv_surface *surface = NULL;
+    subdiv_location at[32];
+    const subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+    memset(&m, 0, sizeof m);
+    m.vertex_count = 7;
+    m.positions = positions;
+    m.face_count = 2;
+    m.face_sizes = sizes;
+    m.face_vertices = corners;
+    CHECK_EQUAL(subdiv_prepare_face_varying(&surface, &m, 4, value_corners, SUBDIV_UV_CORNERS_ONLY,
+                                            SUBDIV_EXACT, NULL), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(surface, 2));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, 2, values, 0, scratch, NULL), SUBDIV_OK);
+    for (int i = 0; i < 32; i++) {
+        subdiv_location place = { i % 6 == 5, i % 6 % 5, 0.3f, 0.6f };
+        at[i] = place;
+        p[2 * i] = p[2 * i + 1] = 7;
+    }
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 2, scratch, 32, at, &out, NULL), SUBDIV_OK);
+    for (int i = 0; i < 32; i++) {
+        CHECK(i % 6 == 5 ? p[2 * i] > 1 && p[2 * i] < 7 : p[2 * i] == 0);
+        CHECK(i % 6 == 5 ? p[2 * i + 1] > 2 && p[2 * i + 1] < 9 : p[2 * i + 1] == 0);
+    }
+    at[7].corner = -1;
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 2, scratch, 32, at, &out, NULL), SUBDIV_ERROR_INDEX);
+    at[7].corner = 4;
+    at[5].corner = 1;
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 2, scratch, 32, at, &out, NULL), SUBDIV_ERROR_INDEX);
+    free(scratch);
+    subdiv_surface_free(surface);
+}
+
 // ---------------------------------------------------------------------------------- face-varying
 
 // Values are a surface of their own: at the points of the refined one they have its values in the
@@ -838,6 +953,8 @@ int main(void)
     RUN(test_sizes);
     RUN(test_single_faces);
     RUN(test_channels);
+    RUN(test_batches);
+    RUN(test_without_values);
     RUN(test_values);
     RUN(test_locations);
     RUN(test_refused);
