@@ -9240,6 +9240,26 @@ SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *
     out[3] = sdv_times(sdv_times(sx, sx), sdv_plus(p[0], p[0]));
 }
 
+// From coefficients c [SDV_SLOTS] to rows, with the first and half the second derivatives in x.
+SDV_INLINE void sdv_quad_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3])
+{
+    sdv_horner(c, 1, 3, x, rows[0]);
+    sdv_horner(c + 4, 1, 3, x, rows[1]);
+    sdv_horner(c + 8, 1, 3, x, rows[2]);
+    sdv_horner(c + 12, 1, 3, x, rows[3]);
+}
+
+// See sdv_powers.
+SDV_INLINE void sdv_triangle_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3])
+{
+    const sdv_four first[5] = { c[0], c[1], c[2], c[3], c[13] };
+    sdv_horner(first, 1, 4, x, rows[0]);
+    sdv_horner(c + 4, 1, 3, x, rows[1]);
+    sdv_horner(c + 8, 1, 1, x, rows[2]);
+    sdv_horner(c + 10, 1, 1, x, rows[3]);
+    rows[4][0] = c[12];
+}
+
 // Four coefficients in a row, of up to four channels.
 SDV_INLINE void sdv_load_row(const float *data, int lanes, sdv_four *c)
 {
@@ -9250,36 +9270,17 @@ SDV_INLINE void sdv_load_row(const float *data, int lanes, sdv_four *c)
 }
 
 // The values of up to four channels.
-SDV_INLINE void sdv_quad_values(const float *data, int lanes, const sdv_where *at, int order,
-                                sdv_four *out)
+SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, const sdv_where *at,
+                                      int order, sdv_four *out)
 {
-    sdv_four c[4][4], rows[4][3], x = sdv_all(at->x);
-    sdv_load_row(data, lanes, c[0]);
-    sdv_load_row(data + 4 * lanes, lanes, c[1]);
-    sdv_load_row(data + 8 * lanes, lanes, c[2]);
-    sdv_load_row(data + 12 * lanes, lanes, c[3]);
-    sdv_horner(c[0], 1, 3, x, rows[0]);
-    sdv_horner(c[1], 1, 3, x, rows[1]);
-    sdv_horner(c[2], 1, 3, x, rows[2]);
-    sdv_horner(c[3], 1, 3, x, rows[3]);
-    sdv_put_columns(rows, 0, at, order, out);
-}
-
-// See sdv_powers.
-SDV_INLINE void sdv_triangle_values(const float *data, int lanes, const sdv_where *at, int order,
-                                    sdv_four *out)
-{
-    sdv_four c[13], rows[5][3], x = sdv_all(at->x);
+    sdv_four c[SDV_SLOTS], rows[5][3], x = sdv_all(at->x);
     sdv_load_row(data, lanes, c);
-    sdv_load_row(data + 4 * lanes, lanes, c + 5);
-    sdv_load_row(data + 8 * lanes, lanes, c + 9);
-    rows[4][0] = sdv_load(data + 12 * lanes);
-    c[4] = sdv_load(data + 13 * lanes);
-    sdv_horner(c, 1, 4, x, rows[0]);
-    sdv_horner(c + 5, 1, 3, x, rows[1]);
-    sdv_horner(c + 9, 1, 1, x, rows[2]);
-    sdv_horner(c + 11, 1, 1, x, rows[3]);
-    sdv_put_columns(rows, 1, at, order, out);
+    sdv_load_row(data + 4 * lanes, lanes, c + 4);
+    sdv_load_row(data + 8 * lanes, lanes, c + 8);
+    sdv_load_row(data + 12 * lanes, lanes, c + 12);
+    if (loop) sdv_triangle_rows(c, x, rows);
+    else sdv_quad_rows(c, x, rows);
+    sdv_put_columns(rows, loop, at, order, out);
 }
 
 // The same of four channels straight from a patch.
@@ -9291,8 +9292,7 @@ static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float 
     sdv_polynomial q;
     sdv_deep_polynomial(deep, 0, &q, origin);
     sdv_keep_polynomial(&q, origin, 1, 4, data);
-    if (deep->rules->loop) sdv_triangle_values(data, 4, &at, 2, out);
-    else sdv_quad_values(data, 4, &at, 2, out);
+    sdv_polynomial_values(data, deep->rules->loop, 4, &at, 2, out);
 }
 
 // What is asked for of a patch, at location i, of channels from c on.
@@ -9301,8 +9301,7 @@ SDV_INLINE void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, 
 {
     sdv_four values[6];
     data += SDV_SLOTS * c;
-    if (loop) sdv_triangle_values(data, lanes, at, order, values);
-    else sdv_quad_values(data, lanes, at, order, values);
+    sdv_polynomial_values(data, loop, lanes, at, order, values);
     for (int k = 0; k < (order + 1) * (order + 2) / 2; k++)
         if (e->out[k]) sdv_store_some(e->out[k] + e->stride * i + c, values[k], lanes);
     if (order > 0 && e->normals && c == 0) {
@@ -10783,7 +10782,7 @@ typedef struct sdv_cell {
     double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
 } sdv_cell;                             // where t is from 0 to 1 along a side of the grid
 
-// Makes them. The polynomial is made for the first point that asks for it.
+// Makes them. The polynomial is made for the first line of them.
 typedef struct sdv_leaf_points {
     const sdv_samples *samples;
     const sdv_window  *out;
@@ -10796,7 +10795,7 @@ typedef struct sdv_leaf_points {
     double   base[4], shrink;
     sdv_nest_sample *vertex;            // or what is left of a nest
     int      number, ready;             // number: of the part, if it is cut
-    sdv_part part;                      // its polynomial
+    sdv_polynomial polynomial;
 } sdv_leaf_points;
 
 static int64_t sdv_units(const sdv_cell *cell)
@@ -10852,24 +10851,23 @@ static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
 
 static void sdv_need_polynomial(sdv_leaf_points *l)
 {
-    sdv_polynomial *q = &l->part.q;
+    sdv_polynomial *q = &l->polynomial;
     float origin[4];
     if (l->ready) return;
     l->ready = 1;
     if (l->vertex) {
         sdv_vertex_plane(l->vertex, q);
-    } else {
-        sdv_deep_patch deep = sdv_deep(l->samples->source->surface, l->patch, l->points, l->work);
-        double from[4];
-        sdv_deep_polynomial(&deep, l->number, q, from);
-        sdv_four shrink = sdv_all((float)l->shrink);
-        for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * from[c]);
-        q->origin = sdv_load(origin);
-        for (int i = 0; i <= q->degree && l->shrink < 1; i++)
-            for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
-                q->c[i][j] = sdv_times(shrink, q->c[i][j]);
+        return;
     }
-    if (l->out->tangents) sdv_across_rows(q, &l->part.rise);
+    sdv_deep_patch deep = sdv_deep(l->samples->source->surface, l->patch, l->points, l->work);
+    double from[4];
+    sdv_deep_polynomial(&deep, l->number, q, from);
+    sdv_four shrink = sdv_all((float)l->shrink);
+    for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * from[c]);
+    q->origin = sdv_load(origin);
+    for (int i = 0; i <= q->degree && l->shrink < 1; i++)
+        for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
+            q->c[i][j] = sdv_times(shrink, q->c[i][j]);
 }
 
 // Points k from first to last on a line of the grid, at (u + k du, v + k dv).
@@ -10879,35 +10877,73 @@ typedef struct sdv_line_points {
     int     index, step;                // of point first, and from point to point
 } sdv_line_points;
 
-// Those of a row: v is the same for all.
-static void sdv_put_tile_row(const sdv_leaf_points *l, const sdv_line_points *line)
+// A row of a polynomial, y = t, and its derivatives in x and y; or, turned, a column, x = t.
+typedef struct sdv_tile_line {
+    sdv_four value[5], along[4], across[4];
+} sdv_tile_line;
+
+SDV_INLINE void sdv_make_tile_line(const sdv_polynomial *q, int loop, int turned, int tangents,
+                                   float t, sdv_tile_line *line)
 {
-    const sdv_cell *cell = &l->cell;
-    double scale = cell->step * cell->sx * line->du;
-    double x = cell->step * (cell->sx * line->u - cell->x);
-    int index = line->index;
-    float y = (float)(cell->step * (cell->sy * line->v - cell->y));
-    sdv_curve curve;
-    sdv_slopes slopes;
-    memset(&slopes, 0, sizeof slopes);      // gcc cannot know that they are used only if set
-    sdv_make_row(l->out, &l->part, y, &curve, &slopes);
-    for (int64_t k = line->first; k <= line->last; k++, index += line->step)
-        sdv_put_row_point(l->out, index, &curve, &slopes, (float)(x + (double)k * scale));
+    const sdv_four *c = (const sdv_four *)(const void *)q->c;
+    int step = turned ? 5 : 1, next = turned ? 1 : 5;
+    sdv_four p[5][3], all = sdv_all(t);
+    sdv_horner(c, step, 3 + loop, all, p[0]);
+    sdv_horner(c + next, step, 3, all, p[1]);
+    sdv_horner(c + 2 * next, step, loop ? 1 : 3, all, p[2]);
+    sdv_horner(c + 3 * next, step, loop ? 1 : 3, all, p[3]);
+    p[4][0] = loop ? c[4 * next] : sdv_all(0);
+    line->value[0] = sdv_plus(q->origin, p[0][0]);
+    for (int i = 1; i < 5; i++) line->value[i] = p[i][0];
+    for (int i = 0; i < 4 && tangents; i++) {
+        line->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
+        line->across[i] = p[i][1];
+    }
+}
+
+// The points of a window that starts with the first one; their tangents wait to be four.
+SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
+                                  const sdv_line_points *points, float t, double from, double by)
+{
+    const sdv_window *out = l->out;
+    sdv_tangents *wait = out->tangents;
+    sdv_tile_line line;
+    int index = points->index, i = tangents ? wait->count : 0, count = out->count;
+    sdv_make_tile_line(&l->polynomial, loop, turned, tangents, t, &line);
+    for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
+        sdv_four x = sdv_all((float)(from + (double)k * by));
+        sdv_four p = loop ? sdv_horner4(line.value, x) : sdv_horner3(line.value, x);
+        if (index >= count) continue;
+        sdv_store_some(out->values + out->stride * (size_t)index, p, out->lanes);
+        if (!tangents) continue;
+        wait->at[i] = index;
+        wait->along[i] = sdv_horner3(turned ? line.across : line.along, x);
+        wait->across[i] = sdv_horner3(turned ? line.along : line.across, x);
+        wait->count = ++i;
+        if (i < 4) continue;
+        sdv_flush_tangents(wait);
+        i = 0;
+    }
 }
 
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 {
+    const sdv_cell *cell = &l->cell;
+    double u = cell->step * (cell->sx * line->u - cell->x), du = cell->step * cell->sx * line->du;
+    double v = cell->step * (cell->sy * line->v - cell->y), dv = cell->step * cell->sy * line->dv;
+    int row = fabs(dv) <= 0, column = fabs(du) <= 0, loop = l->tile.loop;
+    int tangents = l->out->tangents != NULL;
     sdv_line_points point = *line;
     if (line->first > line->last || line->index >= l->samples->count) return;
     sdv_need_polynomial(l);
-    if (fabs(line->dv) <= 0) {
-        sdv_put_tile_row(l, line);
-        return;
-    }
-    for (int64_t k = line->first; k <= line->last; k++, point.index += line->step) {
-        point.first = point.last = k;
-        point.v = line->v + (double)k * line->dv;
-        sdv_put_tile_row(l, &point);
+    if (row && loop && tangents) sdv_put_tile_line(l, 1, 0, 1, line, (float)v, u, du);
+    else if (row && tangents) sdv_put_tile_line(l, 0, 0, 1, line, (float)v, u, du);
+    else if (row) sdv_put_tile_line(l, loop, 0, 0, line, (float)v, u, du);
+    else if (column && loop) sdv_put_tile_line(l, 1, 1, tangents, line, (float)u, v, dv);
+    else if (column) sdv_put_tile_line(l, 0, 1, tangents, line, (float)u, v, dv);
+    else for (; point.first <= line->last; point.first++, point.index += line->step) {
+        point.last = point.first;
+        sdv_put_tile_line(l, 1, 0, tangents, &point, (float)(v + (double)point.first * dv), u, du);
     }
 }
 
