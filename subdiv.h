@@ -2749,18 +2749,14 @@ static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
     int a = low->left, d = high->left;
     int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
-    for (int i = 1; i <= low->size; i++) {
-        if (i == low->size) {
-            b = low->right;
-            c = high->right;
-        }
+    for (int i = 1; i < low->size; i++) {
         out = sdv_put_face4(out, a, b, c, d);
         a = b;
         d = c;
         b += low->line.step;
         c += high->line.step;
     }
-    return out;
+    return sdv_put_face4(out, a, low->right, high->right, d);
 }
 
 // Triangles a b d and, turned by half, c d b; the last of a row has no c.
@@ -10577,12 +10573,14 @@ static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
     sdv_put_triangle(out, a, c, d);
 }
 
-// Columns first to last of a row of the grid's points, as >>order has them.
+// Columns first to last of a row of the grid's points, as >>order has them. On the edges and spokes,
+// the step tells itself.
 static sdv_row sdv_tile_row(const sdv_tile *tile, int i, int row, int first, int last)
 {
-    sdv_row points = { { 0, 0 }, last - first, sdv_tile_point(tile, i, row, first), 0 };
+    sdv_row points = { { 0, 1 }, last - first, sdv_tile_point(tile, i, row, first), 0 };
     points.right = last > first ? sdv_tile_point(tile, i, row, last) : points.left;
-    if (points.size < 2) return points;
+    points.line.first = sdv_row_inside(tile, i, row) + first;
+    if (points.size < 2 || (row > 0 && row < tile->grid.rows)) return points;
     int second = sdv_tile_point(tile, i, row, first + 1);
     points.line.step = points.size > 2 ? sdv_tile_point(tile, i, row, first + 2) - second : 0;
     points.line.first = second - points.line.step;
@@ -10611,7 +10609,7 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
         sdv_row low = { { 0, 0 }, 0, 0, 0 };
         for (int row = margin; row <= tile->grid.rows - far; row++) {
             int end = tile->loop ? last - row : last;
-            if (end < margin) break;
+            if (end < margin + !tile->loop) break;
             sdv_row high = sdv_tile_row(tile, i, row, margin, end);
             if (row > margin && tile->loop) {
                 faces = sdv_triangle_faces(&low, &high, faces);
@@ -10771,9 +10769,9 @@ typedef struct sdv_samples {
 // half of one, any other triangle the lower), and makes the points that are there:
 //
 //     +---+---+       those between cells belong to the cell that is nearer to the middle of the
-//     | > | < |       grid, so that what remains of a nest has no points but its vertex as soon as
-//     +---+---+       it is smaller than the pieces of the grid; with triangles to the right and
-//     | > | < |       upper one
+//     | > | < |       grid or, on an edge of the face, of that, so that what remains of a nest
+//     +---+---+       has no points but its vertex as soon as it is as small as the pieces of the
+//     | > | < |       grid. In triangles, u, v and 1 - u - v all tend to 1/3, which no line has
 //     +---+---+
 typedef struct sdv_cell {
     int     bits;                       // 2^bits units are a side of the grid: it is, in these,
@@ -10947,42 +10945,70 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
     }
 }
 
-// Of the points k step / rate of a side the first one behind low and the last one before high, both
-// in units of a cell, and of those at low and high the ones that belong to it. step: 1 or 2.
-static void sdv_find_ticks(const sdv_leaf_points *l, int64_t low, int64_t high, int step,
-                           int64_t rate, int64_t most, sdv_line_points *line)
+// Of the points k step / rate of a side (step: 1 or 2) the first one behind low, in units of a cell,
+// or at low, if it owns that.
+static int64_t sdv_first_tick(const sdv_cell *cell, int64_t low, int owns, int step, int64_t rate)
 {
-    int shift = l->cell.bits + step - 1, loop = l->tile.loop;
-    int64_t units = sdv_units(&l->cell), rest = (units << (step - 1)) - 1;
-    int own_low = loop || 2 * low <= units, own_high = !loop && 2 * high > units;
-    line->first = (low * rate >> shift) + !(own_low && !(low * rate & rest));
-    line->last = (high * rate >> shift) - !(own_high || (high * rate & rest));
+    int bits = cell->bits + step - 1, there = (low * rate & (((int64_t)1 << bits) - 1)) == 0;
+    return (low * rate >> bits) + !(owns && there);
+}
+
+static int64_t sdv_last_tick(const sdv_cell *cell, int64_t high, int owns, int step, int64_t rate)
+{
+    int bits = cell->bits + step - 1, there = (high * rate & (((int64_t)1 << bits) - 1)) == 0;
+    return (high * rate >> bits) - (!owns && there);
+}
+
+// Those from 1 to most that a cell from low to high has, of a quad or on an edge.
+static void sdv_find_ticks(const sdv_cell *cell, int64_t low, int64_t high, int step, int64_t rate,
+                           int64_t most, sdv_line_points *line)
+{
+    int64_t units = sdv_units(cell);
+    line->first = sdv_first_tick(cell, low, 2 * low <= units, step, rate);
+    line->last = sdv_last_tick(cell, high, 2 * high > units, step, rate);
     if (line->first < 1) line->first = 1;
     if (line->last > most) line->last = most;
 }
 
 // The points inside the grid, row by row.
-static void sdv_put_cell_inside(sdv_leaf_points *l)
+static void sdv_put_quad_inside(sdv_leaf_points *l)
 {
     const sdv_cell *cell = &l->cell;
     const sdv_tile *tile = &l->tile;
     int columns = tile->grid.columns, rows = tile->grid.rows;
-    sdv_line_points line, up;
-    sdv_find_ticks(l, cell->bottom, cell->top, 1, rows, rows - 1, &up);
-    sdv_find_ticks(l, cell->left, cell->right, 1, columns, columns - 1, &line);
-    line.u = line.dv = 0;
-    line.du = 1.0 / columns;
-    line.step = 1;
-    sdv_line_points row = line;
-    int64_t slant = (cell->left + cell->bottom + 1) * columns;      // column + row on the diagonal
-    slant = (slant + sdv_units(cell) - 1) >> cell->bits;            // or the next behind it
+    sdv_line_points row, up;
+    sdv_find_ticks(cell, cell->bottom, cell->top, 1, rows, rows - 1, &up);
+    sdv_find_ticks(cell, cell->left, cell->right, 1, columns, columns - 1, &row);
+    row.u = row.dv = 0;
+    row.du = 1.0 / columns;
+    row.step = 1;
     for (int64_t j = up.first; j <= up.last; j++) {
-        if (tile->loop && row.last > columns - 1 - j) row.last = columns - 1 - j;
-        if (tile->loop && cell->step > 0 && row.last > slant - 1 - j) row.last = slant - 1 - j;
-        if (tile->loop && cell->step < 0)
-            row.first = line.first > slant - j ? line.first : slant - j;
         row.v = (double)j / rows;
         row.index = sdv_row_inside(tile, l->corner, (int)j) + (int)row.first;
+        sdv_put_line(l, &row);
+    }
+}
+
+static void sdv_put_triangle_inside(sdv_leaf_points *l)
+{
+    const sdv_cell *c = &l->cell;
+    int n = l->tile.grid.columns, turned = c->step < 0;
+    int64_t units = sdv_units(c), slant = c->left + c->bottom + 1;      // u + v on the slanted side
+    int64_t left = sdv_first_tick(c, c->left, turned || 3 * c->left < units, 1, n);
+    int64_t right = sdv_last_tick(c, c->right, !turned || 3 * c->right > units, 1, n);
+    int64_t bottom = sdv_first_tick(c, c->bottom, turned || 3 * c->bottom < units, 1, n);
+    int64_t top = sdv_last_tick(c, c->top, !turned || 3 * c->top > units, 1, n);
+    int64_t diagonal = turned ? sdv_first_tick(c, slant, 3 * slant < 2 * units, 1, n)
+                              : sdv_last_tick(c, slant, 3 * slant > 2 * units, 1, n);
+    sdv_line_points row = { 0, 0, 0, 0, 1.0 / n, 0, 0, 1 };
+    for (int64_t j = bottom > 1 ? bottom : 1; j <= top; j++) {
+        int64_t most = n - 1 - j, slanted = diagonal - j;
+        row.first = turned && slanted > left ? slanted : left;
+        row.last = !turned && slanted < right ? slanted : right;
+        if (row.first < 1) row.first = 1;
+        if (row.last > most) row.last = most;
+        row.v = (double)j / n;
+        row.index = sdv_row_inside(&l->tile, 0, (int)j) + (int)row.first;
         sdv_put_line(l, &row);
     }
 }
@@ -10997,7 +11023,8 @@ static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t lo
     int rate = sdv_edge_rate(tile, side), h = tile->first + side;
     sdv_line_points line = *side_line;
     if (tile->tiling->home[cage->vertex_count + cage->face_edges[h]] != h) return;
-    sdv_find_ticks(l, low, high, step, rate, step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
+    sdv_find_ticks(&l->cell, low, high, step, rate,
+                   step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
     if (line.first > line.last) return;
     int k = (int)line.first, a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
     line.index = sdv_side_point(tile, side, backwards ? rate - k : k);
@@ -11012,7 +11039,7 @@ static void sdv_put_spoke(sdv_leaf_points *l)
 {
     int m = l->tile.grid.columns;
     sdv_line_points line = { 0, 0, 1, 0, 0, 1.0 / m, 0, -1 };
-    sdv_find_ticks(l, l->cell.bottom, l->cell.top, 1, m, m - 1, &line);
+    sdv_find_ticks(&l->cell, l->cell.bottom, l->cell.top, 1, m, m - 1, &line);
     line.index = l->tile.inside + m + l->corner * (m - 1) - (int)line.first;
     sdv_put_line(l, &line);
 }
@@ -11062,7 +11089,8 @@ static void sdv_put_cell_corners(sdv_leaf_points *l)
 static void sdv_put_cell(sdv_leaf_points *l)
 {
     l->ready = 0;
-    sdv_put_cell_inside(l);
+    if (l->tile.loop) sdv_put_triangle_inside(l);
+    else sdv_put_quad_inside(l);
     if (l->cell.step < 0) return;
     sdv_put_cell_sides(l);
     sdv_put_cell_corners(l);
@@ -11145,7 +11173,7 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
         int64_t units = sdv_units(&cell), x = (int64_t)cell.x, y = (int64_t)cell.y;
         int corner = (x == 0 || x == units) && (y == 0 || y == units);
         int middle = units <= 2;                // is it one of its sides?
-        if (units > most || (units == most && units > 1 && corner && !middle && !tile->loop))
+        if (units > most || (units == most && units > 1 && corner && !middle))
             return depth;
     }
 }
