@@ -381,7 +381,8 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs.
+// Bytes of scratch memory that an evaluation of so many channels needs. SIZE_MAX: there are not so
+// many addresses.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
@@ -7197,12 +7198,20 @@ static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
 
 // See >>exact-surface.
 static size_t sdv_exact_size(const subdiv_surface *surface, int channels);
+
+// Is there room for so many bytes a channel, on a machine of 32 bits, too?
+static int sdv_addressable(int channels, double bytes)
+{
+    return ((double)channels + 3) * bytes < (double)(SIZE_MAX / 2);
+}
+
 static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt);
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
     if (surface->exact) return sdv_exact_size(surface, channels);
     surface = sdv_maker(surface);
+    if (!sdv_addressable(channels, sizeof(float) * (double)surface->work_count)) return SIZE_MAX;
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
 
@@ -8427,12 +8436,17 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
 
 static unsigned sdv_pack_cell(size_t polynomial, int across, int up, int turned)
 {
+    if (polynomial >> (32 - SDV_CELL_BITS)) return SDV_CELL_NONE;
     return (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(turned << 7 | up << 4 | across << 1);
 }
 
-// A square of the face after so many splits; Loop: the triangle below its diagonal, or above.
+// A square of the face of `at` after so many splits; Loop: a triangle, below its diagonal or above.
 typedef struct sdv_square {
+    subdiv_location at;
     int level, x, y, above;
+    int node;                           // of the tree, or the leaf that it is on;
+    int depth;                          // in a nest: how many levels down
+    unsigned cell;                      // if one polynomial is all over it
 } sdv_square;
 
 static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
@@ -8445,64 +8459,86 @@ static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, f
     return leaf;
 }
 
-// Does one polynomial of a cut patch reach from corner to corner?
-static int sdv_is_one_part(const subdiv_surface *surface, subdiv_location at, sdv_square square)
+// The cell of a square of a cut patch, if one part reaches from corner to corner.
+static unsigned sdv_cut_cell(const subdiv_surface *surface, const sdv_square *square)
 {
-    float size = ldexpf(1, -square.level), low = ldexpf(size, -1 - SDV_STRIP_LEVELS);
-    float u = size * (float)square.x, v = size * (float)square.y, high = size - low;
-    return sdv_leaf_at(surface, at, u + low, v + low).polynomial ==
-           sdv_leaf_at(surface, at, u + high, v + high).polynomial;
+    float size = 1 / (float)(1 << square->level), low = size / (2 << SDV_STRIP_LEVELS);
+    float u = size * (float)square->x, v = size * (float)square->y, high = size - low;
+    sdv_leaf leaf = sdv_leaf_at(surface, square->at, u + low, v + low);
+    int across = 0, up = 0;
+    while (across <= square->level && 1 << across < leaf.sx) across++;
+    while (up <= square->level && 1 << up < leaf.sy) up++;
+    if (across > square->level || up > square->level ||
+        leaf.polynomial != sdv_leaf_at(surface, square->at, u + high, v + high).polynomial)
+        return SDV_CELL_NONE;
+    return sdv_pack_cell(leaf.polynomial, across, up, 0);
 }
 
-// The cell of a square of the face of `at`.
-static unsigned sdv_make_cell(const subdiv_surface *surface, subdiv_location at, sdv_square square)
+// What it is on, where the tree goes on with a node.
+static void sdv_square_node(const subdiv_surface *surface, sdv_square *square, int node)
 {
-    float size = ldexpf(1, -square.level);
-    float middle = surface->rules.loop ? (float)(1 + square.above) / 3 : 0.5f;
-    sdv_leaf leaf = sdv_leaf_at(surface, at, size * ((float)square.x + middle),
-                                size * ((float)square.y + middle));
-    int across, up;
-    frexp(fabs(leaf.sx) / 2, &across);
-    frexp(fabs(leaf.sy) / 2, &up);
-    if (leaf.deep || across > square.level || up > square.level) return SDV_CELL_NONE;
-    if ((~leaf.slot & 3) == SDV_LEAF_CUT && !sdv_is_one_part(surface, at, square))
-        return SDV_CELL_NONE;
-    if (leaf.polynomial >> (32 - SDV_CELL_BITS)) return SDV_CELL_NONE;
-    return sdv_pack_cell(leaf.polynomial, across, up, leaf.sx < 0);
+    int what = ~node & 3, level = square->level;
+    square->node = node;
+    square->depth = 0;
+    square->cell = SDV_CELL_NONE;
+    if (node < 0 && what == SDV_LEAF_PATCH)
+        square->cell = sdv_pack_cell((size_t)(~node >> 2), level, level, square->above);
+    if (node < 0 && what == SDV_LEAF_CUT) square->cell = sdv_cut_cell(surface, square);
 }
 
 // Number k of the four that a split makes of it.
-static sdv_square sdv_split_square(sdv_square square, int loop, int k)
+static sdv_square sdv_split_square(const subdiv_surface *surface, const sdv_square *square, int k)
 {
-    int middle = loop && k == 3, x = middle ? 0 : k & 1, y = middle ? 0 : k >> 1;
-    sdv_square part = { square.level + 1, 2 * square.x + (square.above ? 1 - x : x),
-                        2 * square.y + (square.above ? 1 - y : y), square.above ^ middle };
+    int loop = surface->rules.loop, sides = loop ? 3 : 4, middle = loop && k == 3;
+    int x = middle ? 0 : (k ^ (loop ? 0 : k >> 1)) & 1, y = middle ? 0 : k >> 1;
+    int number = ~square->node >> 2;
+    sdv_square part = *square;
+    part.level++;
+    part.x = 2 * square->x + (square->above ? 1 - x : x);
+    part.y = 2 * square->y + (square->above ? 1 - y : y);
+    part.above ^= middle;
+    if (square->node >= 0) {
+        sdv_square_node(surface, &part, surface->exact->nodes[square->node + k]);
+    } else if ((~square->node & 3) == SDV_LEAF_CUT) {
+        part.cell = sdv_cut_cell(surface, &part);
+    } else if ((~square->node & 3) == SDV_LEAF_NEST && square->cell == SDV_CELL_NONE) {
+        int turn = surface->exact->nest_faces[number].turn;
+        int child = k < sides ? (k + sides - turn) % sides : k;
+        if (child == 0)
+            part.depth++;
+        else
+            part.cell = sdv_pack_cell(sdv_nest_polynomial(surface->exact, number, square->depth,
+                                                          child),
+                                      part.level, part.level, part.above);
+    }
     return part;
 }
 
-static size_t sdv_number_in_grid(sdv_square square)
+static size_t sdv_number_in_grid(const sdv_square *square)
 {
-    int i = (square.y & 3) << 2 | (square.x & 3);
-    return (size_t)(square.above ? 15 - i : i);
+    int i = (square->y & 3) << 2 | (square->x & 3);
+    return (size_t)(square->above ? 15 - i : i);
 }
 
 // Makes cell number i, and its grid: where a quarter of that has one polynomial, all at once.
 static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_surface *surface,
-                           subdiv_location at, sdv_square square, size_t i)
+                           const sdv_square *square, size_t i)
 {
-    unsigned cell = sdv_make_cell(surface, at, square);
-    int loop = surface->rules.loop, grid = cell == SDV_CELL_NONE && square.level < SDV_CELL_LEVELS;
+    int grid = square->cell == SDV_CELL_NONE && square->level < SDV_CELL_LEVELS &&
+               square->depth < SDV_NEST_DEPTH;
     size_t first = cells->count;
     if (first > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
     if (context->result || (grid && !sdv_append(context, cells, 16, sizeof(unsigned)))) return;
-    ((unsigned *)sdv_items(cells))[i] = grid ? 2 * (unsigned)first + 1 : cell;
-    for (int k = 0; k < 16 && grid; k++) {
-        sdv_square quarter = sdv_split_square(square, loop, k / 4);
-        sdv_square small = sdv_split_square(quarter, loop, k % 4);
-        size_t number = first + sdv_number_in_grid(small);
-        if (k % 4 == 0) cell = sdv_make_cell(surface, at, quarter);
-        if (cell == SDV_CELL_NONE) sdv_make_cells(context, cells, surface, at, small, number);
-        else ((unsigned *)sdv_items(cells))[number] = cell;
+    ((unsigned *)sdv_items(cells))[i] = grid ? 2 * (unsigned)first + 1 : square->cell;
+    for (int k = 0; k < 4 && grid; k++) {
+        sdv_square quarter = sdv_split_square(surface, square, k);
+        for (int j = 0; j < 4; j++) {
+            sdv_square small = sdv_split_square(surface, &quarter, j);
+            size_t number = first + sdv_number_in_grid(&small);
+            if (quarter.cell == SDV_CELL_NONE)
+                sdv_make_cells(context, cells, surface, &small, number);
+            else ((unsigned *)sdv_items(cells))[number] = quarter.cell;
+        }
     }
 }
 
@@ -8510,7 +8546,6 @@ static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_
 static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
 {
     const sdv_level *cage = &surface->order.cage;
-    const sdv_square whole = { 0, 0, 0, 0 };
     sdv_exact *exact = surface->exact;
     sdv_array cells;
     int loop = surface->rules.loop, size = loop ? 3 : 4;
@@ -8524,9 +8559,10 @@ static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
         if (exact->absent && exact->absent[f]) continue;
         int count = sdv_face_end(cage, own) - sdv_face_start(cage, own);
         for (int corner = 0; corner < (count == size ? 1 : count); corner++) {
-            subdiv_location at = { f, corner, 0, 0 };
-            sdv_make_cells(context, &cells, surface, at, whole,
-                           (size_t)sdv_face_node(cage, loop, own, corner));
+            sdv_square whole = { { f, corner, 0, 0 }, 0, 0, 0, 0, 0, 0, 0 };
+            int i = sdv_face_node(cage, loop, own, corner);
+            sdv_square_node(surface, &whole, exact->nodes[i]);
+            sdv_make_cells(context, &cells, surface, &whole, (size_t)i);
         }
     }
     exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
@@ -8944,8 +8980,8 @@ static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int 
 }
 
 // The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
-// in their last digits alone; a nest's; what each nest has behind its last polynomials: the base, and
-// its points as seen from there; then the coefficients of each polynomial.
+// in their last digits alone; a nest's; what each nest has behind its last polynomials: the base,
+// and its points as seen from there; then the coefficients of each polynomial.
 typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
     double *nest;                       // [4 * most_work]
@@ -8980,10 +9016,14 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
     const sdv_exact *exact = surface->exact;
     size_t count = (size_t)exact->polynomial_count +
                    3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
+    size_t deep = sdv_exact_deep_count(exact), polynomial = SDV_SLOTS * sizeof(float);
+    double doubles = (double)surface->work_count + (double)deep + (double)exact->most_work;
+    if (!sdv_addressable(channels, sizeof(double) * doubles + (double)polynomial * (double)count))
+        return SIZE_MAX;
     // Room for two alignments, and for loads of four floats that end behind the last polynomial.
     return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
-           sdv_exact_nest_size(surface) +
-           sdv_exact_doubles(channels, sdv_exact_deep_count(exact)) + SDV_SLOTS * sizeof(float) * (size_t)channels * count;
+           sdv_exact_nest_size(surface) + sdv_exact_doubles(channels, deep) +
+           polynomial * (size_t)channels * count;
 }
 
 static char *sdv_align(void *memory)
@@ -9032,7 +9072,9 @@ static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, d
     sdv_store(first, slots[0]);
     for (int l = 0; l < 4; l++) first[l] = (float)(origin[l] + (double)first[l]);
     slots[0] = sdv_load(first);
-    for (int k = 0; k < SDV_SLOTS; k++) sdv_store_some(out + lanes * k, slots[k], lanes);
+    for (int k = 0; k < SDV_SLOTS; k++)         // four lanes each as long as there is room for them
+        if (k + 4 <= SDV_SLOTS) sdv_store(out + lanes * k, slots[k]);
+        else sdv_store_some(out + lanes * k, slots[k], lanes);
 }
 
 // Where polynomial number i is, from channel c on.
@@ -9594,8 +9636,8 @@ static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, i
         sdv_put_found(e, job, loop, 0, 0, &batch, k, i + (size_t)k);
 }
 
-// While a batch is evaluated, the polynomials of the next one, which is looked up, are fetched. (The
-// last one is its own next one.)
+// While a batch is evaluated, the polynomials of the next one, which is looked up, are fetched.
+// (The last one is its own next one.)
 SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
 {
     size_t i = (size_t)sdv_share(e->count, job, e->jobs), ahead;
@@ -10573,8 +10615,8 @@ static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
     sdv_put_triangle(out, a, c, d);
 }
 
-// Columns first to last of a row of the grid's points, as >>order has them. On the edges and spokes,
-// the step tells itself.
+// Columns first to last of a row of the grid's points, as >>order has them. On edges and spokes the
+// step is that from one point to the next.
 static sdv_row sdv_tile_row(const sdv_tile *tile, int i, int row, int first, int last)
 {
     sdv_row points = { { 0, 1 }, last - first, sdv_tile_point(tile, i, row, first), 0 };
@@ -10945,8 +10987,8 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
     }
 }
 
-// Of the points k step / rate of a side (step: 1 or 2) the first one behind low, in units of a cell,
-// or at low, if it owns that.
+// Of the points k step / rate of a side, with a step of 1 or 2: the first one behind low, in units
+// of a cell, or there, if the cell owns that.
 static int64_t sdv_first_tick(const sdv_cell *cell, int64_t low, int owns, int step, int64_t rate)
 {
     int bits = cell->bits + step - 1, there = (low * rate & (((int64_t)1 << bits) - 1)) == 0;
