@@ -6887,12 +6887,14 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
 // What a limit's points have besides their place: tangents and normals. Where a patch is, its
 // polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
 
+#define SDV_WAITING 16                  // points that wait at most: fours of them
+
 typedef struct sdv_tangents {           // a part of the result, that of its sdv_window
     float *normals, *tangents;          // or NULL
     size_t stride, tangent_stride;      // floats from point to point
-    int      count;                     // points that wait to be four:
-    int      at[4];                     // where in the part they stand,
-    sdv_four along[4], across[4];       // their tangents
+    int      count;                     // points that wait, as normals are made four at a time:
+    int      at[SDV_WAITING];           // where in the part they stand,
+    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents
 } sdv_tangents;
 
 // A vector made 1 long, or 0.
@@ -6964,10 +6966,13 @@ static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, i
 // Writes the points that wait.
 static void sdv_flush_tangents(sdv_tangents *tangents)
 {
-    for (int i = tangents->count; i < 4; i++) tangents->at[i] = -1;
-    sdv_transpose(tangents->along);
-    sdv_transpose(tangents->across);
-    sdv_put_four_tangents(tangents, tangents->at, INT_MAX, tangents->along, tangents->across);
+    for (int i = tangents->count; i % 4 > 0; i++) tangents->at[i] = -1;
+    for (int i = 0; i < tangents->count; i += 4) {
+        sdv_transpose(tangents->along + i);
+        sdv_transpose(tangents->across + i);
+        sdv_put_four_tangents(tangents, tangents->at + i, INT_MAX, tangents->along + i,
+                              tangents->across + i);
+    }
     tangents->count = 0;
 }
 
@@ -6980,7 +6985,7 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
     tangents->along[i] = along;
     tangents->across[i] = across;
     tangents->count = i + 1;
-    if (i == 3) sdv_flush_tangents(tangents);
+    if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
 }
 
 // Those of a run of points, see sdv_put_run: four by four, and the others wait.
@@ -10941,7 +10946,7 @@ SDV_INLINE void sdv_make_tile_line(const sdv_polynomial *q, int loop, int turned
     }
 }
 
-// The points of a window that starts with the first one; their tangents wait to be four.
+// The points of a window that starts with the first one.
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
@@ -10960,7 +10965,7 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
         wait->along[i] = sdv_horner3(turned ? line.across : line.along, x);
         wait->across[i] = sdv_horner3(turned ? line.along : line.across, x);
         wait->count = ++i;
-        if (i < 4) continue;
+        if (i < SDV_WAITING) continue;
         sdv_flush_tangents(wait);
         i = 0;
     }
