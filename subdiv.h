@@ -6122,6 +6122,30 @@ static sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
     return sdv_plus(a[0], sdv_times(p, t));
 }
 
+// A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
+SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
+{
+    p[2] = sdv_plus(sdv_times(p[2], t), p[1]);
+    p[1] = sdv_plus(sdv_times(p[1], t), p[0]);
+    p[0] = sdv_plus(sdv_times(p[0], t), next);
+}
+
+// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. Its first steps leave out
+// what is 0; what is not asked for below, the compiler leaves out.
+SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
+{
+    sdv_four highest = c[degree * step];
+    p[0] = sdv_plus(sdv_times(highest, t), c[(degree - 1) * step]);
+    p[1] = highest;
+    p[2] = sdv_all(0);
+    if (degree == 1) return;
+    p[2] = highest;
+    p[1] = sdv_plus(sdv_times(highest, t), p[0]);
+    p[0] = sdv_plus(sdv_times(p[0], t), c[(degree - 2) * step]);
+    if (degree >= 3) sdv_horner_step(p, t, c[(degree - 3) * step]);
+    if (degree == 4) sdv_horner_step(p, t, c[0]);
+}
+
 // The control points of a patch on the last level: origin + the sum of c[i][j] x^i y^j, where x
 // runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
 // i + j <= 4, a triangle.
@@ -6133,31 +6157,34 @@ typedef struct sdv_polynomial {
 // A patch, or the part of it between the lines that cut it into strips.
 typedef struct sdv_part {
     sdv_patch      patch;               // its place on the grid, and what it writes
-    sdv_polynomial q, rise;             // rise: of tangents, its derivative across the rows
+    sdv_polynomial q;
     int   columns, rows;                // segments
     float x, y, dx, dy;                 // where in the polynomial it starts, and its segments
 } sdv_part;
 
-// A row of it, a polynomial in x alone.
+// A row of it, a polynomial in x alone, and its derivatives in x and y; or, turned, a column.
 typedef struct sdv_curve {
-    sdv_four a[5];
+    sdv_four a[5], along[4], across[4];
     int degree;
 } sdv_curve;
 
-static inline void sdv_row_curve(const sdv_polynomial *q, float y, sdv_curve *curve)
+SDV_INLINE void sdv_cut_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
+                              float at, sdv_curve *curve)
 {
-    sdv_four t = sdv_all(y);
-    curve->degree = q->degree;
-    curve->a[1] = sdv_horner3(q->c[1], t);
-    if (q->degree == 3) {
-        curve->a[0] = sdv_plus(q->origin, sdv_horner3(q->c[0], t));
-        curve->a[2] = sdv_horner3(q->c[2], t);
-        curve->a[3] = sdv_horner3(q->c[3], t);
-    } else {
-        curve->a[0] = sdv_plus(q->origin, sdv_horner4(q->c[0], t));
-        curve->a[2] = sdv_plus(q->c[2][0], sdv_times(q->c[2][1], t));
-        curve->a[3] = sdv_plus(q->c[3][0], sdv_times(q->c[3][1], t));
-        curve->a[4] = q->c[4][0];
+    const sdv_four *c = (const sdv_four *)(const void *)q->c;
+    int step = turned ? 5 : 1, next = turned ? 1 : 5, quad = degree == 3;
+    sdv_four p[5][3], t = sdv_all(at);
+    sdv_horner(c, step, degree, t, p[0]);
+    sdv_horner(c + next, step, 3, t, p[1]);
+    sdv_horner(c + 2 * next, step, quad ? 3 : 1, t, p[2]);
+    sdv_horner(c + 3 * next, step, quad ? 3 : 1, t, p[3]);
+    p[4][0] = quad ? sdv_all(0) : c[4 * next];
+    curve->degree = degree;
+    curve->a[0] = sdv_plus(q->origin, p[0][0]);
+    for (int i = 1; i < 5; i++) curve->a[i] = p[i][0];
+    for (int i = 0; i < 4 && tangents; i++) {
+        curve->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
+        curve->across[i] = p[i][1];
     }
 }
 
@@ -6166,55 +6193,27 @@ static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
     return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
-// The derivative of a polynomial across its rows, of what sdv_row_curve looks at.
-static void sdv_across_rows(const sdv_polynomial *q, sdv_polynomial *d)
+static inline void sdv_make_row(const sdv_window *out, const sdv_polynomial *q, float y,
+                                sdv_curve *row)
 {
-    static const int cubic[4] = { 3, 3, 3, 3 }, quartic[5] = { 4, 3, 1, 1, 0 };
-    const int *powers = q->degree == 3 ? cubic : quartic;
-    d->degree = q->degree;
-    d->origin = sdv_all(0);
-    for (int i = 0; i <= q->degree; i++) {
-        for (int j = 0; j < powers[i]; j++)
-            d->c[i][j] = sdv_times(sdv_all((float)(j + 1)), q->c[i][j + 1]);
-        d->c[i][powers[i]] = sdv_all(0);
-    }
+    if (!out->tangents && q->degree == 3) sdv_cut_curve(q, 3, 0, 0, y, row);
+    else if (!out->tangents) sdv_cut_curve(q, 4, 0, 0, y, row);
+    else if (q->degree == 3) sdv_cut_curve(q, 3, 0, 1, y, row);
+    else sdv_cut_curve(q, 4, 0, 1, y, row);
 }
 
-// And of a row along itself.
-static void sdv_along_row(const sdv_curve *q, sdv_curve *d)
-{
-    d->degree = 3;
-    d->a[3] = sdv_all(0);
-    for (int i = 0; i < q->degree; i++) d->a[i] = sdv_times(sdv_all((float)(i + 1)), q->a[i + 1]);
-}
-
-// A row's tangents, along and across, if they are wanted: cubics in x, at most.
-typedef struct sdv_slopes {
-    sdv_curve along, across;
-} sdv_slopes;
-
-static inline void sdv_make_row(const sdv_window *out, const sdv_part *part, float y,
-                                sdv_curve *curve, sdv_slopes *slopes)
-{
-    sdv_row_curve(&part->q, y, curve);
-    if (!out->tangents) return;
-    sdv_row_curve(&part->rise, y, &slopes->across);
-    sdv_along_row(curve, &slopes->along);
-}
-
-static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *curve,
-                                     const sdv_slopes *slopes, float x)
+static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *row,
+                                     float x)
 {
     sdv_four t = sdv_all(x);
-    sdv_put_point(out, index, sdv_curve_point(curve, t));
+    sdv_put_point(out, index, sdv_curve_point(row, t));
     if (out->tangents)
-        sdv_put_tangents(out, index, sdv_horner3(slopes->along.a, t),
-                         sdv_horner3(slopes->across.a, t));
+        sdv_put_tangents(out, index, sdv_horner3(row->along, t), sdv_horner3(row->across, t));
 }
 
 // See >>limit-surface.
-static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
-                                const sdv_slopes *slopes, float x, float h);
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curve *row,
+                                float x, float h);
 
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
@@ -6222,23 +6221,23 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
 static inline void sdv_put_curve(const sdv_window *out, int index, int count,
                                  const sdv_curve *curve, float x, float h)
 {
-    const sdv_curve c = *curve;
+    const sdv_four a[5] = { curve->a[0], curve->a[1], curve->a[2], curve->a[3], curve->a[4] };
     int lanes = out->lanes;
     size_t stride = out->stride;
     float *p = out->values + stride * (size_t)index, *end = p + stride * (size_t)(count - 1);
     sdv_four t = sdv_all(x), step = sdv_all(h);
     if (lanes < 4 && (lanes < 3 || stride > 3))
         for (; p != end; p += stride, t = sdv_plus(t, step))
-            sdv_store_some(p, sdv_curve_point(&c, t), lanes);
-    else if (c.degree == 4)
-        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(c.a, t));
+            sdv_store_some(p, sdv_curve_point(curve, t), lanes);
+    else if (curve->degree == 4)
+        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(a, t));
     else
-        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(c.a, t));
-    sdv_store_some(p, sdv_curve_point(&c, t), lanes);
+        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(a, t));
+    sdv_store_some(p, sdv_curve_point(curve, t), lanes);
 }
 
-static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *curve,
-                               const sdv_slopes *slopes, float x, float h)
+static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *row,
+                               float x, float h)
 {
     int first = index - out->first, skip = first < 0 ? -first : 0;
     if (count > out->count - first) count = out->count - first;
@@ -6246,8 +6245,8 @@ static inline void sdv_put_run(const sdv_window *out, int index, int count, cons
     first += skip;
     count -= skip;
     x += (float)skip * h;
-    if (out->values) sdv_put_curve(out, first, count, curve, x, h);
-    if (out->tangents) sdv_put_tangent_run(out, first, count, slopes, x, h);
+    if (out->values) sdv_put_curve(out, first, count, row, x, h);
+    if (out->tangents) sdv_put_tangent_run(out, first, count, row, x, h);
 }
 
 // The first or last row of a patch.
@@ -6263,19 +6262,18 @@ static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const
     int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
     if (!(left | inside | right)) return;
     sdv_curve curve;
-    sdv_slopes slopes;
     float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
-    sdv_make_row(out, part, y, &curve, &slopes);
+    sdv_make_row(out, &part->q, y, &curve);
     if (left)
-        sdv_put_row_point(out, sdv_grid_index(grid, row, column), &curve, &slopes, part->x);
+        sdv_put_row_point(out, sdv_grid_index(grid, row, column), &curve, part->x);
     if (right)
-        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &curve, &slopes,
+        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &curve,
                           part->x + (float)part->columns * dx);
     if (inside) {
         sdv_side line = sdv_grid_line(grid, row);
         int forward = line.step == step, i = forward ? 1 : count - 1;
         sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
-                    &slopes, part->x + (float)i * dx, forward ? dx : -dx);
+                    part->x + (float)i * dx, forward ? dx : -dx);
     }
 }
 
@@ -6305,13 +6303,12 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     }
     for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
         sdv_curve curve;
-        sdv_slopes slopes;
-        sdv_make_row(out, part, y, &curve, &slopes);
-        sdv_put_run(out, at, count, &curve, &slopes, x, dx);
+        sdv_make_row(out, &part->q, y, &curve);
+        sdv_put_run(out, at, count, &curve, x, dx);
         if (left_side)
-            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &curve, &slopes, start);
+            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &curve, start);
         if (right_side)
-            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &curve, &slopes,
+            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &curve,
                               triangle ? 1 - y : end);
         at += across;
         across -= triangle;
@@ -6751,7 +6748,6 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
         for (int j = 0; j < parts.count; j++) {
             sdv_make_part(&parts, j, &part);
-            if (out->tangents) sdv_across_rows(&part.q, &part.rise);
             sdv_put_outer_row(out, &grid, &part, 0);
             sdv_put_inner_rows(out, &grid, &part);
             sdv_put_outer_row(out, &grid, &part, 1);
@@ -6989,8 +6985,8 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
 }
 
 // Those of a run of points, see sdv_put_run: four by four, and the others wait.
-static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
-                                const sdv_slopes *slopes, float x, float h)
+static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curve *row,
+                                float x, float h)
 {
     const sdv_tangents *tangents = out->tangents;
     sdv_four t = sdv_all(x), step = sdv_all(h);
@@ -6998,8 +6994,8 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
     for (; i + 4 <= count && !tangents->tangents; i += 4) {
         sdv_four a[4], b[4], normal[4];
         for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
-            a[k] = sdv_horner3(slopes->along.a, t);
-            b[k] = sdv_horner3(slopes->across.a, t);
+            a[k] = sdv_horner3(row->along, t);
+            b[k] = sdv_horner3(row->across, t);
         }
         sdv_transpose(a);
         sdv_transpose(b);
@@ -7010,8 +7006,8 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count,
         for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
     }
     for (; i < count; i++, t = sdv_plus(t, step))
-        sdv_put_tangents(out, out->first + at + i, sdv_horner3(slopes->along.a, t),
-                         sdv_horner3(slopes->across.a, t));
+        sdv_put_tangents(out, out->first + at + i, sdv_horner3(row->along, t),
+                         sdv_horner3(row->across, t));
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
@@ -9240,30 +9236,6 @@ typedef struct sdv_where {
     float x, y, sx, sy;
 } sdv_where;
 
-// A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
-SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
-{
-    p[2] = sdv_plus(sdv_times(p[2], t), p[1]);
-    p[1] = sdv_plus(sdv_times(p[1], t), p[0]);
-    p[0] = sdv_plus(sdv_times(p[0], t), next);
-}
-
-// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. Its first steps leave out
-// what is 0; what is not asked for below, the compiler leaves out.
-SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
-{
-    sdv_four highest = c[degree * step];
-    p[0] = sdv_plus(sdv_times(highest, t), c[(degree - 1) * step]);
-    p[1] = highest;
-    p[2] = sdv_all(0);
-    if (degree == 1) return;
-    p[2] = highest;
-    p[1] = sdv_plus(sdv_times(highest, t), p[0]);
-    p[0] = sdv_plus(sdv_times(p[0], t), c[(degree - 2) * step]);
-    if (degree >= 3) sdv_horner_step(p, t, c[(degree - 3) * step]);
-    if (degree == 4) sdv_horner_step(p, t, c[0]);
-}
-
 // From rows, the coefficients of powers of y with their derivatives in x, to values and derivatives
 // up to an order, as subdiv_derivatives has them.
 SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *at, int order,
@@ -10922,48 +10894,24 @@ typedef struct sdv_line_points {
     int     index, step;                // of point first, and from point to point
 } sdv_line_points;
 
-// A row of a polynomial, y = t, and its derivatives in x and y; or, turned, a column, x = t.
-typedef struct sdv_tile_line {
-    sdv_four value[5], along[4], across[4];
-} sdv_tile_line;
-
-SDV_INLINE void sdv_make_tile_line(const sdv_polynomial *q, int loop, int turned, int tangents,
-                                   float t, sdv_tile_line *line)
-{
-    const sdv_four *c = (const sdv_four *)(const void *)q->c;
-    int step = turned ? 5 : 1, next = turned ? 1 : 5;
-    sdv_four p[5][3], all = sdv_all(t);
-    sdv_horner(c, step, 3 + loop, all, p[0]);
-    sdv_horner(c + next, step, 3, all, p[1]);
-    sdv_horner(c + 2 * next, step, loop ? 1 : 3, all, p[2]);
-    sdv_horner(c + 3 * next, step, loop ? 1 : 3, all, p[3]);
-    p[4][0] = loop ? c[4 * next] : sdv_all(0);
-    line->value[0] = sdv_plus(q->origin, p[0][0]);
-    for (int i = 1; i < 5; i++) line->value[i] = p[i][0];
-    for (int i = 0; i < 4 && tangents; i++) {
-        line->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
-        line->across[i] = p[i][1];
-    }
-}
-
 // The points of a window that starts with the first one.
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
     const sdv_window *out = l->out;
     sdv_tangents *wait = out->tangents;
-    sdv_tile_line line;
+    sdv_curve curve;
     int index = points->index, i = tangents ? wait->count : 0, count = out->count;
-    sdv_make_tile_line(&l->polynomial, loop, turned, tangents, t, &line);
+    sdv_cut_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
     for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
         sdv_four x = sdv_all((float)(from + (double)k * by));
-        sdv_four p = loop ? sdv_horner4(line.value, x) : sdv_horner3(line.value, x);
+        sdv_four p = loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x);
         if (index >= count) continue;
         sdv_store_some(out->values + out->stride * (size_t)index, p, out->lanes);
         if (!tangents) continue;
         wait->at[i] = index;
-        wait->along[i] = sdv_horner3(turned ? line.across : line.along, x);
-        wait->across[i] = sdv_horner3(turned ? line.along : line.across, x);
+        wait->along[i] = sdv_horner3(turned ? curve.across : curve.along, x);
+        wait->across[i] = sdv_horner3(turned ? curve.along : curve.across, x);
         wait->count = ++i;
         if (i < SDV_WAITING) continue;
         sdv_flush_tangents(wait);
