@@ -7648,6 +7648,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
 #define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
+#define SDV_NEST_FAR 100                // levels down, where a nest without limit masks has arrived
 #define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
@@ -9283,16 +9284,28 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
     sdv_put_columns(rows, loop, at, order, out);
 }
 
-// The same of four channels straight from a patch.
-static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float s, sdv_four *out)
+// How a part of a patch weighs its control points, in values and derivatives: unit vectors, four at
+// a time, show it. weights [16], of which Loop has 12.
+static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                              const sdv_where *at, double (*weights)[6])
 {
-    sdv_where at = { x, y, s, s };
-    float data[4 * SDV_SLOTS];
-    double origin[4];
+    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    double unit[16][4] = { { 0 } }, origin[4];
+    float data[4 * SDV_SLOTS], w[4];
     sdv_polynomial q;
-    sdv_deep_polynomial(deep, 0, &q, origin);
-    sdv_keep_polynomial(&q, origin, 1, 4, data);
-    sdv_polynomial_values(data, deep->rules->loop, 4, &at, 2, out);
+    sdv_deep_patch deep = sdv_deep(surface, patch, same, unit[0]);
+    for (int first = 0; first < sdv_control_points(&surface->rules); first += 4) {
+        sdv_four values[6];
+        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
+        sdv_deep_polynomial(&deep, part, &q, origin);
+        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
+        sdv_keep_polynomial(&q, origin, 1, 4, data);
+        sdv_polynomial_values(data, surface->rules.loop, 4, at, 2, values);
+        for (int d = 0; d < 6; d++) {
+            sdv_store(w, values[d]);
+            for (int i = 0; i < 4; i++) weights[first + i][d] = (double)w[i];
+        }
+    }
 }
 
 // What is asked for of a patch, at location i, of channels from c on.
@@ -9351,35 +9364,33 @@ static void sdv_cross(const double *a, const double *b, double *n)
     n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time,
-// show how it weighs its control points. (On a sharp edge, those beside it not at all: there the
-// surface may grow without bound as seen from the vertex, while along the edge it does not.)
+// How the child of a nest's face that has (x, y), which is not in the next nest, weighs its control
+// points, which come back. (On a sharp edge, those beside it not at all: there the surface may grow
+// without bound as seen from the vertex, while along the edge it does not.)
+static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
+                                    int face, double x, double y, double (*weights)[6])
+{
+    double scale = 2;
+    int child = surface->rules.loop ? sdv_descend_triangle(&x, &y, &scale)
+                                    : sdv_descend_quad(&x, &y);
+    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
+    const int *points;
+    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
+    sdv_patch_weights(surface, patch, 0, &at, weights);
+    return points;
+}
+
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
     const sdv_nest_state *state = &s->state;
-    int loop = state->surface->rules.loop, count = state->kind->width;
-    double scale = 2;
-    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
-    const int *points;
-    const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
-    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    double unit[16][4] = { { 0 } };
-    sdv_deep_patch deep = sdv_deep(state->surface, patch, same, unit[0]);
+    double weights[16][6];
+    const int *points = sdv_child_weights(state->surface, state->kind, s->face, x, y, weights);
     sdv_nest_refine(&s->state);
     memset(s->values, 0, sizeof s->values);
-    for (int first = 0; first < count; first += 4) {
-        sdv_four weights[6];
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
-        sdv_deep_values(&deep, (float)x, (float)y, (float)scale, weights);
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
-        for (int d = 0; d < 6; d++) {
-            float w[4];
-            sdv_store(w, weights[d]);
-            for (int i = 0; i < 4; i++)
-                for (int c = 0; c < 4; c++)
-                    s->values[d][c] += (double)w[i] * state->w[4 * points[first + i] + c];
-        }
-    }
+    for (int i = 0; i < state->kind->width; i++)
+        for (int d = 0; d < 6; d++)
+            for (int c = 0; c < 4; c++)
+                s->values[d][c] += weights[i][d] * state->w[4 * points[i] + c];
     for (int c = 0; c < 4; c++) {
         s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
         for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
@@ -9413,7 +9424,7 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
         memcpy(s->tangents, limit[1], sizeof s->tangents);
     } else {
         double along[2][4];
-        sdv_nest_go_down(s, 100);
+        sdv_nest_go_down(s, SDV_NEST_FAR);
         sdv_nest_child(s, 0.5, 0);
         memcpy(along[0], s->values[1], sizeof along[0]);
         sdv_nest_child(s, 0, 0.5);
@@ -9445,11 +9456,19 @@ static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// How many levels down a sample is, in the nest of each.
-static int sdv_nest_levels(const sdv_nest_sample *s, int loop)
+// A place on a face of a nest as seen from the vertex.
+static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
+{
+    sdv_turn_place(loop, turn, u, v, x, y);
+    if (*x < 0) *x = 0;
+    if (*y < 0) *y = 0;
+}
+
+// How many levels down it is, in the nest of each.
+static int sdv_nest_levels(int loop, double x, double y)
 {
     int down;
-    frexp(loop ? s->x + s->y : s->x > s->y ? s->x : s->y, &down);
+    frexp(loop ? x + y : x > y ? x : y, &down);
     return down > 0 ? 0 : -down;
 }
 
@@ -9458,8 +9477,8 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
                               double *w)
 {
     const subdiv_surface *surface = e->surface;
-    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(s, surface->rules.loop);
-    int deep = e->memory.deep && !vertex && down >= SDV_NEST_DEPTH;
+    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
+    int deep = !vertex && down >= SDV_NEST_DEPTH;
     const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
     if (deep) sdv_nest_resume(&s->state, surface, nest, sdv_deep_nest(e, nest, c), w);
     else sdv_nest_load(&s->state, surface, nest, work, w);
@@ -9514,9 +9533,7 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, dou
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
     s.face = number - surface->exact->nests[face->nest].face;
-    sdv_turn_place(surface->rules.loop, face->turn, x, y, &s.x, &s.y);
-    if (s.y < 0) s.y = 0;
-    if (s.x < 0) s.x = 0;
+    sdv_nest_place(surface->rules.loop, face->turn, x, y, &s.x, &s.y);
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
         sdv_nest_evaluate(&s, e, face->nest, c, w);
@@ -10224,39 +10241,6 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     return context.result;
 }
 
-// Evaluates unit vectors at locations: those of the work points that a location's leaf looks at,
-// four at a time, in scratch memory that is 0 everywhere else.
-typedef struct sdv_probe {
-    const subdiv_surface *surface;
-    void            *scratch;
-    sdv_exact_memory memory;            // parts of it
-    subdiv_options   opt;
-    unsigned char   *seen;              // [work_count] work points
-    int             *points;            // [most points of a leaf] those of this one, each once
-    double          *weights;           // [3 * most]
-} sdv_probe;
-
-static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
-                          sdv_probe *probe)
-{
-    const sdv_exact *exact = surface->exact;
-    size_t size = subdiv_scratch_size(surface, 4), work = (size_t)surface->work_count, most = 16;
-    for (int i = 0; i < exact->kind_count; i++)
-        if ((size_t)exact->kinds[i].points > most) most = (size_t)exact->kinds[i].points;
-    memset(probe, 0, sizeof *probe);
-    probe->surface = surface;
-    probe->opt.user = context->user;
-    probe->scratch = sdv_new(context, arena, size, 1);
-    probe->seen = SDV_NEW(context, arena, unsigned char, work);
-    probe->points = SDV_NEW(context, arena, int, most);
-    probe->weights = SDV_NEW(context, arena, double, 3 * most);
-    if (context->result) return;
-    probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
-    probe->memory.deep = NULL;
-    memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
-    memset(probe->seen, 0, work);
-}
-
 // The patch of a leaf that is none of a nest.
 static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, const int **points)
 {
@@ -10267,71 +10251,125 @@ static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, 
     return sdv_patch_of(surface, sdv_find_patch(surface, number), points);
 }
 
-// The work points that a leaf looks at, each once: how many.
-static int sdv_probe_points(sdv_probe *probe, int slot)
+// Adds the control points of a patch, or of the part of it that a location is on.
+static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
-    const subdiv_surface *surface = probe->surface;
-    const sdv_exact *exact = surface->exact;
-    int count = sdv_control_points(&surface->rules), distinct = 0;
+    const subdiv_surface *surface = make->surface;
     const int *points;
-    if ((~slot & 3) == SDV_LEAF_NEST) {
-        const sdv_nest *nest = &exact->nests[exact->nest_faces[~slot >> 2].nest];
-        points = exact->nest_points + nest->first;
-        count = exact->kinds[nest->kind].points;
-    } else {
-        sdv_leaf_patch(surface, slot, &points);
-    }
-    for (int i = 0; i < count; i++) {
-        if (probe->seen[points[i]]) continue;
-        probe->seen[points[i]] = 1;
-        probe->points[distinct++] = points[i];
-    }
-    for (int i = 0; i < distinct; i++) probe->seen[probe->points[i]] = 0;
-    return distinct;
+    const sdv_patch *patch = sdv_leaf_patch(surface, leaf.slot, &points);
+    double all[16][6], weights[3 * 16];
+    int count = sdv_control_points(&surface->rules), part = 0;
+    sdv_find_polynomial(surface, surface->rules.loop, &leaf);
+    if ((~leaf.slot & 3) == SDV_LEAF_CUT)
+        part = (int)leaf.polynomial - surface->exact->cuts[~leaf.slot >> 2].polynomial;
+    sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
+    sdv_patch_weights(surface, patch, part, &at, all);
+    for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
+    sdv_add_rounded(make, points, count, weights);
 }
 
-// Evaluates what the work points have at a location, by a polynomial made for it.
-static void sdv_probe_leaf(sdv_context *context, sdv_probe *probe, sdv_leaf leaf, float (*lanes)[4])
-{
-    const subdiv_surface *surface = probe->surface;
-    sdv_exact_evaluation e;
-    memset(&e, 0, sizeof e);
-    e.surface = surface;
-    e.channels = 4;
-    e.memory = probe->memory;
-    e.order = 1;
-    e.opt = &probe->opt;
-    for (int k = 0; k < 3; k++) e.out[k] = lanes[k];
-    leaf.deep = (~leaf.slot & 3) == SDV_LEAF_NEST;
-    if (!leaf.deep) {
-        const int *points;
-        const sdv_patch *patch = sdv_leaf_patch(surface, leaf.slot, &points);
-        sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-        int cut = (~leaf.slot & 3) == SDV_LEAF_CUT;
-        sdv_patch_polynomials(&e, patch, points,
-                              cut ? (size_t)surface->exact->cuts[~leaf.slot >> 2].polynomial
-                                  : leaf.polynomial);
-    }
-    sdv_put_leaf(&e, &leaf, surface->rules.loop, 0, 0);
-    if (e.failed[0]) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-}
+// In a nest weights go the way back from the patch to the nest's points: what a step makes of many
+// points by a row, it gives back to them by the same row, and all at once. So a location costs no
+// more than an evaluation there. w [3 * work_count] has the weights of the nest's points, then those
+// of the next level, of the point and of its derivatives as seen from the vertex.
 
-// Their weights: of the point, du and dv.
-static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const sdv_leaf *leaf,
-                               int count)
+// sdv_nest_refine backwards, from the next level's points.
+static void sdv_unrefine_nest(const sdv_masks *masks, const sdv_step *step, double *w)
 {
-    float lanes[3][4];
-    for (int first = 0; first < count; first += 4) {
-        int some = count - first < 4 ? count - first : 4;
-        const int *points = probe->points + first;
-        for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
-        sdv_probe_leaf(context, probe, *leaf, lanes);
-        for (int i = 0; i < some; i++) {
-            probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
-            for (int k = 0; k < 3 && !context->result; k++)
-                probe->weights[3 * (size_t)(first + i) + (size_t)k] = (double)lanes[k][i];
+    const sdv_rows *rows[3] = { &step->edges, &step->vertices, &step->faces };
+    for (int k = 0; k < 3; k++) {
+        const int *row = rows[k]->items;
+        const double *from = w + 3 * (size_t)rows[k]->first;
+        for (int i = 0; i < rows[k]->count; i++, from += 3) {
+            const sdv_weights *mask = &masks->items[*row++];
+            for (int j = 0; j < mask->count; j++, row++) {
+                double weight = sdv_row_weight(masks->weights, mask, j);
+                for (int c = 0; c < 3; c++) w[3 * *row + c] += weight * from[c];
+            }
         }
     }
+}
+
+// sdv_nest_descend backwards. A point is base + shrink w: there doubling takes back what shrink
+// is halved, and the vertex has what others leave of 1.
+static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
+{
+    double *vertex = w + 3 * kind->below[0];
+    for (int i = 3 * kind->points; i < 3 * kind->work_count; i++) w[i] = 0;
+    vertex[0] = 1;
+    for (int i = 0; i < 3 * kind->points; i++) {
+        double weight = (i % 3 ? 2 : 1) * w[i];
+        w[i] = 0;
+        w[3 * kind->below[i / 3] + i % 3] += weight;
+        vertex[i % 3] -= weight;
+    }
+}
+
+// What the patch at (x, y) weighs its control points with, in one part up to another.
+static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
+                            double x, double y, int part, int end, double *w)
+{
+    double weights[16][6];
+    const int *points = sdv_child_weights(surface, kind, face, x, y, weights);
+    for (int i = 0; i < kind->width; i++)
+        for (int k = part; k < end; k++) w[3 * points[i] + k] += weights[i][k];
+}
+
+// See sdv_nest_vertex.
+static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
+{
+    double turn = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
+    for (int i = 0; i < kind->points; i++) {
+        const double *limit = kind->limit + i;
+        w[3 * i] = limit[0];
+        for (int k = 0; k < 2; k++)
+            w[3 * i + 1 + k] = cos((face + k) * turn) * limit[kind->points] +
+                               sin((face + k) * turn) * limit[2 * kind->points];
+    }
+}
+
+// Weighs the points of a nest at (x, y) on a face of it, as sdv_nest_evaluate does.
+static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
+                           double x, double y, double *w)
+{
+    int vertex = x <= 0 && y <= 0, down = sdv_nest_levels(surface->rules.loop, x, y);
+    if (vertex && kind->limit) {
+        sdv_weigh_masks(kind, face, w);
+        return;
+    }
+    for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
+    if (vertex) {
+        down = SDV_NEST_FAR;
+        sdv_weigh_child(surface, kind, face, 0.5, 0, 1, 2, w);
+        sdv_weigh_child(surface, kind, face, 0, 0.5, 2, 3, w);
+    } else {
+        sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), 0, 3, w);
+    }
+    sdv_unrefine_nest(&surface->masks, &kind->step, w);
+    for (int i = 0; i < down; i++) {
+        sdv_ascend_nest(kind, w);
+        sdv_unrefine_nest(&surface->masks, &kind->step, w);
+    }
+}
+
+// Adds the points of a nest.
+static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, double *w)
+{
+    const subdiv_surface *surface = make->surface;
+    const sdv_exact *exact = surface->exact;
+    const sdv_nest_face *face = &exact->nest_faces[~leaf->slot >> 2];
+    const sdv_nest *nest = &exact->nests[face->nest];
+    const sdv_nest_kind *kind = &exact->kinds[nest->kind];
+    const signed char *t = sdv_turns[surface->rules.loop][face->turn];
+    double x, y;
+    sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
+    sdv_weigh_nest(surface, kind, (~leaf->slot >> 2) - nest->face, x, y, w);
+    for (int i = 0; i < kind->points; i++) {
+        double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
+        w[3 * i + 1] = t[0] * dx + t[2] * dy;
+        w[3 * i + 2] = t[1] * dx + t[3] * dy;
+    }
+    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w);
 }
 
 static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
@@ -10339,17 +10377,13 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
                             const subdiv_location *locations)
 {
     sdv_stencil_maker make;
-    sdv_probe probe;
     sdv_stencil_maker_new(context, &make, surface, count, 3);
-    sdv_probe_new(context, &make.arena, surface, &probe);
+    double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context->result; i++) {
         sdv_leaf leaf;
         sdv_locate(surface, surface->rules.loop, &locations[i], &leaf);
-        if (leaf.slot) {
-            int points = sdv_probe_points(&probe, leaf.slot);
-            sdv_probe_location(context, &probe, &leaf, points);
-            if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
-        }
+        if ((~leaf.slot & 3) == SDV_LEAF_NEST) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.slot) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
     }
     sdv_copy_stencils(&make, count, stencils);
