@@ -9727,12 +9727,15 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 // ------------------------------------------------------------------------------ >>stencils
 // No rule is here a second time: rows have weights, and what a patch does to its control points
 // shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
-// of work points, and each of these, through its row, a sum of others, down to the cage's.
+// of work points, and each of these, through its row, a sum of others, down to the cage's. Such sums
+// are kept, except near vertices of high valence: there they would be as long as points are many.
 
 typedef struct sdv_entry {
     double weight;
     int    vertex;                      // of the cage, or a value's number
 } sdv_entry;
+
+enum { SDV_LONGEST_KNOWN = 64, SDV_LONG = -1 };
 
 typedef struct sdv_stencil_maker {
     sdv_context *context;
@@ -9741,13 +9744,14 @@ typedef struct sdv_stencil_maker {
 
     sdv_array  known;                   // sdv_entry: of all work points that are known,
     size_t    *starts;                  // [work_count] where each one's start, and
-    int       *sizes;                   // [work_count] how many there are; 0: not known yet
+    int       *sizes;                   // [work_count] how many there are; 0: not known yet,
+                                        // SDV_LONG: too many to be kept
 
     int        parts;                   // 3 with tangents, else 1
     int        size;                    // the sum that is being made: so many
-    int       *vertices;                // [cage_vertex_count] vertices, with
-    double    *sums;                    // [cage_vertex_count * parts] weights, and where
-    int       *places;                  // [cage_vertex_count] each vertex stands, or -1
+    int       *vertices;                // [work_count] vertices, or long work points, with
+    double    *sums;                    // [work_count * parts] weights, and where
+    int       *places;                  // [work_count] each stands, or -1
 
     size_t    *offsets;                 // [points + 1] what is made
     sdv_array  indices, weights;        // ints, floats [parts] each
@@ -9756,7 +9760,7 @@ typedef struct sdv_stencil_maker {
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
                                   const subdiv_surface *surface, int points, int parts)
 {
-    size_t vertices = (size_t)surface->cage_vertex_count, work = (size_t)surface->work_count;
+    size_t work = (size_t)surface->work_count;
     memset(make, 0, sizeof *make);
     make->context = context;
     make->surface = surface;
@@ -9764,13 +9768,13 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     make->arena = sdv_scratch();
     make->starts = SDV_NEW(context, &make->arena, size_t, work);
     make->sizes = SDV_NEW(context, &make->arena, int, work);
-    make->vertices = SDV_NEW(context, &make->arena, int, vertices);
-    make->sums = SDV_NEW(context, &make->arena, double, vertices * (size_t)parts);
-    make->places = SDV_NEW(context, &make->arena, int, vertices);
+    make->vertices = SDV_NEW(context, &make->arena, int, work);
+    make->sums = SDV_NEW(context, &make->arena, double, work * (size_t)parts);
+    make->places = SDV_NEW(context, &make->arena, int, work);
     make->offsets = SDV_NEW(context, &make->arena, size_t, (size_t)points + 1);
     if (context->result) return;
     memset(make->sizes, 0, work * sizeof(int));
-    for (size_t v = 0; v < vertices; v++) make->places[v] = -1;
+    for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
 }
 
@@ -9793,7 +9797,7 @@ static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, c
     for (int i = 0; i < parts; i++) sum[i] += factor * w[i];
 }
 
-// Adds a work point that is known, w [parts] times.
+// Adds a work point that is known or long, w [parts] times.
 static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
 {
     const subdiv_surface *surface = make->surface;
@@ -9801,6 +9805,7 @@ static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double 
         sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
         return;
     }
+    if (make->sizes[point] == SDV_LONG) sdv_add_to_sum(make, point, 1, w);
     const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
     for (int i = 0; i < make->sizes[point]; i++)
         sdv_add_to_sum(make, entry[i].vertex, entry[i].weight, w);
@@ -9837,33 +9842,31 @@ static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int coun
     for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
-// The weight of point i of a row with this mask: what the others leave of 1 is the first one's.
-static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i)
+// The weight of point i of a row with this mask. Asked for from the last one to the first, which has
+// what the others left of 1.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i, double *left)
 {
-    double left = 1;
-    if (i > 0) return (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
-    for (int j = 1; j < mask->count; j++) left -= sdv_row_weight(weights, mask, j);
-    return left;
+    if (i == 0) return *left;
+    double weight = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    *left -= weight;
+    return weight;
 }
 
-static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
+// Adds the points of a row, w times.
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points,
+                        const double *w)
 {
-    double w[3] = { 0, 0, 0 };
-    for (int i = 0; i < mask->count; i++) {
-        w[0] = sdv_row_weight(make->surface->masks.weights, mask, i);
-        sdv_add_work_point(make, points[i], w);
+    double product[3], left = 1;
+    for (int i = mask->count - 1; i >= 0; i--) {
+        double weight = sdv_row_weight(make->surface->masks.weights, mask, i, &left);
+        for (int k = 0; k < make->parts; k++) product[k] = weight * w[k];
+        sdv_add_work_point(make, points[i], product);
     }
 }
 
-static void sdv_compose(sdv_stencil_maker *make, int point)
+// Makes a sum known, that of a work point.
+static void sdv_keep_sum(sdv_stencil_maker *make, int point)
 {
-    const subdiv_surface *surface = make->surface;
-    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
-    const int *row = sdv_find_row(surface, point);
-    const sdv_weights *mask = &surface->masks.items[row[0]];
-    sdv_compose_all(make, row + 1, mask->count);
-    if (make->context->result) return;
-    sdv_add_row(make, mask, row + 1);
     sdv_entry *entry = (sdv_entry *)sdv_array_room(make->context, &make->known,
                                                    (size_t)make->size, sizeof *entry);
     for (int i = 0; i < make->size && entry; i++) {
@@ -9873,7 +9876,68 @@ static void sdv_compose(sdv_stencil_maker *make, int point)
     make->starts[point] = make->known.count;
     make->sizes[point] = make->size;
     if (entry) make->known.count += (size_t)make->size;
+}
+
+static void sdv_compose(sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
+    const int *row = sdv_find_row(surface, point);
+    const sdv_weights *mask = &surface->masks.items[row[0]];
+    const double one[3] = { 1, 0, 0 };
+    int any_long = 0;
+    sdv_compose_all(make, row + 1, mask->count);
+    if (make->context->result) return;
+    for (int i = 1; i <= mask->count; i++) any_long |= make->sizes[row[i]] == SDV_LONG;
+    if (!any_long) sdv_add_row(make, mask, row + 1, one);
+    if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
+    else sdv_keep_sum(make, point);
     sdv_end_sum(make);
+}
+
+// Takes number i out of the sum; the last one gets its place.
+static void sdv_take_from_sum(sdv_stencil_maker *make, int i, double *w)
+{
+    int last = --make->size;
+    for (int k = 0; k < make->parts; k++) {
+        double *sum = make->sums + k;
+        w[k] = sum[make->parts * i];
+        sum[make->parts * i] = sum[make->parts * last];
+    }
+    make->places[make->vertices[last]] = i;
+    make->places[make->vertices[i]] = -1;
+    make->vertices[i] = make->vertices[last];
+}
+
+// Long points that these rows make become those that they are made of.
+static void sdv_expand_rows(sdv_stencil_maker *make, const sdv_rows *rows)
+{
+    const subdiv_surface *surface = make->surface;
+    for (int i = 0; i < make->size && rows->count > 0; ) {
+        int point = make->vertices[i];
+        double w[3];
+        if (point < rows->first || point >= rows->first + rows->count) {
+            i++;
+            continue;
+        }
+        const int *row = sdv_find_row(surface, point);
+        sdv_take_from_sum(make, i, w);
+        sdv_add_row(make, &surface->masks.items[row[0]], row + 1, w);
+    }
+}
+
+// Each long point is expanded once: when all that are made of it have been.
+static void sdv_expand_sum(sdv_stencil_maker *make)
+{
+    const subdiv_surface *surface = make->surface;
+    int any_long = 0;
+    for (int i = 0; i < make->size; i++)
+        any_long |= make->vertices[i] >= surface->cage_vertex_count;
+    for (int i = any_long ? surface->levels : 0; i-- > 0; ) {
+        sdv_expand_rows(make, &surface->steps[i].edges);
+        sdv_expand_rows(make, &surface->steps[i].vertices);
+        sdv_expand_rows(make, &surface->steps[i].faces);
+    }
 }
 
 // Gives what is missing from the total to the largest of count weights.
@@ -9887,16 +9951,18 @@ static void sdv_balance(double *weights, int count, int stride, double total)
     *largest += total;
 }
 
-// What is no more than rounding of the largest weight becomes 0.
+// What is no more than rounding of the largest weight becomes 0. Of many weights it is less, as what
+// is left out adds up.
 static void sdv_clean_part(sdv_stencil_maker *make, int part)
 {
     double *sums = make->sums + part, largest = 0;
     int parts = make->parts;
     if (make->size == 0) return;                    // a face without a surface
     for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
+    double rounding = (double)FLT_EPSILON * largest * fmin(1, 64.0 / make->size);
     for (int i = 0; i < make->size; i++) {
         double *w = &sums[parts * i];
-        *w = fabs(*w) <= (double)FLT_EPSILON * largest ? 0 : (double)(float)*w;
+        *w = fabs(*w) <= rounding ? 0 : (double)(float)*w;
     }
     sdv_balance(sums, make->size, parts, part == 0 ? 1 : 0);
 }
@@ -9918,6 +9984,7 @@ static void sdv_sort(int *numbers, int count)
 // Makes the sum stencil i.
 static void sdv_write_stencil(sdv_stencil_maker *make, int i)
 {
+    sdv_expand_sum(make);
     size_t parts = (size_t)make->parts, size = (size_t)make->size;
     int *index = (int *)sdv_array_room(make->context, &make->indices, size, sizeof(int));
     float *weight = (float *)sdv_array_room(make->context, &make->weights, parts * size,
@@ -10202,7 +10269,7 @@ static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *
     } else if (row) {
         const sdv_weights *mask = &surface->masks.items[row[0]];
         sdv_compose_all(make, row + 2, mask->count);
-        if (!make->context->result) sdv_add_row(make, mask, row + 2);
+        if (!make->context->result) sdv_add_row(make, mask, row + 2, one);
     } else if (record[0] < 0) {
         sdv_add_net(make, record);
     } else if (record[0] > 0) {
@@ -10281,11 +10348,13 @@ static void sdv_unrefine_nest(const sdv_masks *masks, const sdv_step *step, doub
         const int *row = rows[k]->items;
         const double *from = w + 3 * (size_t)rows[k]->first;
         for (int i = 0; i < rows[k]->count; i++, from += 3) {
-            const sdv_weights *mask = &masks->items[*row++];
-            for (int j = 0; j < mask->count; j++, row++) {
-                double weight = sdv_row_weight(masks->weights, mask, j);
-                for (int c = 0; c < 3; c++) w[3 * *row + c] += weight * from[c];
+            const sdv_weights *mask = &masks->items[row[0]];
+            double left = 1;
+            for (int j = mask->count - 1; j >= 0; j--) {
+                double weight = sdv_row_weight(masks->weights, mask, j, &left);
+                for (int c = 0; c < 3; c++) w[3 * row[1 + j] + c] += weight * from[c];
             }
+            row += 1 + mask->count;
         }
     }
 }
@@ -14288,8 +14357,9 @@ static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int
 {
     const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
     const float *weights = (const float *)sdv_items(&writer->weights);
-    for (int i = 0; i < mask->count; i++)
-        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i);
+    double left = 1;
+    for (int i = mask->count - 1; i >= 0; i--)
+        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i, &left);
 }
 
 // How many vertices from place i of the order on weigh the same.
