@@ -9380,6 +9380,7 @@ static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nes
     return points;
 }
 
+// A sample of that child, at (x, y).
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
     const sdv_nest_state *state = &s->state;
@@ -9727,8 +9728,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 // ------------------------------------------------------------------------------ >>stencils
 // No rule is here a second time: rows have weights, and what a patch does to its control points
 // shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
-// of work points, and each of these, through its row, a sum of others, down to the cage's. Such sums
-// are kept, except near vertices of high valence: there they would be as long as points are many.
+// of work points, and each of these, through its row, a sum of others, down to the cage's. These
+// sums are kept, but for long ones: near a vertex of high valence there are many.
 
 typedef struct sdv_entry {
     double weight;
@@ -9801,11 +9802,11 @@ static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, c
 static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
 {
     const subdiv_surface *surface = make->surface;
-    if (point < surface->cage_vertex_count) {
-        sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
+    int cage = point < surface->cage_vertex_count;
+    if (cage || make->sizes[point] == SDV_LONG) {
+        sdv_add_to_sum(make, cage && surface->source ? surface->source[point] : point, 1, w);
         return;
     }
-    if (make->sizes[point] == SDV_LONG) sdv_add_to_sum(make, point, 1, w);
     const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
     for (int i = 0; i < make->sizes[point]; i++)
         sdv_add_to_sum(make, entry[i].vertex, entry[i].weight, w);
@@ -9842,8 +9843,8 @@ static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int coun
     for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
-// The weight of point i of a row with this mask. Asked for from the last one to the first, which has
-// what the others left of 1.
+// The weight of point i of a row with this mask. They are asked for from the last one to the first,
+// which has what the others left of 1.
 static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i, double *left)
 {
     if (i == 0) return *left;
@@ -9951,8 +9952,8 @@ static void sdv_balance(double *weights, int count, int stride, double total)
     *largest += total;
 }
 
-// What is no more than rounding of the largest weight becomes 0. Of many weights it is less, as what
-// is left out adds up.
+// What is no more than rounding of the largest weight becomes 0. Of more than 64 weights it is
+// less, as what is left out adds up.
 static void sdv_clean_part(sdv_stencil_maker *make, int part)
 {
     double *sums = make->sums + part, largest = 0;
@@ -10335,10 +10336,10 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
     sdv_add_rounded(make, points, count, weights);
 }
 
-// In a nest weights go the way back from the patch to the nest's points: what a step makes of many
-// points by a row, it gives back to them by the same row, and all at once. So a location costs no
-// more than an evaluation there. w [3 * work_count] has the weights of the nest's points, then those
-// of the next level, of the point and of its derivatives as seen from the vertex.
+// In a nest, weights go the way back from the patch to the nest's points: each point that a row
+// makes gives its own to those of the row, which takes as long as to evaluate once. They are those
+// of a point and its derivatives as seen from the vertex: w [3 * work_count], of the nest's points,
+// then of those of the next level.
 
 // sdv_nest_refine backwards, from the next level's points.
 static void sdv_unrefine_nest(const sdv_masks *masks, const sdv_step *step, double *w)
@@ -10359,8 +10360,8 @@ static void sdv_unrefine_nest(const sdv_masks *masks, const sdv_step *step, doub
     }
 }
 
-// sdv_nest_descend backwards. A point is base + shrink w: there doubling takes back what shrink
-// is halved, and the vertex has what others leave of 1.
+// sdv_nest_descend backwards. The point is base + shrink w: shrink is halved when w is doubled, and
+// as base follows the vertex, that has what the others leave of 1. The derivatives are w's.
 static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
 {
     double *vertex = w + 3 * kind->below[0];
@@ -10387,13 +10388,12 @@ static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *
 // See sdv_nest_vertex.
 static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 {
+    const double *limit = kind->limit, *t0 = limit + kind->points, *t1 = t0 + kind->points;
     double turn = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
-    for (int i = 0; i < kind->points; i++) {
-        const double *limit = kind->limit + i;
-        w[3 * i] = limit[0];
-        for (int k = 0; k < 2; k++)
-            w[3 * i + 1 + k] = cos((face + k) * turn) * limit[kind->points] +
-                               sin((face + k) * turn) * limit[2 * kind->points];
+    for (int i = 0; i < kind->points; i++) w[3 * i] = limit[i];
+    for (int k = 0; k < 2; k++) {
+        double along = cos((face + k) * turn), across = sin((face + k) * turn);
+        for (int i = 0; i < kind->points; i++) w[3 * i + 1 + k] = along * t0[i] + across * t1[i];
     }
 }
 

@@ -285,7 +285,7 @@ static void test_anywhere(void)
     }
 }
 
-// ------------------------------------------------------------------------- around irregular vertices
+// ----------------------------------------------------------------------- around irregular vertices
 
 // Quads, triangles under Catmull-Clark, Loop; and what the vertex 0 of their faces is. Each face
 // starts one vertex later than the one before.
@@ -322,7 +322,8 @@ static void build_wheel(wheel *w, int shape, int vertex, int n)
     m->corner_count = vertex == CORNER || vertex == BOUNDARY_CORNER;
     m->crease_vertices = m->corner_vertices = w->crease;
     m->crease_sharpness = m->corner_sharpness = forever;
-    for (int i = 0; i < 3 * m->vertex_count; i++) w->positions[i] = (float)(i * 7919 % 127) / 64 - 1;
+    for (int i = 0; i < 3 * m->vertex_count; i++)
+        w->positions[i] = (float)(i * 7919 % 127) / 64 - 1;
 }
 
 // At vertex 0, near it, on its edges; floats are not so near to other corners of the face.
