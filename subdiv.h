@@ -7654,6 +7654,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
 #define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
+#define SDV_NEST_FAR 100                // levels down, where a nest without limit masks has arrived
 #define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
@@ -9298,16 +9299,28 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
     sdv_put_columns(rows, loop, at, order, out);
 }
 
-// The same of four channels straight from a patch.
-static void sdv_deep_values(const sdv_deep_patch *deep, float x, float y, float s, sdv_four *out)
+// How a part of a patch weighs its control points, in values and derivatives: unit vectors, four at
+// a time, show it. weights [16], of which Loop has 12.
+static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                              const sdv_where *at, double (*weights)[6])
 {
-    sdv_where at = { x, y, s, s };
-    float data[4 * SDV_SLOTS];
-    double origin[4];
+    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    double unit[16][4] = { { 0 } }, origin[4];
+    float data[4 * SDV_SLOTS], w[4];
     sdv_polynomial q;
-    sdv_deep_polynomial(deep, 0, &q, origin);
-    sdv_keep_polynomial(&q, origin, 1, 4, data);
-    sdv_polynomial_values(data, deep->rules->loop, 4, &at, 2, out);
+    sdv_deep_patch deep = sdv_deep(surface, patch, same, unit[0]);
+    for (int first = 0; first < sdv_control_points(&surface->rules); first += 4) {
+        sdv_four values[6];
+        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
+        sdv_deep_polynomial(&deep, part, &q, origin);
+        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
+        sdv_keep_polynomial(&q, origin, 1, 4, data);
+        sdv_polynomial_values(data, surface->rules.loop, 4, at, 2, values);
+        for (int d = 0; d < 6; d++) {
+            sdv_store(w, values[d]);
+            for (int i = 0; i < 4; i++) weights[first + i][d] = (double)w[i];
+        }
+    }
 }
 
 // What is asked for of a patch, at location i, of channels from c on.
@@ -9366,35 +9379,34 @@ static void sdv_cross(const double *a, const double *b, double *n)
     n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// From the patch of a child, where (x, y) is not in the next nest: unit vectors, four at a time,
-// show how it weighs its control points. (On a sharp edge, those beside it not at all: there the
-// surface may grow without bound as seen from the vertex, while along the edge it does not.)
+// How the child of a nest's face that has (x, y), which is not in the next nest, weighs its control
+// points, which come back. (On a sharp edge, those beside it not at all: there the surface may grow
+// without bound as seen from the vertex, while along the edge it does not.)
+static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
+                                    int face, double x, double y, double (*weights)[6])
+{
+    double scale = 2;
+    int child = surface->rules.loop ? sdv_descend_triangle(&x, &y, &scale)
+                                    : sdv_descend_quad(&x, &y);
+    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
+    const int *points;
+    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
+    sdv_patch_weights(surface, patch, 0, &at, weights);
+    return points;
+}
+
+// A sample of that child, at (x, y).
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
     const sdv_nest_state *state = &s->state;
-    int loop = state->surface->rules.loop, count = state->kind->width;
-    double scale = 2;
-    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
-    const int *points;
-    const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
-    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    double unit[16][4] = { { 0 } };
-    sdv_deep_patch deep = sdv_deep(state->surface, patch, same, unit[0]);
+    double weights[16][6];
+    const int *points = sdv_child_weights(state->surface, state->kind, s->face, x, y, weights);
     sdv_nest_refine(&s->state);
     memset(s->values, 0, sizeof s->values);
-    for (int first = 0; first < count; first += 4) {
-        sdv_four weights[6];
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
-        sdv_deep_values(&deep, (float)x, (float)y, (float)scale, weights);
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
-        for (int d = 0; d < 6; d++) {
-            float w[4];
-            sdv_store(w, weights[d]);
-            for (int i = 0; i < 4; i++)
-                for (int c = 0; c < 4; c++)
-                    s->values[d][c] += (double)w[i] * state->w[4 * points[first + i] + c];
-        }
-    }
+    for (int i = 0; i < state->kind->width; i++)
+        for (int d = 0; d < 6; d++)
+            for (int c = 0; c < 4; c++)
+                s->values[d][c] += weights[i][d] * state->w[4 * points[i] + c];
     for (int c = 0; c < 4; c++) {
         s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
         for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
@@ -9428,7 +9440,7 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
         memcpy(s->tangents, limit[1], sizeof s->tangents);
     } else {
         double along[2][4];
-        sdv_nest_go_down(s, 100);
+        sdv_nest_go_down(s, SDV_NEST_FAR);
         sdv_nest_child(s, 0.5, 0);
         memcpy(along[0], s->values[1], sizeof along[0]);
         sdv_nest_child(s, 0, 0.5);
@@ -9460,11 +9472,19 @@ static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// How many levels down a sample is, in the nest of each.
-static int sdv_nest_levels(const sdv_nest_sample *s, int loop)
+// A place on a face of a nest as seen from the vertex.
+static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
+{
+    sdv_turn_place(loop, turn, u, v, x, y);
+    if (*x < 0) *x = 0;
+    if (*y < 0) *y = 0;
+}
+
+// How many levels down it is, in the nest of each.
+static int sdv_nest_levels(int loop, double x, double y)
 {
     int down;
-    frexp(loop ? s->x + s->y : s->x > s->y ? s->x : s->y, &down);
+    frexp(loop ? x + y : x > y ? x : y, &down);
     return down > 0 ? 0 : -down;
 }
 
@@ -9473,8 +9493,8 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
                               double *w)
 {
     const subdiv_surface *surface = e->surface;
-    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(s, surface->rules.loop);
-    int deep = e->memory.deep && !vertex && down >= SDV_NEST_DEPTH;
+    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
+    int deep = !vertex && down >= SDV_NEST_DEPTH;
     const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
     if (deep) sdv_nest_resume(&s->state, surface, nest, sdv_deep_nest(e, nest, c), w);
     else sdv_nest_load(&s->state, surface, nest, work, w);
@@ -9529,9 +9549,7 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, dou
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
     s.face = number - surface->exact->nests[face->nest].face;
-    sdv_turn_place(surface->rules.loop, face->turn, x, y, &s.x, &s.y);
-    if (s.y < 0) s.y = 0;
-    if (s.x < 0) s.x = 0;
+    sdv_nest_place(surface->rules.loop, face->turn, x, y, &s.x, &s.y);
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
         sdv_nest_evaluate(&s, e, face->nest, c, w);
@@ -9725,12 +9743,15 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 // ------------------------------------------------------------------------------ >>stencils
 // No rule is here a second time: rows have weights, and what a patch does to its control points
 // shows when it evaluates unit vectors, one control point 1 and all others 0. So a point is a sum
-// of work points, and each of these, through its row, a sum of others, down to the cage's.
+// of work points, and each of these, through its row, a sum of others, down to the cage's. These
+// sums are kept, but for long ones: near a vertex of high valence there are many.
 
 typedef struct sdv_entry {
     double weight;
     int    vertex;                      // of the cage, or a value's number
 } sdv_entry;
+
+enum { SDV_LONGEST_KNOWN = 64, SDV_LONG = -1 };
 
 typedef struct sdv_stencil_maker {
     sdv_context *context;
@@ -9739,13 +9760,14 @@ typedef struct sdv_stencil_maker {
 
     sdv_array  known;                   // sdv_entry: of all work points that are known,
     size_t    *starts;                  // [work_count] where each one's start, and
-    int       *sizes;                   // [work_count] how many there are; 0: not known yet
+    int       *sizes;                   // [work_count] how many there are; 0: not known yet,
+                                        // SDV_LONG: too many to be kept
 
     int        parts;                   // 3 with tangents, else 1
     int        size;                    // the sum that is being made: so many
-    int       *vertices;                // [cage_vertex_count] vertices, with
-    double    *sums;                    // [cage_vertex_count * parts] weights, and where
-    int       *places;                  // [cage_vertex_count] each vertex stands, or -1
+    int       *vertices;                // [work_count] vertices, or long work points, with
+    double    *sums;                    // [work_count * parts] weights, and where
+    int       *places;                  // [work_count] each stands, or -1
 
     size_t    *offsets;                 // [points + 1] what is made
     sdv_array  indices, weights;        // ints, floats [parts] each
@@ -9754,7 +9776,7 @@ typedef struct sdv_stencil_maker {
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
                                   const subdiv_surface *surface, int points, int parts)
 {
-    size_t vertices = (size_t)surface->cage_vertex_count, work = (size_t)surface->work_count;
+    size_t work = (size_t)surface->work_count;
     memset(make, 0, sizeof *make);
     make->context = context;
     make->surface = surface;
@@ -9762,13 +9784,13 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     make->arena = sdv_scratch();
     make->starts = SDV_NEW(context, &make->arena, size_t, work);
     make->sizes = SDV_NEW(context, &make->arena, int, work);
-    make->vertices = SDV_NEW(context, &make->arena, int, vertices);
-    make->sums = SDV_NEW(context, &make->arena, double, vertices * (size_t)parts);
-    make->places = SDV_NEW(context, &make->arena, int, vertices);
+    make->vertices = SDV_NEW(context, &make->arena, int, work);
+    make->sums = SDV_NEW(context, &make->arena, double, work * (size_t)parts);
+    make->places = SDV_NEW(context, &make->arena, int, work);
     make->offsets = SDV_NEW(context, &make->arena, size_t, (size_t)points + 1);
     if (context->result) return;
     memset(make->sizes, 0, work * sizeof(int));
-    for (size_t v = 0; v < vertices; v++) make->places[v] = -1;
+    for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
 }
 
@@ -9791,12 +9813,13 @@ static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, c
     for (int i = 0; i < parts; i++) sum[i] += factor * w[i];
 }
 
-// Adds a work point that is known, w [parts] times.
+// Adds a work point that is known or long, w [parts] times.
 static void sdv_add_work_point(sdv_stencil_maker *make, int point, const double *w)
 {
     const subdiv_surface *surface = make->surface;
-    if (point < surface->cage_vertex_count) {
-        sdv_add_to_sum(make, surface->source ? surface->source[point] : point, 1, w);
+    int cage = point < surface->cage_vertex_count;
+    if (cage || make->sizes[point] == SDV_LONG) {
+        sdv_add_to_sum(make, cage && surface->source ? surface->source[point] : point, 1, w);
         return;
     }
     const sdv_entry *entry = (const sdv_entry *)sdv_items(&make->known) + make->starts[point];
@@ -9835,33 +9858,31 @@ static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int coun
     for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
-// The weight of point i of a row with this mask: what the others leave of 1 is the first one's.
-static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i)
+// The weight of point i of a row with this mask. They are asked for from the last one to the first,
+// which has what the others left of 1.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i, double *left)
 {
-    double left = 1;
-    if (i > 0) return (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
-    for (int j = 1; j < mask->count; j++) left -= sdv_row_weight(weights, mask, j);
-    return left;
+    if (i == 0) return *left;
+    double weight = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    *left -= weight;
+    return weight;
 }
 
-static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points)
+// Adds the points of a row, w times.
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points,
+                        const double *w)
 {
-    double w[3] = { 0, 0, 0 };
-    for (int i = 0; i < mask->count; i++) {
-        w[0] = sdv_row_weight(make->surface->masks.weights, mask, i);
-        sdv_add_work_point(make, points[i], w);
+    double product[3], left = 1;
+    for (int i = mask->count - 1; i >= 0; i--) {
+        double weight = sdv_row_weight(make->surface->masks.weights, mask, i, &left);
+        for (int k = 0; k < make->parts; k++) product[k] = weight * w[k];
+        sdv_add_work_point(make, points[i], product);
     }
 }
 
-static void sdv_compose(sdv_stencil_maker *make, int point)
+// Makes a sum known, that of a work point.
+static void sdv_keep_sum(sdv_stencil_maker *make, int point)
 {
-    const subdiv_surface *surface = make->surface;
-    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
-    const int *row = sdv_find_row(surface, point);
-    const sdv_weights *mask = &surface->masks.items[row[0]];
-    sdv_compose_all(make, row + 1, mask->count);
-    if (make->context->result) return;
-    sdv_add_row(make, mask, row + 1);
     sdv_entry *entry = (sdv_entry *)sdv_array_room(make->context, &make->known,
                                                    (size_t)make->size, sizeof *entry);
     for (int i = 0; i < make->size && entry; i++) {
@@ -9871,7 +9892,68 @@ static void sdv_compose(sdv_stencil_maker *make, int point)
     make->starts[point] = make->known.count;
     make->sizes[point] = make->size;
     if (entry) make->known.count += (size_t)make->size;
+}
+
+static void sdv_compose(sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
+    const int *row = sdv_find_row(surface, point);
+    const sdv_weights *mask = &surface->masks.items[row[0]];
+    const double one[3] = { 1, 0, 0 };
+    int any_long = 0;
+    sdv_compose_all(make, row + 1, mask->count);
+    if (make->context->result) return;
+    for (int i = 1; i <= mask->count; i++) any_long |= make->sizes[row[i]] == SDV_LONG;
+    if (!any_long) sdv_add_row(make, mask, row + 1, one);
+    if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
+    else sdv_keep_sum(make, point);
     sdv_end_sum(make);
+}
+
+// Takes number i out of the sum; the last one gets its place.
+static void sdv_take_from_sum(sdv_stencil_maker *make, int i, double *w)
+{
+    int last = --make->size;
+    for (int k = 0; k < make->parts; k++) {
+        double *sum = make->sums + k;
+        w[k] = sum[make->parts * i];
+        sum[make->parts * i] = sum[make->parts * last];
+    }
+    make->places[make->vertices[last]] = i;
+    make->places[make->vertices[i]] = -1;
+    make->vertices[i] = make->vertices[last];
+}
+
+// Long points that these rows make become those that they are made of.
+static void sdv_expand_rows(sdv_stencil_maker *make, const sdv_rows *rows)
+{
+    const subdiv_surface *surface = make->surface;
+    for (int i = 0; i < make->size && rows->count > 0; ) {
+        int point = make->vertices[i];
+        double w[3];
+        if (point < rows->first || point >= rows->first + rows->count) {
+            i++;
+            continue;
+        }
+        const int *row = sdv_find_row(surface, point);
+        sdv_take_from_sum(make, i, w);
+        sdv_add_row(make, &surface->masks.items[row[0]], row + 1, w);
+    }
+}
+
+// Each long point is expanded once: when all that are made of it have been.
+static void sdv_expand_sum(sdv_stencil_maker *make)
+{
+    const subdiv_surface *surface = make->surface;
+    int any_long = 0;
+    for (int i = 0; i < make->size; i++)
+        any_long |= make->vertices[i] >= surface->cage_vertex_count;
+    for (int i = any_long ? surface->levels : 0; i-- > 0; ) {
+        sdv_expand_rows(make, &surface->steps[i].edges);
+        sdv_expand_rows(make, &surface->steps[i].vertices);
+        sdv_expand_rows(make, &surface->steps[i].faces);
+    }
 }
 
 // Gives what is missing from the total to the largest of count weights.
@@ -9885,16 +9967,18 @@ static void sdv_balance(double *weights, int count, int stride, double total)
     *largest += total;
 }
 
-// What is no more than rounding of the largest weight becomes 0.
+// What is no more than rounding of the largest weight becomes 0. Of more than 64 weights it is
+// less, as what is left out adds up.
 static void sdv_clean_part(sdv_stencil_maker *make, int part)
 {
     double *sums = make->sums + part, largest = 0;
     int parts = make->parts;
     if (make->size == 0) return;                    // a face without a surface
     for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
+    double rounding = (double)FLT_EPSILON * largest * fmin(1, 64.0 / make->size);
     for (int i = 0; i < make->size; i++) {
         double *w = &sums[parts * i];
-        *w = fabs(*w) <= (double)FLT_EPSILON * largest ? 0 : (double)(float)*w;
+        *w = fabs(*w) <= rounding ? 0 : (double)(float)*w;
     }
     sdv_balance(sums, make->size, parts, part == 0 ? 1 : 0);
 }
@@ -9916,6 +10000,7 @@ static void sdv_sort(int *numbers, int count)
 // Makes the sum stencil i.
 static void sdv_write_stencil(sdv_stencil_maker *make, int i)
 {
+    sdv_expand_sum(make);
     size_t parts = (size_t)make->parts, size = (size_t)make->size;
     int *index = (int *)sdv_array_room(make->context, &make->indices, size, sizeof(int));
     float *weight = (float *)sdv_array_room(make->context, &make->weights, parts * size,
@@ -10200,7 +10285,7 @@ static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *
     } else if (row) {
         const sdv_weights *mask = &surface->masks.items[row[0]];
         sdv_compose_all(make, row + 2, mask->count);
-        if (!make->context->result) sdv_add_row(make, mask, row + 2);
+        if (!make->context->result) sdv_add_row(make, mask, row + 2, one);
     } else if (record[0] < 0) {
         sdv_add_net(make, record);
     } else if (record[0] > 0) {
@@ -10239,39 +10324,6 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     return context.result;
 }
 
-// Evaluates unit vectors at locations: those of the work points that a location's leaf looks at,
-// four at a time, in scratch memory that is 0 everywhere else.
-typedef struct sdv_probe {
-    const subdiv_surface *surface;
-    void            *scratch;
-    sdv_exact_memory memory;            // parts of it
-    subdiv_options   opt;
-    unsigned char   *seen;              // [work_count] work points
-    int             *points;            // [most points of a leaf] those of this one, each once
-    double          *weights;           // [3 * most]
-} sdv_probe;
-
-static void sdv_probe_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
-                          sdv_probe *probe)
-{
-    const sdv_exact *exact = surface->exact;
-    size_t size = subdiv_scratch_size(surface, 4), work = (size_t)surface->work_count, most = 16;
-    for (int i = 0; i < exact->kind_count; i++)
-        if ((size_t)exact->kinds[i].points > most) most = (size_t)exact->kinds[i].points;
-    memset(probe, 0, sizeof *probe);
-    probe->surface = surface;
-    probe->opt.user = context->user;
-    probe->scratch = sdv_new(context, arena, size, 1);
-    probe->seen = SDV_NEW(context, arena, unsigned char, work);
-    probe->points = SDV_NEW(context, arena, int, most);
-    probe->weights = SDV_NEW(context, arena, double, 3 * most);
-    if (context->result) return;
-    probe->memory = sdv_exact_parts(surface, 4, probe->scratch);
-    probe->memory.deep = NULL;
-    memset(probe->memory.work, 0, sdv_exact_work_size(surface, 4));
-    memset(probe->seen, 0, work);
-}
-
 // The patch of a leaf that is none of a nest.
 static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, const int **points)
 {
@@ -10282,71 +10334,126 @@ static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, 
     return sdv_patch_of(surface, sdv_find_patch(surface, number), points);
 }
 
-// The work points that a leaf looks at, each once: how many.
-static int sdv_probe_points(sdv_probe *probe, int slot)
+// Adds the control points of a patch, or of the part of it that a location is on.
+static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
-    const subdiv_surface *surface = probe->surface;
-    const sdv_exact *exact = surface->exact;
-    int count = sdv_control_points(&surface->rules), distinct = 0;
+    const subdiv_surface *surface = make->surface;
     const int *points;
-    if ((~slot & 3) == SDV_LEAF_NEST) {
-        const sdv_nest *nest = &exact->nests[exact->nest_faces[~slot >> 2].nest];
-        points = exact->nest_points + nest->first;
-        count = exact->kinds[nest->kind].points;
-    } else {
-        sdv_leaf_patch(surface, slot, &points);
-    }
-    for (int i = 0; i < count; i++) {
-        if (probe->seen[points[i]]) continue;
-        probe->seen[points[i]] = 1;
-        probe->points[distinct++] = points[i];
-    }
-    for (int i = 0; i < distinct; i++) probe->seen[probe->points[i]] = 0;
-    return distinct;
+    const sdv_patch *patch = sdv_leaf_patch(surface, leaf.slot, &points);
+    double all[16][6], weights[3 * 16];
+    int count = sdv_control_points(&surface->rules), part = 0;
+    sdv_find_polynomial(surface, surface->rules.loop, &leaf);
+    if ((~leaf.slot & 3) == SDV_LEAF_CUT)
+        part = (int)leaf.polynomial - surface->exact->cuts[~leaf.slot >> 2].polynomial;
+    sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
+    sdv_patch_weights(surface, patch, part, &at, all);
+    for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
+    sdv_add_rounded(make, points, count, weights);
 }
 
-// Evaluates what the work points have at a location, by a polynomial made for it.
-static void sdv_probe_leaf(sdv_context *context, sdv_probe *probe, sdv_leaf leaf, float (*lanes)[4])
-{
-    const subdiv_surface *surface = probe->surface;
-    sdv_exact_evaluation e;
-    memset(&e, 0, sizeof e);
-    e.surface = surface;
-    e.channels = 4;
-    e.memory = probe->memory;
-    e.order = 1;
-    e.opt = &probe->opt;
-    for (int k = 0; k < 3; k++) e.out[k] = lanes[k];
-    leaf.deep = (~leaf.slot & 3) == SDV_LEAF_NEST;
-    if (!leaf.deep) {
-        const int *points;
-        const sdv_patch *patch = sdv_leaf_patch(surface, leaf.slot, &points);
-        sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-        int cut = (~leaf.slot & 3) == SDV_LEAF_CUT;
-        sdv_patch_polynomials(&e, patch, points,
-                              cut ? (size_t)surface->exact->cuts[~leaf.slot >> 2].polynomial
-                                  : leaf.polynomial);
-    }
-    sdv_put_leaf(&e, &leaf, surface->rules.loop, 0, 0);
-    if (e.failed[0]) sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-}
+// In a nest, weights go the way back from the patch to the nest's points: each point that a row
+// makes gives its own to those of the row, which takes as long as to evaluate once. They are those
+// of a point and its derivatives as seen from the vertex: w [3 * work_count], of the nest's points,
+// then of those of the next level.
 
-// Their weights: of the point, du and dv.
-static void sdv_probe_location(sdv_context *context, sdv_probe *probe, const sdv_leaf *leaf,
-                               int count)
+// sdv_nest_refine backwards, from the next level's points.
+static void sdv_unrefine_nest(const sdv_masks *masks, const sdv_step *step, double *w)
 {
-    float lanes[3][4];
-    for (int first = 0; first < count; first += 4) {
-        int some = count - first < 4 ? count - first : 4;
-        const int *points = probe->points + first;
-        for (int i = 0; i < some; i++) probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 1;
-        sdv_probe_leaf(context, probe, *leaf, lanes);
-        for (int i = 0; i < some; i++) {
-            probe->memory.work[4 * (size_t)points[i] + (size_t)i] = 0;
-            for (int k = 0; k < 3 && !context->result; k++)
-                probe->weights[3 * (size_t)(first + i) + (size_t)k] = (double)lanes[k][i];
+    const sdv_rows *rows[3] = { &step->edges, &step->vertices, &step->faces };
+    for (int k = 0; k < 3; k++) {
+        const int *row = rows[k]->items;
+        const double *from = w + 3 * (size_t)rows[k]->first;
+        for (int i = 0; i < rows[k]->count; i++, from += 3) {
+            const sdv_weights *mask = &masks->items[row[0]];
+            double left = 1;
+            for (int j = mask->count - 1; j >= 0; j--) {
+                double weight = sdv_row_weight(masks->weights, mask, j, &left);
+                for (int c = 0; c < 3; c++) w[3 * row[1 + j] + c] += weight * from[c];
+            }
+            row += 1 + mask->count;
         }
     }
+}
+
+// sdv_nest_descend backwards. The point is base + shrink w: shrink is halved when w is doubled, and
+// as base follows the vertex, that has what the others leave of 1. The derivatives are w's.
+static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
+{
+    double *vertex = w + 3 * kind->below[0];
+    for (int i = 3 * kind->points; i < 3 * kind->work_count; i++) w[i] = 0;
+    vertex[0] = 1;
+    for (int i = 0; i < 3 * kind->points; i++) {
+        double weight = (i % 3 ? 2 : 1) * w[i];
+        w[i] = 0;
+        w[3 * kind->below[i / 3] + i % 3] += weight;
+        vertex[i % 3] -= weight;
+    }
+}
+
+// What the patch at (x, y) weighs its control points with, in one part up to another.
+static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
+                            double x, double y, int part, int end, double *w)
+{
+    double weights[16][6];
+    const int *points = sdv_child_weights(surface, kind, face, x, y, weights);
+    for (int i = 0; i < kind->width; i++)
+        for (int k = part; k < end; k++) w[3 * points[i] + k] += weights[i][k];
+}
+
+// See sdv_nest_vertex.
+static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
+{
+    const double *limit = kind->limit, *t0 = limit + kind->points, *t1 = t0 + kind->points;
+    double turn = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
+    for (int i = 0; i < kind->points; i++) w[3 * i] = limit[i];
+    for (int k = 0; k < 2; k++) {
+        double along = cos((face + k) * turn), across = sin((face + k) * turn);
+        for (int i = 0; i < kind->points; i++) w[3 * i + 1 + k] = along * t0[i] + across * t1[i];
+    }
+}
+
+// Weighs the points of a nest at (x, y) on a face of it, as sdv_nest_evaluate does.
+static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
+                           double x, double y, double *w)
+{
+    int vertex = x <= 0 && y <= 0, down = sdv_nest_levels(surface->rules.loop, x, y);
+    if (vertex && kind->limit) {
+        sdv_weigh_masks(kind, face, w);
+        return;
+    }
+    for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
+    if (vertex) {
+        down = SDV_NEST_FAR;
+        sdv_weigh_child(surface, kind, face, 0.5, 0, 1, 2, w);
+        sdv_weigh_child(surface, kind, face, 0, 0.5, 2, 3, w);
+    } else {
+        sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), 0, 3, w);
+    }
+    sdv_unrefine_nest(&surface->masks, &kind->step, w);
+    for (int i = 0; i < down; i++) {
+        sdv_ascend_nest(kind, w);
+        sdv_unrefine_nest(&surface->masks, &kind->step, w);
+    }
+}
+
+// Adds the points of a nest.
+static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, double *w)
+{
+    const subdiv_surface *surface = make->surface;
+    const sdv_exact *exact = surface->exact;
+    const sdv_nest_face *face = &exact->nest_faces[~leaf->slot >> 2];
+    const sdv_nest *nest = &exact->nests[face->nest];
+    const sdv_nest_kind *kind = &exact->kinds[nest->kind];
+    const signed char *t = sdv_turns[surface->rules.loop][face->turn];
+    double x, y;
+    sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
+    sdv_weigh_nest(surface, kind, (~leaf->slot >> 2) - nest->face, x, y, w);
+    for (int i = 0; i < kind->points; i++) {
+        double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
+        w[3 * i + 1] = t[0] * dx + t[2] * dy;
+        w[3 * i + 2] = t[1] * dx + t[3] * dy;
+    }
+    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w);
 }
 
 static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
@@ -10354,17 +10461,13 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
                             const subdiv_location *locations)
 {
     sdv_stencil_maker make;
-    sdv_probe probe;
     sdv_stencil_maker_new(context, &make, surface, count, 3);
-    sdv_probe_new(context, &make.arena, surface, &probe);
+    double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context->result; i++) {
         sdv_leaf leaf;
         sdv_locate(surface, surface->rules.loop, &locations[i], &leaf);
-        if (leaf.slot) {
-            int points = sdv_probe_points(&probe, leaf.slot);
-            sdv_probe_location(context, &probe, &leaf, points);
-            if (!context->result) sdv_add_rounded(&make, probe.points, points, probe.weights);
-        }
+        if ((~leaf.slot & 3) == SDV_LEAF_NEST) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.slot) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
     }
     sdv_copy_stencils(&make, count, stencils);
@@ -14277,8 +14380,9 @@ static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int
 {
     const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
     const float *weights = (const float *)sdv_items(&writer->weights);
-    for (int i = 0; i < mask->count; i++)
-        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i);
+    double left = 1;
+    for (int i = mask->count - 1; i >= 0; i--)
+        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i, &left);
 }
 
 // How many vertices from place i of the order on weigh the same.

@@ -285,6 +285,121 @@ static void test_anywhere(void)
     }
 }
 
+// ----------------------------------------------------------------------- around irregular vertices
+
+// Quads, triangles under Catmull-Clark, Loop; and what the vertex 0 of their faces is. Each face
+// starts one vertex later than the one before.
+enum { QUADS, TRIANGLES, LOOP, SHAPES };
+enum { SMOOTH, DART, CREASE, CORNER, BOUNDARY, BOUNDARY_CORNER, VERTICES };
+enum { MOST_FACES = 2000 };
+
+typedef struct wheel {
+    subdiv_mesh mesh;
+    float positions[3 * (2 * MOST_FACES + 2)];
+    int   faces[4 * MOST_FACES], crease[4];
+} wheel;
+
+static void build_wheel(wheel *w, int shape, int vertex, int n)
+{
+    static float forever[2] = { SUBDIV_INFINITE, SUBDIV_INFINITE };
+    int open = vertex >= BOUNDARY, spokes = n + open, size = shape == QUADS ? 4 : 3;
+    subdiv_mesh *m = &w->mesh;
+    memset(w, 0, sizeof *w);
+    m->scheme = shape == LOOP ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK;
+    m->vertex_count = 1 + spokes + (shape == QUADS ? n : 0);
+    m->positions = w->positions;
+    m->face_count = n;
+    m->face_size = size;
+    m->face_vertices = w->faces;
+    for (int f = 0; f < n; f++) {
+        int face[4] = { 0, 1 + f, 1 + spokes + f, 1 + (f + 1) % spokes };
+        if (shape != QUADS) face[2] = face[3];
+        for (int i = 0; i < size; i++) w->faces[size * f + i] = face[(f + i) % size];
+    }
+    w->crease[1] = 1;
+    w->crease[3] = 1 + n / 2;
+    m->crease_count = vertex == DART ? 1 : vertex == CREASE ? 2 : 0;
+    m->corner_count = vertex == CORNER || vertex == BOUNDARY_CORNER;
+    m->crease_vertices = m->corner_vertices = w->crease;
+    m->crease_sharpness = m->corner_sharpness = forever;
+    for (int i = 0; i < 3 * m->vertex_count; i++)
+        w->positions[i] = (float)(i * 7919 % 127) / 64 - 1;
+}
+
+// At vertex 0, near it, on its edges; floats are not so near to other corners of the face.
+static int places_at_wheel(const wheel *w, int shape, subdiv_location *at)
+{
+    static const float places[9][2] = { {0, 0}, {1e-9f, 3e-10f}, {0, 1e-9f}, {1e-9f, 0},
+                                        {3e-6f, 2e-5f}, {0, 1e-3f}, {0.05f, 0.06f}, {0.26f, 0.14f},
+                                        {0.4f, 0} };
+    int n = w->mesh.face_count, size = w->mesh.face_size, count = 0;
+    const int faces[3] = { 0, n / 2, n - 1 };
+    for (int i = 0; i < (n > 100 ? 9 : 27); i++) {
+        float x = places[i % 9][0], y = places[i % 9][1];
+        int f = faces[i / 9], corner = 0;
+        while (w->faces[size * f + corner]) corner++;
+        subdiv_location here = { f, 0, x, y };
+        if (shape == TRIANGLES) here.corner = corner;
+        if (shape == LOOP && corner == 1) here.u = 1 - x - y, here.v = x;
+        if (shape == LOOP && corner == 2) here.u = y, here.v = 1 - x - y;
+        if (shape == QUADS && corner == 1) here.u = 1 - y, here.v = x;
+        if (shape == QUADS && corner == 2) here.u = 1 - x, here.v = 1 - y;
+        if (shape == QUADS && corner == 3) here.u = y, here.v = 1 - x;
+        at[count++] = here;
+    }
+    return count;
+}
+
+// Sums of the values beside evaluation.
+static void check_wheel(const wheel *w, int shape)
+{
+    subdiv_location at[27];
+    float out[3][3 * 27];
+    subdiv_derivatives values = { out[0], out[1], out[2], NULL, NULL, NULL, NULL, 0 };
+    subdiv_surface *surface;
+    subdiv_stencils s;
+    int count = places_at_wheel(w, shape, at);
+    CHECK_EQUAL(subdiv_prepare(&surface, &w->mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(surface, 3));
+    CHECK_EQUAL(subdiv_evaluate_begin(surface, 3, w->positions, 0, scratch, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, count, at, &values, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, count, at, NULL), SUBDIV_OK);
+    check_shape(&s, count, w->mesh.vertex_count);
+    check_sums(&s);
+    for (int i = 0; i < 3 * s.count; i++) {
+        double sum[3] = { 0 }, point = 0, derivative = 0;
+        for (size_t j = s.offsets[i / 3]; j < s.offsets[i / 3 + 1]; j++) {
+            double value = (double)w->positions[3 * s.indices[j] + i % 3];
+            sum[0] += (double)s.weights[j] * value;
+            sum[1] += (double)s.du[j] * value;
+            sum[2] += (double)s.dv[j] * value;
+            point += fabs((double)s.weights[j]);
+            derivative += fabs((double)s.du[j]) + fabs((double)s.dv[j]);
+        }
+        CHECK_NEAR(sum[0], out[0][i], 2e-6 * point);
+        CHECK_NEAR(sum[1], out[1][i], 1e-6 * derivative);
+        CHECK_NEAR(sum[2], out[2][i], 1e-6 * derivative);
+    }
+    subdiv_stencils_free(&s);
+    subdiv_surface_free(surface);
+    free(scratch);
+}
+
+static void test_valences(void)
+{
+    static const int valences[] = { 3, 4, 5, 6, 7, 8, 9, 10, 13, 19, 28, 41, 60, MOST_FACES };
+    static wheel w;
+    for (int i = 0; i < 14; i++)
+        for (int shape = 0; shape < SHAPES; shape++)
+            for (int vertex = 0; vertex < VERTICES; vertex++) {
+                int n = valences[i];
+                snprintf(where, sizeof where, "valence %d, shape %d, vertex %d", n, shape, vertex);
+                test_context = where;
+                build_wheel(&w, shape, vertex, n);
+                check_wheel(&w, shape);
+            }
+}
+
 // ------------------------------------------------------------------------------------ the papers
 
 // So many weights p/q of a point and no others; and of its tangents' sizes.
@@ -632,6 +747,7 @@ int main(void)
     RUN(test_limits);
     RUN(test_parts);
     RUN(test_anywhere);
+    RUN(test_valences);
     RUN(test_papers);
     RUN(test_explained_masks);
     RUN(test_explained_catmull_clark);
