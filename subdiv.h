@@ -8454,6 +8454,7 @@ typedef struct sdv_square {
 static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
 {
     sdv_leaf leaf;
+    memset(&leaf, 0, sizeof leaf);
     at.u = u;
     at.v = v;
     sdv_locate(surface, surface->rules.loop, &at, &leaf);
