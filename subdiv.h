@@ -3443,7 +3443,8 @@ static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
 //
 // So the quad is cut into strips: beside the crease those of level c whose control rows it changes,
 // one segment wide (two if there is a fraction), and the rest, which does not know that the edge
-// will ever be smooth.
+// will ever be smooth. (A triangle is no such product: along the crease, what is beside it in
+// Loop is not one polynomial but one for each segment of level c.)
 typedef struct sdv_strip {
     int   from, to;                     // segments of the last level that it covers
     int   origin, unit;                 // its own segment: where it starts, how long it is
