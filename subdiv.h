@@ -507,8 +507,9 @@ typedef struct subdiv_derivatives {
 // Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
 // face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
 // give zeros. Errors: INDEX and ARGUMENT (normals of fewer than 3 channels, a surface not prepared
-// so); those, for a location that does not exist (u, v outside the face by more than rounding), and
-// MEMORY (samples close to a vertex of high valence take some) may leave some others evaluated.
+// so). After the same for a location that does not exist or is outside its face by more than
+// rounding, and after MEMORY, which samples close to a vertex of high valence take, any part of out
+// may have been written.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -6738,10 +6739,10 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        int near = nine && !patch->up;
-        if (patch->h != h && (!near || limit || order->n > 2))
+        int small_grid = nine && !patch->up;
+        if (patch->h != h && (!small_grid || limit || order->n > 2))
             sdv_grid_at(order, h = patch->h, &grid);
-        if (near) {
+        if (small_grid) {
             if (limit) sdv_put_limit_nine(out, surface, patches, i, &grid, work);
             else sdv_put_nine(out, surface, patches, i, &grid, work);
             continue;
@@ -7201,13 +7202,13 @@ static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
 // See >>exact-surface.
 static size_t sdv_exact_size(const subdiv_surface *surface, int channels);
 
+static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt);
+
 // Is there room for so many bytes a channel, on a machine of 32 bits, too?
 static int sdv_addressable(int channels, double bytes)
 {
     return ((double)channels + 3) * bytes < (double)(SIZE_MAX / 2);
 }
-
-static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt);
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
@@ -8437,9 +8438,15 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
 #define SDV_CELL_BITS 8                 // of what is not the polynomial's number
 #define SDV_CELL_NONE 14u               // ask the tree
 
+// Of more polynomials than a cell can number, the last ones are left to the tree. (Tests ask for
+// fewer.)
+#ifndef SDV_CELL_POLYNOMIALS
+#define SDV_CELL_POLYNOMIALS ((size_t)1 << (32 - SDV_CELL_BITS))
+#endif
+
 static unsigned sdv_pack_cell(size_t polynomial, int across, int up, int turned)
 {
-    if (polynomial >> (32 - SDV_CELL_BITS)) return SDV_CELL_NONE;
+    if (polynomial >= SDV_CELL_POLYNOMIALS) return SDV_CELL_NONE;
     return (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(turned << 7 | up << 4 | across << 1);
 }
 
@@ -8448,8 +8455,9 @@ typedef struct sdv_square {
     subdiv_location at;
     int level, x, y, above;
     int node;                           // of the tree, or the leaf that it is on;
-    int depth;                          // in a nest: how many levels down
-    unsigned cell;                      // if one polynomial is all over it
+    int depth;                          // if that is a nest: how many levels down
+    int whole;                          // is one polynomial all over it? Then
+    unsigned cell;                      // its cell; else SDV_CELL_NONE
 } sdv_square;
 
 static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
@@ -8488,32 +8496,38 @@ static void sdv_square_node(const subdiv_surface *surface, sdv_square *square, i
     if (node < 0 && what == SDV_LEAF_PATCH)
         square->cell = sdv_pack_cell((size_t)(~node >> 2), level, level, square->above);
     if (node < 0 && what == SDV_LEAF_CUT) square->cell = sdv_cut_cell(surface, square);
+    square->whole = node < 0 && (what == SDV_LEAF_PATCH || square->cell != SDV_CELL_NONE);
 }
 
-// Number k of the four that a split makes of it.
+// Number k of the four that a split makes of it, which are numbered as by its vertices; the one of
+// Loop's that is in the middle comes last.
+static void sdv_place_square(sdv_square *square, int loop, int k)
+{
+    int middle = loop && k == 3, right = loop ? k == 1 : k == 1 || k == 2;
+    int up = loop ? k == 2 : k >= 2;
+    square->level++;
+    square->x = 2 * square->x + (square->above ? 1 - right : right);
+    square->y = 2 * square->y + (square->above ? 1 - up : up);
+    square->above ^= middle;
+}
+
 static sdv_square sdv_split_square(const subdiv_surface *surface, const sdv_square *square, int k)
 {
-    int loop = surface->rules.loop, sides = loop ? 3 : 4, middle = loop && k == 3;
-    int x = middle ? 0 : (k ^ (loop ? 0 : k >> 1)) & 1, y = middle ? 0 : k >> 1;
-    int number = ~square->node >> 2;
+    const sdv_exact *exact = surface->exact;
+    int loop = surface->rules.loop, sides = loop ? 3 : 4, number = ~square->node >> 2;
     sdv_square part = *square;
-    part.level++;
-    part.x = 2 * square->x + (square->above ? 1 - x : x);
-    part.y = 2 * square->y + (square->above ? 1 - y : y);
-    part.above ^= middle;
+    sdv_place_square(&part, loop, k);
     if (square->node >= 0) {
-        sdv_square_node(surface, &part, surface->exact->nodes[square->node + k]);
-    } else if ((~square->node & 3) == SDV_LEAF_CUT) {
-        part.cell = sdv_cut_cell(surface, &part);
-    } else if ((~square->node & 3) == SDV_LEAF_NEST && square->cell == SDV_CELL_NONE) {
-        int turn = surface->exact->nest_faces[number].turn;
+        sdv_square_node(surface, &part, exact->nodes[square->node + k]);
+    } else if (!square->whole && (~square->node & 3) == SDV_LEAF_NEST) {
+        int turn = exact->nest_faces[number].turn;
         int child = k < sides ? (k + sides - turn) % sides : k;
-        if (child == 0)
-            part.depth++;
-        else
-            part.cell = sdv_pack_cell(sdv_nest_polynomial(surface->exact, number, square->depth,
-                                                          child),
-                                      part.level, part.level, part.above);
+        size_t polynomial = sdv_nest_polynomial(exact, number, square->depth, child);
+        part.depth++;
+        part.whole = child > 0;
+        if (part.whole) part.cell = sdv_pack_cell(polynomial, part.level, part.level, part.above);
+    } else if (!square->whole) {
+        sdv_square_node(surface, &part, square->node);
     }
     return part;
 }
@@ -8528,8 +8542,7 @@ static size_t sdv_number_in_grid(const sdv_square *square)
 static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_surface *surface,
                            const sdv_square *square, size_t i)
 {
-    int grid = square->cell == SDV_CELL_NONE && square->level < SDV_CELL_LEVELS &&
-               square->depth < SDV_NEST_DEPTH;
+    int grid = !square->whole && square->level < SDV_CELL_LEVELS && square->depth < SDV_NEST_DEPTH;
     size_t first = cells->count;
     if (first > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
     if (context->result || (grid && !sdv_append(context, cells, 16, sizeof(unsigned)))) return;
@@ -8537,11 +8550,10 @@ static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_
     for (int k = 0; k < 4 && grid; k++) {
         sdv_square quarter = sdv_split_square(surface, square, k);
         for (int j = 0; j < 4; j++) {
-            sdv_square small = sdv_split_square(surface, &quarter, j);
-            size_t number = first + sdv_number_in_grid(&small);
-            if (quarter.cell == SDV_CELL_NONE)
-                sdv_make_cells(context, cells, surface, &small, number);
-            else ((unsigned *)sdv_items(cells))[number] = quarter.cell;
+            sdv_square part = sdv_split_square(surface, &quarter, j);
+            size_t number = first + sdv_number_in_grid(&part);
+            if (quarter.whole) ((unsigned *)sdv_items(cells))[number] = quarter.cell;
+            else sdv_make_cells(context, cells, surface, &part, number);
         }
     }
 }
@@ -8563,10 +8575,10 @@ static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
         if (exact->absent && exact->absent[f]) continue;
         int count = sdv_face_end(cage, own) - sdv_face_start(cage, own);
         for (int corner = 0; corner < (count == size ? 1 : count); corner++) {
-            sdv_square whole = { { f, corner, 0, 0 }, 0, 0, 0, 0, 0, 0, 0 };
+            sdv_square face = { { f, corner, 0, 0 }, 0, 0, 0, 0, 0, 0, 0, SDV_CELL_NONE };
             int i = sdv_face_node(cage, loop, own, corner);
-            sdv_square_node(surface, &whole, exact->nodes[i]);
-            sdv_make_cells(context, &cells, surface, &whole, (size_t)i);
+            sdv_square_node(surface, &face, exact->nodes[i]);
+            sdv_make_cells(context, &cells, surface, &face, (size_t)i);
         }
     }
     exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
@@ -8600,7 +8612,7 @@ typedef struct sdv_lookup {
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
 
-// Clamps them to their faces. Are those there, and are they on them without?
+// Clamps them to their faces. Do all faces exist, and was no location moved?
 SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
                                   const subdiv_location *locations, int count, sdv_lookup *l)
 {
@@ -8989,7 +9001,7 @@ static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int 
 typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
     double *nest;                       // [4 * most_work]
-    double *deep;                       // [4 * (nest_count + nest_point_count)] for every four
+    double *kept;                       // [4 * (nest_count + nest_point_count)] for every four
     float  *polynomials;                // [SDV_SLOTS] each, channel by channel
 } sdv_exact_memory;
 
@@ -9005,7 +9017,7 @@ static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
     return sdv_exact_doubles(channels, (size_t)surface->work_count);
 }
 
-static size_t sdv_exact_deep_count(const sdv_exact *exact)
+static size_t sdv_exact_kept_count(const sdv_exact *exact)
 {
     return (size_t)exact->nest_count + (size_t)exact->nest_point_count;
 }
@@ -9020,7 +9032,7 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
     const sdv_exact *exact = surface->exact;
     size_t count = (size_t)exact->polynomial_count +
                    3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
-    size_t deep = sdv_exact_deep_count(exact), polynomial = SDV_SLOTS * sizeof(float);
+    size_t deep = sdv_exact_kept_count(exact), polynomial = SDV_SLOTS * sizeof(float);
     double doubles = (double)surface->work_count + (double)deep + (double)exact->most_work;
     if (!sdv_addressable(channels, sizeof(double) * doubles + (double)polynomial * (double)count))
         return SIZE_MAX;
@@ -9043,8 +9055,8 @@ static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int chann
     base += sdv_exact_work_size(surface, channels);
     memory.nest = (double *)(void *)base;
     base += sdv_exact_nest_size(surface);
-    memory.deep = (double *)(void *)base;
-    base += sdv_exact_doubles(channels, sdv_exact_deep_count(surface->exact));
+    memory.kept = (double *)(void *)base;
+    base += sdv_exact_doubles(channels, sdv_exact_kept_count(surface->exact));
     memory.polynomials = (float *)(void *)sdv_align(base);
     return memory;
 }
@@ -9076,9 +9088,10 @@ static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, d
     sdv_store(first, slots[0]);
     for (int l = 0; l < 4; l++) first[l] = (float)(origin[l] + (double)first[l]);
     slots[0] = sdv_load(first);
-    for (int k = 0; k < SDV_SLOTS; k++)         // four lanes each as long as there is room for them
+    for (int k = 0; k < SDV_SLOTS; k++) {       // what four lanes are too many is overwritten
         if (k + 4 <= SDV_SLOTS) sdv_store(out + lanes * k, slots[k]);
         else sdv_store_some(out + lanes * k, slots[k], lanes);
+    }
 }
 
 // Where polynomial number i is, from channel c on.
@@ -9088,10 +9101,10 @@ static float *sdv_polynomial_at(const sdv_exact_evaluation *e, size_t i, int c)
 }
 
 // What is kept of a nest, of channels from c on.
-static double *sdv_deep_nest(const sdv_exact_evaluation *e, int number, int c)
+static double *sdv_kept_nest(const sdv_exact_evaluation *e, int number, int c)
 {
     const sdv_exact *exact = e->surface->exact;
-    return e->memory.deep + (size_t)c * sdv_exact_deep_count(exact) +
+    return e->memory.kept + (size_t)c * sdv_exact_kept_count(exact) +
            4 * ((size_t)exact->nests[number].first + (size_t)number);
 }
 
@@ -9153,7 +9166,7 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
             }
             sdv_nest_descend(&s);
         }
-        double *kept = sdv_deep_nest(e, number, c);
+        double *kept = sdv_kept_nest(e, number, c);
         memcpy(kept, s.base, sizeof s.base);
         memcpy(kept + 4, w, 4 * sizeof(double) * (size_t)s.kind->points);
     }
@@ -9496,14 +9509,14 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
 {
     const subdiv_surface *surface = e->surface;
     int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
-    int deep = !vertex && down >= SDV_NEST_DEPTH;
+    int kept = !vertex && down >= SDV_NEST_DEPTH;
     const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
-    if (deep) sdv_nest_resume(&s->state, surface, nest, sdv_deep_nest(e, nest, c), w);
+    if (kept) sdv_nest_resume(&s->state, surface, nest, sdv_kept_nest(e, nest, c), w);
     else sdv_nest_load(&s->state, surface, nest, work, w);
     if (vertex) {
         sdv_nest_vertex(s);
     } else {
-        sdv_nest_go_down(s, deep ? down - SDV_NEST_DEPTH : down);
+        sdv_nest_go_down(s, kept ? down - SDV_NEST_DEPTH : down);
         sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
     }
     if (e->normals && c == 0) sdv_nest_normal(s, nest, work);
@@ -9546,7 +9559,7 @@ static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, dou
     const sdv_nest_face *face = &surface->exact->nest_faces[number];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
     int count = sdv_nest_work(surface->exact, face->nest);
-    double small[4 * SDV_NEST_STACK], *w = small;
+    double stack[4 * SDV_NEST_STACK], *w = stack;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
@@ -9590,7 +9603,7 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
     sdv_put_leaf(e, &leaf, loop, job, i);
 }
 
-// Locations, looked up, and where their polynomials are; NULL: ask the tree.
+// Locations, looked up, and where their polynomials are, unless the tree is to be asked.
 typedef struct sdv_batch {
     sdv_lookup at;
     const float *data[SDV_LOOKUP];
@@ -9604,11 +9617,8 @@ SDV_INLINE int sdv_find_batch(sdv_exact_evaluation *e, int job, int loop, size_t
         e->refused[job] = 1;
         return 0;
     }
-    for (int k = 0; k < count; k++) {
-        unsigned cell = batch->at.cells[k];
-        const float *data = e->memory.polynomials + width * (cell >> SDV_CELL_BITS);
-        batch->data[k] = cell == SDV_CELL_NONE ? NULL : data;
-    }
+    for (int k = 0; k < count; k++)
+        batch->data[k] = e->memory.polynomials + width * (batch->at.cells[k] >> SDV_CELL_BITS);
     return 1;
 }
 
@@ -9618,7 +9628,7 @@ SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int la
 {
     const sdv_lookup *l = &batch->at;
     sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
-    if (!batch->data[k]) sdv_put_location(e, loop, job, i);
+    if (l->cells[k] == SDV_CELL_NONE) sdv_put_location(e, loop, job, i);
     else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
     else sdv_put_channels(e, batch->data[k], loop, &at, i);
 }
@@ -9634,18 +9644,20 @@ static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, i
 }
 
 // While a batch is evaluated, the polynomials of the next one, which is looked up, are fetched.
-// (The last one is its own next one.)
 SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
 {
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs), ahead;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs), third;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    size_t third = SDV_SLOTS * (size_t)e->channels / 3;
-    sdv_batch batches[2], *batch = batches, *next = batches + 1, *swap;
+    sdv_batch batches[2], *batch = batches, *next = batches + 1, *last;
     if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, loop, i, SDV_LOOKUP, next)) return;
+    third = SDV_SLOTS * (size_t)e->channels / 3;
     while (end - i >= SDV_LOOKUP) {
-        swap = batch, batch = next, next = swap;
-        ahead = end - i >= 2 * SDV_LOOKUP ? i + SDV_LOOKUP : i;
-        if (!sdv_find_batch(e, job, loop, ahead, SDV_LOOKUP, next)) return;
+        last = batch;
+        batch = next;
+        if (end - i >= 2 * SDV_LOOKUP) {
+            next = last;
+            if (!sdv_find_batch(e, job, loop, i + SDV_LOOKUP, SDV_LOOKUP, next)) return;
+        }
         for (int k = 0; k < SDV_LOOKUP; k++, i++) {
             sdv_prefetch(next->data[k]);
             sdv_prefetch(next->data[k] + third);
@@ -10727,13 +10739,13 @@ static void sdv_cut_quads(int *faces, int count)
 static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
     int margin = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
-    int far = tile->ngon ? 0 : margin, last = tile->grid.columns - far;
+    int cut = tile->ngon ? 0 : margin, last = tile->grid.columns - cut;
     int *faces = out->vertices + out->face_vertices;
     for (int i = 0; i < grids; i++) {
         sdv_row low = { { 0, 0 }, 0, 0, 0 };
-        for (int row = margin; row <= tile->grid.rows - far; row++) {
+        for (int row = margin; row <= tile->grid.rows - cut; row++) {
             int end = tile->loop ? last - row : last;
-            if (end < margin + !tile->loop) break;
+            if (end < margin + !tile->loop) break;      // rows of quads are not empty
             sdv_row high = sdv_tile_row(tile, i, row, margin, end);
             if (row > margin && tile->loop) {
                 faces = sdv_triangle_faces(&low, &high, faces);
@@ -10893,10 +10905,10 @@ typedef struct sdv_samples {
 // half of one, any other triangle the lower), and makes the points that are there:
 //
 //     +---+---+       those between cells belong to the cell that is nearer to the middle of the
-//     | > | < |       grid or, on an edge of the face, of that, so that what remains of a nest
-//     +---+---+       has no points but its vertex as soon as it is as small as the pieces of the
-//     | > | < |       grid. In triangles, u, v and 1 - u - v all tend to 1/3, which no line has
-//     +---+---+
+//     | > | < |       grid or, if they are on an edge of the face, of the edge, so that what is
+//     +---+---+       left of a nest has no points but its vertex as soon as it is as small as the
+//     | > | < |       pieces of the grid. In triangles the middle is where u, v and 1 - u - v are
+//     +---+---+       1/3: no line between cells, which are at multiples of 2^-bits, is there
 typedef struct sdv_cell {
     int     bits;                       // 2^bits units are a side of the grid: it is, in these,
     int64_t left, right, bottom, top;   // from left to right and from bottom to top
@@ -10957,7 +10969,7 @@ static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
 {
     int degree = vertex->state.surface->rules.loop ? 4 : 3;
     float p[3][4];
-    sdv_nest_vertex(vertex);
+    if (!vertex->state.kind->limit) sdv_nest_vertex(vertex);
     for (int c = 0; c < 4; c++) {
         p[0][c] = (float)vertex->values[0][c];
         p[1][c] = (float)vertex->tangents[0][c];
@@ -10999,7 +11011,7 @@ typedef struct sdv_line_points {
     int     index, step;                // of point first, and from point to point
 } sdv_line_points;
 
-// The points of a window that starts with the first one.
+// Points of a line, of a window that starts with point 0; their tangents wait.
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
@@ -11024,6 +11036,7 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     }
 }
 
+// Rows and columns; the slanted sides of triangles point by point.
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 {
     const sdv_cell *cell = &l->cell;
@@ -11272,7 +11285,7 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
         sdv_cell cell = sdv_nest_cell(tile, face, depth, 0);
         int64_t units = sdv_units(&cell), x = (int64_t)cell.x, y = (int64_t)cell.y;
         int corner = (x == 0 || x == units) && (y == 0 || y == units);
-        int middle = units <= 2;                // is it one of its sides?
+        int middle = units <= 2;                // of an edge: one of its halves has it
         if (units > most || (units == most && units > 1 && corner && !middle))
             return depth;
     }
@@ -11305,6 +11318,8 @@ static void sdv_put_nest_points(const sdv_samples *s, const sdv_window *out, int
     sdv_nest_sample vertex;
     sdv_nest_load(&vertex.state, surface, number, s->source->work, w);
     int count = vertex.state.kind->faces;
+    vertex.face = 0;
+    if (vertex.state.kind->limit) sdv_nest_vertex(&vertex);     // as subdiv_evaluate_at
     for (int i = 0; i < count; i++) {
         sdv_tile tile = sdv_tile_at(s->tiling, sdv_face_of(s->tiling->cage, faces[i].place.h));
         int depth = sdv_nest_depth(&tile, &faces[i]);
@@ -11335,7 +11350,7 @@ static void sdv_sample_job(void *context, int job)
     int i = sdv_share(count, job, s->jobs), end = sdv_share(count, job + 1, s->jobs);
     sdv_context here = { SUBDIV_OK, NULL, s->user, NULL };
     sdv_arena arena = sdv_new_arena(0);
-    double small[4 * SDV_NEST_STACK], *large = NULL;
+    double stack[4 * SDV_NEST_STACK], *large = NULL;
     int lanes = s->source->channels;
     sdv_tangents tangents;
     sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, NULL };
@@ -11351,7 +11366,7 @@ static void sdv_sample_job(void *context, int job)
     for (; i < end && !here.result; i++) {
         int few = sdv_nest_work(exact, i - patches) <= SDV_NEST_STACK;
         if (!few && !large) large = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
-        if (!here.result) sdv_put_nest_points(s, &out, i - patches, few ? small : large);
+        if (!here.result) sdv_put_nest_points(s, &out, i - patches, few ? stack : large);
     }
     sdv_flush_tangents(&tangents);
     s->failed[job] = here.result != SUBDIV_OK;
@@ -14879,7 +14894,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_IMPLIED
 #undef SDV_CHECKED
 #undef SDV_MOST_JOBS
-#undef SDV_SAMPLES
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS

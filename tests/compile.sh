@@ -22,6 +22,7 @@ c c99 $from/c99.c
 c two_files $from/two_files_a.c $from/two_files_b.c
 c include_twice $from/include_twice.c
 c decorated $from/decorated.c
+c other_macros $from/other_macros.c
 c no_stdio $from/no_stdio.c
 # Private copies of all functions are more than one file uses.
 c static_twice -Wno-unused-function $from/static_twice_a.c $from/static_twice_b.c

@@ -5,6 +5,8 @@
 //     cc -I. tests/test_exact.c -o build/test_exact -lm -pthread && build/test_exact
 #include <stdlib.h>
 
+static size_t most_cell_polynomials = (size_t)1 << 24;
+#define SDV_CELL_POLYNOMIALS most_cell_polynomials
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "cages.h"
@@ -750,6 +752,33 @@ static void test_batches(void)
     }
 }
 
+// With more polynomials than cells can number, the tree finds the others.
+static void test_many_polynomials(void)
+{
+    static subdiv_location at[MANY];
+    static float p[2][3 * MANY];
+    for (int i = 0; i < 200; i++) {
+        random_cage *c = random_cage_new((unsigned)(1 + i % 20), RANDOM_ALL & ~RANDOM_HOLES);
+        c->mesh.boundary = SUBDIV_BOUNDARY_EDGE;
+        random_places(c, at);
+        for (int k = 0; k < 2; k++) {
+            const subdiv_derivatives out = { p[k], NULL, NULL, NULL, NULL, NULL, NULL, 0 };
+            subdiv_surface *surface = NULL;
+            CHECK_EQUAL(subdiv_prepare(&surface, &c->mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+            void *scratch = malloc(subdiv_scratch_size(surface, 3));
+            subdiv_evaluate_begin(surface, 3, c->mesh.positions, 0, scratch, NULL);
+            CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, MANY, at, &out, NULL), SUBDIV_OK);
+            size_t count = (size_t)surface->exact->polynomial_count +
+                           3 * SDV_NEST_DEPTH * (size_t)surface->exact->nest_face_count;
+            most_cell_polynomials = k ? (size_t)1 << 24 : (size_t)i * count / 200;
+            free(scratch);
+            subdiv_surface_free(surface);
+        }
+        for (int k = 0; k < 3 * MANY; k++) CHECK_NEAR(p[0][k], p[1][k], 1e-4);
+        random_cage_free(c);
+    }
+}
+
 // A pentagon without values beside a quad that has some: it has five corners all the same.
 static void test_without_values(void)
 {
@@ -954,6 +983,7 @@ int main(void)
     RUN(test_single_faces);
     RUN(test_channels);
     RUN(test_batches);
+    RUN(test_many_polynomials);
     RUN(test_without_values);
     RUN(test_values);
     RUN(test_locations);

@@ -1,0 +1,22 @@
+// Behind headers that define common words as macros, as those of Windows do.
+#define near
+#define far
+#define small char
+#define interface struct
+#define min(a, b) ((a) < (b) ? (a) : (b))
+#define max(a, b) ((a) > (b) ? (a) : (b))
+#define IN
+#define OUT
+#define VOID void
+#define CONST const
+#define ERROR 0
+#define DELETE 0x00010000L
+#define RGB(r, g, b) ((r) | (g) << 8 | (b) << 16)
+#define SUBDIV_IMPLEMENTATION
+#include "subdiv.h"
+#include "cube.h"
+
+int main(void)
+{
+    return !cube_is_right();
+}
