@@ -10969,7 +10969,7 @@ static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
 {
     int degree = vertex->state.surface->rules.loop ? 4 : 3;
     float p[3][4];
-    if (!vertex->state.kind->limit) sdv_nest_vertex(vertex);
+    sdv_nest_vertex(vertex);
     for (int c = 0; c < 4; c++) {
         p[0][c] = (float)vertex->values[0][c];
         p[1][c] = (float)vertex->tangents[0][c];
@@ -11318,8 +11318,6 @@ static void sdv_put_nest_points(const sdv_samples *s, const sdv_window *out, int
     sdv_nest_sample vertex;
     sdv_nest_load(&vertex.state, surface, number, s->source->work, w);
     int count = vertex.state.kind->faces;
-    vertex.face = 0;
-    if (vertex.state.kind->limit) sdv_nest_vertex(&vertex);     // as subdiv_evaluate_at
     for (int i = 0; i < count; i++) {
         sdv_tile tile = sdv_tile_at(s->tiling, sdv_face_of(s->tiling->cage, faces[i].place.h));
         int depth = sdv_nest_depth(&tile, &faces[i]);
@@ -11330,6 +11328,7 @@ static void sdv_put_nest_points(const sdv_samples *s, const sdv_window *out, int
         sdv_put_nest_level(s, out, &vertex.state, faces, depth);
         sdv_nest_descend(&vertex.state);
     }
+    sdv_nest_load(&vertex.state, surface, number, s->source->work, w);      // as samples have it
     for (int i = 0; i < count; i++) {
         sdv_leaf_points l;
         if (!sdv_begin_leaf(s, out, faces[i].place.h, &l)) continue;

@@ -1058,11 +1058,33 @@ static void test_wrong_surfaces(void)
     subdiv_surface_free(values);
 }
 
+// A vertex has the same normal at any rate, also where the surface has no tangent plane.
+static void test_vertex_normals(void)
+{
+    static const int rates[3] = { 1, 3, 8 };
+    for (unsigned seed = 100; seed < 200; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_mesh fine[3];
+        for (int i = 0; i < 3; i++) {
+            subdiv_tessellation how;
+            memset(&how, 0, sizeof how);
+            how.rate = rates[i];
+            CHECK_EQUAL(subdiv_tessellate(&fine[i], &c->mesh, &how, NULL), SUBDIV_OK);
+        }
+        for (int i = 0; i < 2; i++)
+            CHECK_NEAR(furthest(fine[i].normals, fine[2].normals, 3 * c->mesh.vertex_count), 0,
+                       1e-3);
+        for (int i = 0; i < 3; i++) subdiv_mesh_free(&fine[i]);
+        random_cage_free(c);
+    }
+}
+
 int main(void)
 {
     RUN(test_random_cages);
     RUN(test_powers_of_two);
     RUN(test_normals);
+    RUN(test_vertex_normals);
     RUN(test_straight_uvs);
     RUN(test_data_follows);
     RUN(test_uv_limit);
