@@ -381,8 +381,8 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs. SIZE_MAX: there are not so
-// many addresses.
+// Bytes of scratch memory that an evaluation of so many channels needs; SIZE_MAX if that is more than
+// the machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
@@ -506,9 +506,9 @@ typedef struct subdiv_derivatives {
 //
 // Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
 // face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
-// give zeros. Errors: INDEX and ARGUMENT (normals of fewer than 3 channels, a surface not prepared
-// so). After the same for a location that does not exist or is outside its face by more than
-// rounding, and after MEMORY, which samples close to a vertex of high valence take, any part of out
+// give zeros. Errors: ARGUMENT (normals of fewer than 3 channels, a surface not prepared so). INDEX
+// or ARGUMENT for the first location that does not exist or is outside its face by more than
+// rounding, and MEMORY (samples close to a vertex of high valence take some): then any part of out
 // may have been written.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
@@ -6170,7 +6170,9 @@ typedef struct sdv_curve {
     int degree;
 } sdv_curve;
 
-SDV_INLINE void sdv_cut_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
+// degree, turned and tangents are constants: what is not asked for, the compiler leaves out. The
+// coefficient of x^i y^j is c[5 i + j].
+SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
                               float at, sdv_curve *curve)
 {
     const sdv_four *c = (const sdv_four *)(const void *)q->c;
@@ -6198,10 +6200,10 @@ static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 static inline void sdv_make_row(const sdv_window *out, const sdv_polynomial *q, float y,
                                 sdv_curve *row)
 {
-    if (!out->tangents && q->degree == 3) sdv_cut_curve(q, 3, 0, 0, y, row);
-    else if (!out->tangents) sdv_cut_curve(q, 4, 0, 0, y, row);
-    else if (q->degree == 3) sdv_cut_curve(q, 3, 0, 1, y, row);
-    else sdv_cut_curve(q, 4, 0, 1, y, row);
+    if (!out->tangents && q->degree == 3) sdv_make_curve(q, 3, 0, 0, y, row);
+    else if (!out->tangents) sdv_make_curve(q, 4, 0, 0, y, row);
+    else if (q->degree == 3) sdv_make_curve(q, 3, 0, 1, y, row);
+    else sdv_make_curve(q, 4, 0, 1, y, row);
 }
 
 static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *row,
@@ -11019,7 +11021,7 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     sdv_tangents *wait = out->tangents;
     sdv_curve curve;
     int index = points->index, i = tangents ? wait->count : 0, count = out->count;
-    sdv_cut_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
+    sdv_make_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
     for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
         sdv_four x = sdv_all((float)(from + (double)k * by));
         sdv_four p = loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x);
@@ -11036,7 +11038,7 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     }
 }
 
-// Rows and columns; the slanted sides of triangles point by point.
+// Rows, columns, or else a slanted side, which only triangles have: there each point makes a row.
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 {
     const sdv_cell *cell = &l->cell;
