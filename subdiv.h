@@ -381,8 +381,8 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs; SIZE_MAX if that is more than
-// the machine can address.
+// Bytes of scratch memory that an evaluation of so many channels needs; SIZE_MAX if that is more
+// than the machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
