@@ -2563,12 +2563,12 @@ static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
 // for each of its vertices. The points along each side of a grid and those inside it, row by
 // row, are evenly spaced in the result: so an index needs a first one and a step.
 
-typedef struct sdv_side {               // of a grid: where point t stands, 0 < t < size
+typedef struct sdv_side {               // of a grid: where point t stands, inside the side
     int first, step;                    // first + step * t
 } sdv_side;
 
 typedef struct sdv_grid {
-    int size;                           // segments a side
+    int columns, rows;                  // segments along a side
     int triangle;
     int inside;                         // the index of (1, 1)
     int corner[4];
@@ -2581,14 +2581,18 @@ typedef struct sdv_order {
     int first_edge_point, first_face_point;
 } sdv_order;
 
+// A side of size segments whose points stand from first on, seen from its one end or the other.
+static inline sdv_side sdv_seen_side(int first, int size, int backwards)
+{
+    sdv_side side = { backwards ? first - 1 + size : first - 1, backwards ? -1 : 1 };
+    return side;
+}
+
 // A cage edge seen from the end that stands first in the result, or from the other.
 static inline sdv_side sdv_seen_edge(const sdv_order *order, int edge, int backwards)
 {
-    int first = order->first_edge_point + edge * (order->n - 1) - 1;
-    sdv_side side;
-    side.first = backwards ? first + order->n : first;
-    side.step = backwards ? -1 : 1;
-    return side;
+    int n = order->n;
+    return sdv_seen_side(order->first_edge_point + edge * (n - 1), n, backwards);
 }
 
 // The cage edge that leads on from face-vertex h, seen from there or from its other end.
@@ -2619,7 +2623,7 @@ static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
-    grid->size = order->n;
+    grid->columns = grid->rows = order->n;
     grid->triangle = order->loop;
     grid->inside = sdv_first_inside(order, f);
     for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
@@ -2629,33 +2633,40 @@ static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
     grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
-// The quad at face-vertex h of an n-gon: vertex, middle of the edge, centre, middle of the edge
-// before. The second half of that edge is seen backwards.
-static void sdv_ngon_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
+// An n-gon has its centre, then the points inside its spokes, each m segments and seen from its
+// edge, then those inside the quads at its vertices: this is the first one of quad i.
+static int sdv_inside_ngon(int centre, int sides, int m, int i)
 {
-    const sdv_level *cage = &order->cage;
-    int start = sdv_face_start(cage, f), m = order->m;
-    int size = sdv_face_end(cage, f) - start, before = sdv_previous(cage, h);
-    int centre = sdv_first_inside(order, f), spokes = centre + m;   // backwards from its edge
-    grid->size = m;
+    return centre + 1 + sides * (m - 1) + i * (m - 1) * (m - 1);
+}
+
+// Quad i: vertex, middle of the edge, centre, middle of the edge before. The second half of that
+// edge is seen backwards.
+static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int centre, int sides,
+                          int m, int i, sdv_grid *grid)
+{
+    int spokes = centre + 1, before = i > 0 ? i - 1 : sides - 1;
+    grid->columns = grid->rows = m;
     grid->triangle = 0;
-    grid->inside = centre + 1 + size * (m - 1) + (h - start) * (m - 1) * (m - 1);
-    grid->side[0] = sdv_edge_side(order, h, 0);
-    grid->side[3] = sdv_edge_side(order, before, 1);
-    grid->side[1].first = spokes + (h - start) * (m - 1);
-    grid->side[2].first = spokes + (before - start) * (m - 1);
-    grid->side[1].step = grid->side[2].step = -1;
-    grid->corner[0] = cage->face_vertices[h];
-    grid->corner[1] = grid->side[0].first + grid->side[0].step * m;
+    grid->inside = sdv_inside_ngon(centre, sides, m, i);
+    grid->side[0] = edge;
+    grid->side[1] = sdv_seen_side(spokes + i * (m - 1), m, 1);
+    grid->side[2] = sdv_seen_side(spokes + before * (m - 1), m, 1);
+    grid->side[3] = edge_before;
+    grid->corner[0] = vertex;
+    grid->corner[1] = edge.first + edge.step * m;
     grid->corner[2] = centre;
-    grid->corner[3] = grid->side[3].first + grid->side[3].step * m;
+    grid->corner[3] = edge_before.first + edge_before.step * m;
 }
 
 static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
-    int f = sdv_face_of(&order->cage, h);
-    if (sdv_is_ngon(order, f)) sdv_ngon_grid(order, f, h, grid);
-    else sdv_face_grid(order, f, h, grid);
+    const sdv_level *cage = &order->cage;
+    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f);
+    if (!sdv_is_ngon(order, f)) sdv_face_grid(order, f, h, grid);
+    else sdv_ngon_grid(cage->face_vertices[h], sdv_edge_side(order, h, 0),
+                       sdv_edge_side(order, sdv_previous(cage, h), 1), sdv_first_inside(order, f),
+                       sdv_face_end(cage, f) - start, order->m, h - start, grid);
 }
 
 static int sdv_side_index(const sdv_grid *grid, int side, int t)
@@ -2663,15 +2674,21 @@ static int sdv_side_index(const sdv_grid *grid, int side, int t)
     return grid->side[side].first + grid->side[side].step * t;
 }
 
+// first: that of (1, 1), from which they follow row by row, each of a triangle one shorter.
+static int sdv_inside_point(int first, int columns, int triangle, int row, int column)
+{
+    int64_t r = row - 1, cut = triangle ? r * row / 2 : 0;
+    return (int)(first + r * (columns - 1) - cut) + column - 1;
+}
+
 static int sdv_inside_index(const sdv_grid *grid, int row, int column)
 {
-    int cut = grid->triangle ? row * (row - 1) / 2 : 0;
-    return grid->inside + (row - 1) * (grid->size - 1) - cut + column - 1;
+    return sdv_inside_point(grid->inside, grid->columns, grid->triangle, row, column);
 }
 
 static int sdv_quad_index(const sdv_grid *grid, int row, int column)
 {
-    int n = grid->size, top = row == n, right = column == n;
+    int top = row == grid->rows, right = column == grid->columns;
     if ((row == 0 || top) && (column == 0 || right)) return grid->corner[top ? 3 - right : right];
     if (row == 0) return sdv_side_index(grid, 0, column);
     if (right) return sdv_side_index(grid, 1, row);
@@ -2682,7 +2699,7 @@ static int sdv_quad_index(const sdv_grid *grid, int row, int column)
 
 static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
 {
-    int n = grid->size;
+    int n = grid->rows;
     if (row == n) return grid->corner[2];
     if (row == 0 && (column == 0 || column == n)) return grid->corner[column == n];
     if (row == 0) return sdv_side_index(grid, 0, column);
@@ -2696,7 +2713,7 @@ static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
 {
     sdv_side line = { sdv_inside_index(grid, row, 0), 1 };
     if (row == 0) return grid->side[0];
-    if (!grid->triangle && row == grid->size) return grid->side[2];
+    if (!grid->triangle && row == grid->rows) return grid->side[2];
     return line;
 }
 
@@ -2710,20 +2727,20 @@ static int sdv_grid_index(const sdv_grid *grid, int row, int column)
 static const int sdv_corner_quad[5][2] = { {0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0} };
 static const int sdv_corner_triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
 
-// A row of points: its two ends, and what lies between on its line.
+// A row of points, or what lies on it from one column to another: its two ends, and those between
+// on its line.
 typedef struct sdv_row {
     sdv_side line;
     int size, left, right;              // columns 0 to size
 } sdv_row;
 
-static void sdv_grid_points(const sdv_grid *grid, int row, sdv_row *points)
+static sdv_row sdv_grid_row(const sdv_grid *grid, int row, int first, int last)
 {
-    const int *corner = grid->corner;
-    int n = grid->size, first = row == 0, last = row == n, top = grid->triangle ? 2 : 3;
-    points->size = grid->triangle ? n - row : n;
-    points->line = sdv_grid_line(grid, row);
-    points->left = first ? corner[0] : last ? corner[top] : sdv_side_index(grid, 3, row);
-    points->right = first ? corner[1] : last ? corner[2] : sdv_side_index(grid, 1, row);
+    sdv_row points = { sdv_grid_line(grid, row), last - first, 0, 0 };
+    points.line.first += points.line.step * first;
+    points.left = sdv_grid_index(grid, row, first);
+    points.right = sdv_grid_index(grid, row, last);
+    return points;
 }
 
 static int *sdv_put_face3(int *out, int a, int b, int c)
@@ -2743,22 +2760,27 @@ static int *sdv_put_face4(int *out, int a, int b, int c, int d)
     return out + 4;
 }
 
-// The fine faces between two rows of points, low and high: quads a b c d.
+// The fine faces between two rows of points, low and high: quads a b c d. First all of them as if
+// the rows' ends, too, stood on their lines.
 //
 //     d c
 //     a b
 static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
-    int a = low->left, d = high->left;
-    int b = low->line.first + low->line.step, c = high->line.first + high->line.step;
-    for (int i = 1; i < low->size; i++) {
-        out = sdv_put_face4(out, a, b, c, d);
-        a = b;
-        d = c;
-        b += low->line.step;
-        c += high->line.step;
-    }
-    return sdv_put_face4(out, a, low->right, high->right, d);
+    int along = low->line.step, a = low->line.first, above = high->line.step, d = high->line.first;
+    int quad[4] = { a, a + along, d + above, d };
+    const int step[4] = { along, along, above, above };
+    for (int i = 0; i < low->size; i++)
+        for (int k = 0; k < 4; k++) {
+            out[4 * i + k] = quad[k];
+            quad[k] += step[k];
+        }
+    int *last = out + 4 * ((size_t)low->size - 1);
+    out[0] = low->left;
+    out[3] = high->left;
+    last[1] = low->right;
+    last[2] = high->right;
+    return last + 4;
 }
 
 // Triangles a b d and, turned by half, c d b; the last of a row has no c.
@@ -2778,13 +2800,19 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
     return sdv_put_face3(out, a, low->right, d);
 }
 
-// The fine faces between a row of points and the next: at most 2 size, of 3 or 4 vertices.
-static int *sdv_grid_faces(const sdv_grid *grid, int row, int *out)
+// The fine faces between such rows of points and such columns; in a triangle, where these run
+// along its sides, each row ends one column earlier than the one below.
+static int *sdv_grid_faces(const sdv_grid *grid, int bottom, int top, int left, int right,
+                           int *out)
 {
-    sdv_row low, high;
-    sdv_grid_points(grid, row, &low);
-    sdv_grid_points(grid, row + 1, &high);
-    return grid->triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
+    int triangle = grid->triangle;
+    sdv_row low = sdv_grid_row(grid, bottom, left, right - bottom * triangle);
+    for (int row = bottom + 1; row <= top; row++) {
+        sdv_row high = sdv_grid_row(grid, row, left, right - row * triangle);
+        out = triangle ? sdv_triangle_faces(&low, &high, out) : sdv_quad_faces(&low, &high, out);
+        low = high;
+    }
+    return out;
 }
 
 // The fine faces of cage face f on level 1: every edge has one point, and there is the centre.
@@ -2823,7 +2851,7 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid;
         sdv_grid_at(order, h, &grid);
-        for (int row = 0; row < grid.size; row++) out = sdv_grid_faces(&grid, row, out);
+        out = sdv_grid_faces(&grid, 0, grid.rows, 0, grid.columns, out);
     }
     return out;
 }
@@ -4308,7 +4336,7 @@ static void sdv_make_spots(int size, int n, int turn, int step, sdv_spot *first)
 // How far the index of a point is behind the one below, but for what first says of triangles.
 static int sdv_row_length(const sdv_grid *grid, int row)
 {
-    return grid->size - 1 - (grid->triangle ? row : 0);
+    return grid->columns - 1 - (grid->triangle ? row : 0);
 }
 
 // The indices of a block of spots, -1 where the net does not write. Are there any?
@@ -5331,7 +5359,7 @@ static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
 {
     const sdv_level *level = limit->level;
     int size = level->face_size, h_grid = -1;
-    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
     for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
         sdv_place place = level->places[f];
         if (!level->core[f]) continue;
@@ -6290,7 +6318,7 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
     int n = part->columns, rows = part->rows;
     int reach = column + n + (triangle ? patch->row : 0);
     int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
-    int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->size;
+    int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->columns;
     int first = left && !left_side ? 0 : 1, last = right && !right_side ? n : n - 1;
     int count = last - first + 1 - triangle;            // of row 1, and where it starts
     int at = sdv_inside_index(grid, patch->row + step, column + step * first);
@@ -6736,7 +6764,7 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
     int n = 1 << patches->depth, h = -1, limit = surface->rules.limit;
     int nine = !order->loop && n == 2 && !(limit && surface->rules.linear);
     int last = sdv_first_patch(order, patches, end);
-    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
     sdv_parts parts;
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
@@ -6860,7 +6888,7 @@ static void sdv_put_nets(const sdv_order *order, const sdv_nets *nets, const flo
                          int end, const sdv_window *out)
 {
     int h = -1, last = sdv_first_net(order, nets, end);
-    sdv_grid grid = { 0, 0, 0, {0}, {{0, 0}} };
+    sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
     sdv_net_values values;
     for (int i = sdv_first_net(order, nets, face); i < last; i++) {
         const sdv_net *net = &nets->items[i];
@@ -10617,65 +10645,70 @@ static uint64_t sdv_count_inside(const sdv_tile *tile)
     return 1 + (uint64_t)tile->sides * columns * (columns - 1);
 }
 
-// Point k on a side, from its first vertex: 0 that vertex, edge rate the next one.
-static int sdv_side_point(const sdv_tile *tile, int side, int k)
+// The points on a side, from its first vertex or, backwards, the other.
+static sdv_side sdv_tile_side(const sdv_tile *tile, int side, int backwards)
 {
     const sdv_tiling *tiling = tile->tiling;
     const int *vertices = tiling->cage->face_vertices + tile->first;
     int a = vertices[side], b = vertices[side + 1 < tile->sides ? side + 1 : 0];
-    int e = tiling->cage->face_edges[tile->first + side], rate = tiling->edge_rates[e];
-    if (k == 0) return a;
-    if (k == rate) return b;
-    return tiling->starts[e] - 1 + (a > b ? rate - k : k);
+    int e = tiling->cage->face_edges[tile->first + side];
+    return sdv_seen_side(tiling->starts[e], tiling->edge_rates[e], (a > b) != backwards);
 }
 
-// Where column 0 of a row inside the grid (of an n-gon: its quad at vertex i) would stand.
-static int sdv_row_inside(const sdv_tile *tile, int i, int row)
+// A point inside the grid (of an n-gon: of its quad at vertex i).
+static int sdv_inside_tile(const sdv_tile *tile, int i, int row, int column)
 {
-    int length = tile->grid.columns - 1, cut = tile->loop ? row * (row - 1) / 2 : 0;
-    if (tile->ngon) return tile->inside + (tile->sides + i * length + row - 1) * length;
-    return tile->inside - 1 + (row - 1) * length - cut;
+    int columns = tile->grid.columns, first = tile->inside;
+    if (tile->ngon) first = sdv_inside_ngon(first, tile->sides, columns, i);
+    return sdv_inside_point(first, columns, tile->loop, row, column);
 }
 
-// A point of the quad at vertex i of an n-gon: its last column is the spoke to edge i, backwards,
-// its last row that to the edge before.
-static int sdv_ngon_point(const sdv_tile *tile, int i, int row, int column)
+// The grid of a face (of an n-gon: of its quad at vertex i). With a margin its points on the edges
+// are not to be asked for.
+static sdv_grid sdv_tile_grid(const sdv_tile *tile, int i)
 {
-    int m = tile->grid.columns, before = i ? i - 1 : tile->sides - 1, spokes = tile->inside + m;
-    if (row == 0) return sdv_side_point(tile, i, column);
-    if (column == 0) return sdv_side_point(tile, before, 2 * m - row);
-    if (row == m && column == m) return tile->inside;
-    if (column == m) return spokes + i * (m - 1) - row;
-    if (row == m) return spokes + before * (m - 1) - column;
-    return sdv_row_inside(tile, i, row) + column;
+    const int *vertices = tile->tiling->cage->face_vertices + tile->first;
+    int last = tile->sides - 1;
+    sdv_grid grid;
+    if (tile->ngon) {
+        sdv_ngon_grid(vertices[i], sdv_tile_side(tile, i, 0),
+                      sdv_tile_side(tile, i > 0 ? i - 1 : last, 1), tile->inside, tile->sides,
+                      tile->grid.columns, i, &grid);
+        return grid;
+    }
+    grid.columns = tile->grid.columns;
+    grid.rows = tile->grid.rows;
+    grid.triangle = tile->loop;
+    grid.inside = tile->inside;
+    for (int k = 0; k <= last; k++) {
+        grid.corner[k] = vertices[k];
+        grid.side[k] = sdv_tile_side(tile, k, k >= 2);
+    }
+    grid.side[3] = grid.side[last];
+    return grid;
 }
 
-// A point of the grid (of an n-gon: of its quad at vertex i). Row 0 and column 0, and what is
-// opposite, are the edges: not to be asked for if the grid has a margin.
-static int sdv_tile_point(const sdv_tile *tile, int i, int row, int column)
+// Point k of an edge of so many pieces: 0 its first vertex.
+static int sdv_side_point(const sdv_tile *tile, int side, int k, int pieces)
+{
+    const int *vertices = tile->tiling->cage->face_vertices + tile->first;
+    if (k == 0) return vertices[side];
+    if (k == pieces) return vertices[side + 1 < tile->sides ? side + 1 : 0];
+    sdv_side points = sdv_tile_side(tile, side, 0);
+    return points.first + points.step * k;
+}
+
+// Point j of the ring along a side, from the corner of the ring at vertex 0 of that side on. Of an
+// n-gon the grids are those at the side's two vertices.
+static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2], int j)
 {
     int columns = tile->grid.columns, rows = tile->grid.rows;
-    if (tile->ngon) return sdv_ngon_point(tile, i, row, column);
-    if (row == 0) return sdv_side_point(tile, 0, column);
-    if (column == 0) return sdv_side_point(tile, tile->sides - 1, rows - row);
-    if (column == columns - (tile->loop ? row : 0)) return sdv_side_point(tile, 1, row);
-    if (!tile->loop && row == rows) return sdv_side_point(tile, 2, columns - column);
-    return sdv_row_inside(tile, i, row) + column;
-}
-
-// Point j of the ring along a side: from the corner of the ring at vertex 0 of that side on.
-static int sdv_ring_point(const sdv_tile *tile, int side, int j)
-{
-    int columns = tile->grid.columns, rows = tile->grid.rows, next = side + 1;
-    if (tile->ngon) {
-        if (j < columns) return sdv_ngon_point(tile, side, 1, j + 1);
-        return sdv_ngon_point(tile, next < tile->sides ? next : 0, 2 * columns - 1 - j, 1);
-    }
-    if (side == 0) return sdv_tile_point(tile, 0, 1, j + 1);
-    if (side == 1) return sdv_tile_point(tile, 0, j + 1, columns - 1 - (tile->loop ? j + 1 : 0));
-    if (tile->loop) return sdv_tile_point(tile, 0, rows - 2 - j, 1);
-    if (side == 2) return sdv_tile_point(tile, 0, rows - 1, columns - 1 - j);
-    return sdv_tile_point(tile, 0, rows - 1 - j, 1);
+    if (tile->ngon && j >= columns) return sdv_grid_index(&grids[1], 2 * columns - 1 - j, 1);
+    if (tile->ngon || side == 0) return sdv_grid_index(grids, 1, j + 1);
+    if (side == 1) return sdv_grid_index(grids, j + 1, columns - 1 - (tile->loop ? j + 1 : 0));
+    if (tile->loop) return sdv_grid_index(grids, rows - 2 - j, 1);
+    if (side == 2) return sdv_grid_index(grids, rows - 1, columns - 1 - j);
+    return sdv_grid_index(grids, rows - 1 - j, 1);
 }
 
 typedef struct sdv_faces_at {           // where faces are written, or if NULL, counted
@@ -10711,53 +10744,31 @@ static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
     sdv_put_triangle(out, a, c, d);
 }
 
-// Columns first to last of a row of the grid's points, as >>order has them. On edges and spokes the
-// step is that from one point to the next.
-static sdv_row sdv_tile_row(const sdv_tile *tile, int i, int row, int first, int last)
+// Cuts quads in two, from the last on, and returns where the triangles end.
+static int *sdv_cut_quads(int *faces, const int *end)
 {
-    sdv_row points = { { 0, 1 }, last - first, sdv_tile_point(tile, i, row, first), 0 };
-    points.right = last > first ? sdv_tile_point(tile, i, row, last) : points.left;
-    points.line.first = sdv_row_inside(tile, i, row) + first;
-    if (points.size < 2 || (row > 0 && row < tile->grid.rows)) return points;
-    int second = sdv_tile_point(tile, i, row, first + 1);
-    points.line.step = points.size > 2 ? sdv_tile_point(tile, i, row, first + 2) - second : 0;
-    points.line.first = second - points.line.step;
-    return points;
-}
-
-// Quads of sdv_quad_faces, as many as a row of points has segments, cut in two: from the last on.
-static void sdv_cut_quads(int *faces, int count)
-{
-    for (int i = count - 1; i >= 0; i--) {
-        const int *q = faces + 4 * (size_t)i;
-        int a = q[0], b = q[1], c = q[2], d = q[3], *out = faces + 6 * (size_t)i;
+    size_t count = (size_t)(end - faces) / 4;
+    for (size_t i = count; i-- > 0;) {
+        const int *q = faces + 4 * i;
+        int a = q[0], b = q[1], c = q[2], d = q[3], *out = faces + 6 * i;
         out[0] = out[3] = a;
         out[1] = b;
         out[2] = out[4] = c;
         out[5] = d;
     }
+    return faces + 6 * count;
 }
 
 static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
     int margin = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
-    int cut = tile->ngon ? 0 : margin, last = tile->grid.columns - cut;
+    int cut = tile->ngon ? 0 : margin, right = tile->grid.columns - cut;
+    int top = tile->grid.rows - cut - (tile->loop ? margin : 0);
     int *faces = out->vertices + out->face_vertices;
-    for (int i = 0; i < grids; i++) {
-        sdv_row low = { { 0, 0 }, 0, 0, 0 };
-        for (int row = margin; row <= tile->grid.rows - cut; row++) {
-            int end = tile->loop ? last - row : last;
-            if (end < margin + !tile->loop) break;      // rows of quads are not empty
-            sdv_row high = sdv_tile_row(tile, i, row, margin, end);
-            if (row > margin && tile->loop) {
-                faces = sdv_triangle_faces(&low, &high, faces);
-            } else if (row > margin) {
-                sdv_quad_faces(&low, &high, faces);
-                if (out->triangles) sdv_cut_quads(faces, low.size);
-                faces += (out->triangles ? 6 : 4) * (size_t)low.size;
-            }
-            low = high;
-        }
+    for (int i = 0; i < grids && right > margin; i++) {
+        sdv_grid grid = sdv_tile_grid(tile, i);
+        int *end = sdv_grid_faces(&grid, margin, top, margin, right, faces);
+        faces = out->triangles && !tile->loop ? sdv_cut_quads(faces, end) : end;
     }
     out->face_vertices = (size_t)(faces - out->vertices);
 }
@@ -10783,15 +10794,17 @@ static void sdv_count_inside_faces(const sdv_tile *tile, sdv_faces_at *out)
 static void sdv_put_strip(const sdv_tile *tile, int side, sdv_faces_at *out)
 {
     int pieces = sdv_edge_rate(tile, side), rate = sdv_side_rate(tile, side);
-    int ring = rate - 2 - tile->loop, a = sdv_side_point(tile, side, 0);
-    int d = sdv_ring_point(tile, side, 0);
+    int ring = rate - 2 - tile->loop, a = sdv_side_point(tile, side, 0, pieces);
+    const sdv_grid grids[2] = { sdv_tile_grid(tile, side),
+                                sdv_tile_grid(tile, side + 1 < tile->sides ? side + 1 : 0) };
+    int d = sdv_ring_point(tile, side, grids, 0);
     for (int i = 0, j = 0; i < pieces || j < ring;) {
         int64_t here = (2 * (int64_t)i + 1) * rate;
         int64_t there = (2 * (int64_t)j + 3 + tile->loop) * pieces;
         int on = i < pieces && (j == ring || here <= there);
         int up = j < ring && (i == pieces || there <= here);
-        int b = on ? sdv_side_point(tile, side, i + 1) : a;
-        int c = up ? sdv_ring_point(tile, side, j + 1) : d;
+        int b = on ? sdv_side_point(tile, side, i + 1, pieces) : a;
+        int c = up ? sdv_ring_point(tile, side, grids, j + 1) : d;
         if (on && up) sdv_put_quad(out, a, b, c, d);
         else if (on) sdv_put_triangle(out, a, b, d);
         else sdv_put_triangle(out, a, c, d);
@@ -11099,7 +11112,7 @@ static void sdv_put_quad_inside(sdv_leaf_points *l)
     row.step = 1;
     for (int64_t j = up.first; j <= up.last; j++) {
         row.v = (double)j / rows;
-        row.index = sdv_row_inside(tile, l->corner, (int)j) + (int)row.first;
+        row.index = sdv_inside_tile(tile, l->corner, (int)j, (int)row.first);
         sdv_put_line(l, &row);
     }
 }
@@ -11123,7 +11136,7 @@ static void sdv_put_triangle_inside(sdv_leaf_points *l)
         if (row.first < 1) row.first = 1;
         if (row.last > most) row.last = most;
         row.v = (double)j / n;
-        row.index = sdv_row_inside(&l->tile, 0, (int)j) + (int)row.first;
+        row.index = sdv_inside_tile(&l->tile, 0, (int)j, (int)row.first);
         sdv_put_line(l, &row);
     }
 }
@@ -11141,9 +11154,9 @@ static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t lo
     sdv_find_ticks(&l->cell, low, high, step, rate,
                    step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
     if (line.first > line.last) return;
-    int k = (int)line.first, a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
-    line.index = sdv_side_point(tile, side, backwards ? rate - k : k);
-    line.step = (a > b) != backwards ? -1 : 1;
+    sdv_side points = sdv_tile_side(tile, side, backwards);
+    line.index = points.first + points.step * (int)line.first;
+    line.step = points.step;
     line.du *= (double)step / rate;
     line.dv *= (double)step / rate;
     sdv_put_line(l, &line);
@@ -14128,9 +14141,10 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
             sdv_grid_at(order, start + g, &grid);
             if (own >= 0)
                 sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
-            for (int i = 0; i < grid.size && !out->context->result; i++) {
-                int count = (int)(sdv_grid_faces(&grid, i, row) - row) / size;
-                if (own >= 0) sdv_grid_faces(&uv_grid, i, uvs);
+            for (int i = 0; i < grid.rows && !out->context->result; i++) {
+                int *last = sdv_grid_faces(&grid, i, i + 1, 0, grid.columns, row);
+                if (own >= 0) sdv_grid_faces(&uv_grid, i, i + 1, 0, uv_grid.columns, uvs);
+                int count = (int)(last - row) / size;
                 sdv_write_faces(out, row, own >= 0 ? uvs : NULL, 0, size, count);
             }
         }
