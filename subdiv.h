@@ -432,7 +432,7 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // A point has one normal and two tangents, the same ones from any call: on a crease those of the
 // surface on one side; at a corner, and where non-manifold faces are no fan between two creases,
 // those of the edges of one face there. The normal is 0 where there is none: without faces, between
-// two triangles back to back, and where both tangents are parallel or 0.
+// two triangles back to back, and where one tangent is 0 or both are parallel to within 1e-6.
 
 // Where to put them: each an array of so many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -6925,22 +6925,41 @@ typedef struct sdv_tangents {           // a part of the result, that of its sdv
     sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents
 } sdv_tangents;
 
+static double sdv_dot3(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void sdv_cross(const double *a, const double *b, double *n)
+{
+    n[0] = a[1] * b[2] - a[2] * b[1];
+    n[1] = a[2] * b[0] - a[0] * b[2];
+    n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
 // A vector made 1 long, or 0.
 static inline void sdv_make_unit(const double *n, float *unit)
 {
-    double squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    double scale = squares > 0 ? 1 / sqrt(squares) : 0;
-    for (int k = 0; k < 3; k++) unit[k] = (float)(n[k] * scale);
+    double squares = sdv_dot3(n, n), scale = squares > 0 ? 1 / sqrt(squares) : 0;
+    for (int k = 0; k < 3; k++) unit[k] = scale > 0 ? (float)(n[k] * scale) : 0;
 }
 
-// Along a x b. In doubles, whose range holds the squares of products of all floats.
-static inline void sdv_unit_normal(const float *a, const float *b, float *normal)
+// a x b made 1 long or, if that is rounding alone, 0: if the square of the sine is no more than
+// this. In doubles, whose range holds the squares of products of all floats.
+static void sdv_unit_cross(const double *a, const double *b, double parallel, float *unit)
 {
     double n[3];
-    n[0] = (double)a[1] * (double)b[2] - (double)a[2] * (double)b[1];
-    n[1] = (double)a[2] * (double)b[0] - (double)a[0] * (double)b[2];
-    n[2] = (double)a[0] * (double)b[1] - (double)a[1] * (double)b[0];
-    sdv_make_unit(n, normal);
+    sdv_cross(a, b, n);
+    if (sdv_dot3(n, n) <= parallel * sdv_dot3(a, a) * sdv_dot3(b, b)) n[0] = n[1] = n[2] = 0;
+    sdv_make_unit(n, unit);
+}
+
+// Along a x b, tangents that rounding may have turned by 1e-6.
+static void sdv_unit_normal(const float *a, const float *b, float *normal)
+{
+    double x[3] = { (double)a[0], (double)a[1], (double)a[2] };
+    double y[3] = { (double)b[0], (double)b[1], (double)b[2] };
+    sdv_unit_cross(x, y, 1e-12, normal);
 }
 
 static inline sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
@@ -9417,13 +9436,6 @@ static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
         }
 }
 
-static void sdv_cross(const double *a, const double *b, double *n)
-{
-    n[0] = a[1] * b[2] - a[2] * b[1];
-    n[1] = a[2] * b[0] - a[0] * b[2];
-    n[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 // How the child of a nest's face that has (x, y), which is not in the next nest, weighs its control
 // points, which come back. (On a sharp edge, those beside it not at all: there the surface may grow
 // without bound as seen from the vertex, while along the edge it does not.)
@@ -9500,10 +9512,9 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
 // Are tangents parallel, but for rounding?
 static int sdv_parallel(const double *a, const double *b)
 {
-    double n[3], aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    double n[3];
     sdv_cross(a, b, n);
-    return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] <= 1e-10 * aa * bb;
+    return sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
 }
 
 // Of a face alone on its side of a crease they are, near the vertex: there the normal is the
@@ -9577,9 +9588,7 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
                 (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
         }
     if (!e->normals || c > 0) return;
-    double n[3];
-    sdv_cross(s->tangents[0], s->tangents[1], n);
-    sdv_make_unit(n, e->normals + e->normal_stride * i);
+    sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-24, e->normals + e->normal_stride * i);
 }
 
 static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, double y, double scale,
