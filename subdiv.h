@@ -468,10 +468,16 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 // The surface itself, at any point of any face: values, derivatives and normals, exactly, also at
 // and arbitrarily near to extraordinary vertices, creases and boundaries.
 //
+//     subdiv_surface *surface;
 //     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
 //     void *scratch = malloc(subdiv_scratch_size(surface, 3));
 //     subdiv_evaluate_begin(surface, 3, cage.positions, 0, scratch, &opt);
-//     subdiv_evaluate_at(surface, 3, scratch, count, locations, &out, &opt);
+//     subdiv_location middle = { 7, 0, 0.5f, 0.5f };     // of face 7
+//     float point[3], normal[3];
+//     subdiv_derivatives out = {0};
+//     out.points = point;
+//     out.normals = normal;
+//     subdiv_evaluate_at(surface, 3, scratch, 1, &middle, &out, &opt);
 //
 // Faces of 3 and 4 vertices are those of the schemes below; vertex 0 is at u = v = 0:
 //
@@ -494,15 +500,20 @@ typedef struct subdiv_derivatives {
     int    stride;                    // floats from location to location in all; 0: they are dense
 } subdiv_derivatives;
 
-// After subdiv_prepare with SUBDIV_EXACT and subdiv_evaluate_begin, as often as you like and on any
-// threads: scratch is only read. Derivatives are with respect to u and v. Where the first ones are
-// 0 or infinite, at an extraordinary vertex, they are their limits along the edges of the face in
-// units that shrink with the surface, as if the vertex were regular; at an infinitely sharp
-// corner or dart their lengths mean nothing. The second ones are 0 there. On a crease all belong
-// to the face. The dart of an infinite crease is where the surface around it ends up, which is not
-// where >>limit, as OpenSubdiv, puts it. With 4 or more faces (Loop: 6) on its side of a crease or
-// boundary a vertex has no tangent plane, as other waves do not shrink faster than the crease: its
-// normal is that of the limit masks, and not what those beside it tend to.
+// After subdiv_prepare for SUBDIV_EXACT and subdiv_evaluate_begin, as often as you like and on any
+// threads: scratch is only read. Derivatives are with respect to u and v, on a crease on the face's
+// side of it; those beyond the range of floats are not finite. Of the cage's vertices these are not
+// what they tend to beside them:
+//
+//     extraordinary          du and dv, which go to 0 or infinity there like (2 l)^j at u = 2^-j, l
+//                            the subdominant eigenvalue, are in proportion to what that factor
+//                            leaves, so that du x dv is along the normal; the second ones are 0
+//     with infinite corner   the same, and the lengths of du and dv mean nothing; the point of a
+//       or dart              dart is where the surface around it ends up, and not where >>limit,
+//                            as OpenSubdiv, puts it
+//     with 4 faces or more   the normal is that of the limit masks: there is no tangent plane, as
+//       (Loop: 6) on a side  the crease, or boundary, shrinks by 1/2 a level and other waves across
+//       of a crease          those faces by less
 //
 // Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
 // face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
@@ -542,7 +553,7 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  int first_point, int point_count,
                                                  const subdiv_options *opt);
 
-// Of so many locations on a surface prepared with SUBDIV_EXACT: those of subdiv_evaluate_at, with
+// Of so many locations on a surface prepared for SUBDIV_EXACT: those of subdiv_evaluate_at, with
 // du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
                                             const subdiv_surface *surface, int count,
@@ -600,10 +611,15 @@ typedef struct subdiv_tessellation {
 // The grid's points are those that are not on the edges, row by row as there.
 //
 // If the edges are all cut as the grid is, the faces are those of the grid, as there: so one rate
-// 2^k gives the points and faces of subdiv_refine by k levels with opt->limit. (A polygon that is
-// no quad needs even rates for that; at rate 1 it becomes a fan around its centre.) Otherwise the
-// grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones; behind what is
-// left stand, side by side from edge 0-1 on, triangles, and quads where two pieces are opposite:
+// 2^k gives the faces of subdiv_refine by k levels with opt->limit, and its points to rounding, but
+// where >>limit takes sharpness that is left for infinite, darts for smooth, and keeps points
+// without a surface. (A polygon that is no quad needs even rates for that; at rate 1 it becomes a
+// fan around its centre.)
+//
+// Otherwise the grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones;
+// behind what is left stand, side by side from edge 0-1 on, triangles, and quads where two pieces
+// are opposite. Rates that are far apart make thin triangles and, at curved edges, some that are
+// folded over.
 //
 //     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
 //     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
@@ -7303,7 +7319,7 @@ static void sdv_check_result(sdv_context *context, const subdiv_surface *surface
 {
     if (!context->result && surface->exact)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
-                 "the surface was prepared with SUBDIV_EXACT, for subdiv_evaluate_at");
+                 "the surface was prepared for SUBDIV_EXACT, for subdiv_evaluate_at");
 }
 
 static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
@@ -7384,6 +7400,7 @@ static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
         return;
     }
     int least = out->tangents ? 6 : 3;
+    sdv_check_result(context, surface);
     if (!surface->rules.limit)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
     if (out->stride && out->stride < least)
@@ -9583,9 +9600,9 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
 {
     for (int k = 0; k < 6; k++)
         for (int l = 0; l < 4 && c + l < e->channels && e->out[k]; l++) {
-            double value = s->values[k][l];
+            double value = s->values[k][l], large = k > 0 ? HUGE_VAL : (double)FLT_MAX;
             e->out[k][e->stride * i + (size_t)(c + l)] =
-                (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
+                (float)(value > FLT_MAX ? large : value < -FLT_MAX ? -large : value);
         }
     if (!e->normals || c > 0) return;
     sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-24, e->normals + e->normal_stride * i);
@@ -9747,7 +9764,7 @@ static void sdv_check_exact(sdv_context *context, const subdiv_surface *surface,
     if (context->result) return;
     int values = out->points || out->du || out->dv || out->duu || out->duv || out->dvv;
     if (!surface->exact)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared with SUBDIV_EXACT");
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was not prepared for SUBDIV_EXACT");
     else if (count < 0 || (count > 0 && !locations))
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, count < 0 ? "count is %d" : "locations is NULL",
                  count);
@@ -10020,15 +10037,15 @@ static void sdv_balance(double *weights, int count, int stride, double total)
     *largest += total;
 }
 
-// What is no more than rounding of the largest weight becomes 0. Of more than 64 weights it is
-// less, as what is left out adds up.
+// What is no more than rounding of the largest weight becomes 0. Of more than 16 weights it is
+// less, as what is left out adds up: to less than 2e-6 of the largest.
 static void sdv_clean_part(sdv_stencil_maker *make, int part)
 {
     double *sums = make->sums + part, largest = 0;
     int parts = make->parts;
     if (make->size == 0) return;                    // a face without a surface
     for (int i = 0; i < make->size; i++) largest = fmax(largest, fabs(sums[parts * i]));
-    double rounding = (double)FLT_EPSILON * largest * fmin(1, 64.0 / make->size);
+    double rounding = (double)FLT_EPSILON * largest * fmin(1, 16.0 / make->size);
     for (int i = 0; i < make->size; i++) {
         double *w = &sums[parts * i];
         *w = fabs(*w) <= rounding ? 0 : (double)(float)*w;

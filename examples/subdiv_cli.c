@@ -10,7 +10,9 @@
 
 #define _POSIX_C_SOURCE 200809L       // clock_gettime, where the system has it
 
+#include <float.h>
 #include <limits.h>
+#include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -65,7 +67,9 @@ static const option options[OPTION_COUNT] = {
     {0, "crease-sharpness", "S", "of these three: for S levels, forever when not given"},
     {0, "eval", "SAMPLES",
      "print the limit surface instead, px py pz ux uy uz vx vy vz (point and derivatives), at\n"
-     "          each line 'face u v' or 'face/corner u v' of SAMPLES, counted from 0"},
+     "          each line 'face u v' or 'face/corner u v' of SAMPLES, counted from 0; # starts a\n"
+     "          comment. From a face's first vertex u goes to the second one, v to the last; a\n"
+     "          corner of a polygon stands for the quad there"},
     {0, "stream", NULL, "refine and save piece by piece, in little memory; large results always"},
     {0, "triangulate", NULL, "Loop: cut larger faces into triangles first"},
     {0, "keep-holes", NULL, "keep the faces of holes, tagged as holes"},
@@ -690,12 +694,13 @@ static int read_sample(char *text, subdiv_location *at)
 
 static int read_samples(FILE *file, const command *cmd, samples *all)
 {
-    char text[256];
-    for (int line = 1; fgets(text, sizeof text, file); line++) {
+    char buffer[256], *text = buffer;
+    for (int line = 1; fgets(buffer, sizeof buffer, file); line++, text = buffer) {
         subdiv_location at;
-        int is_full = strlen(text) + 1 == sizeof text;
+        int is_full = strlen(text) + 1 == sizeof buffer;
         if (strchr(text, '\n') == NULL && !feof(file))
             return bad_sample(cmd, line, is_full ? "too long" : "has a byte 0");
+        if (line == 1 && strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3;  // byte order mark
         text[strcspn(text, "#")] = 0;                                   // a comment
         if (text[strspn(text, " \t\r\n")] == 0) continue;
         if (!read_sample(text, &at))
@@ -706,26 +711,30 @@ static int read_samples(FILE *file, const command *cmd, samples *all)
 }
 
 // What the library writes as three vertices, v x y z, is one line here.
-static int print_sample_lines(const char *text, size_t size)
+static int print_sample_lines(char *text, size_t size)
 {
-    int lines = 0;
+    size_t end = 0;
+    int vertices = 0;
     for (size_t i = 0; i < size; i++) {
         if (text[i] == 'v') i++;
-        else if (text[i] == '\n') putchar(++lines % 3 ? ' ' : '\n');
-        else putchar(text[i]);
+        else text[end++] = text[i] == '\n' && ++vertices % 3 ? ' ' : text[i];
     }
+    fwrite(text, 1, end, stdout);
     return flush_output();
 }
 
 // Writes the numbers [9 * count] as the library does.
-static int print_samples(float *numbers, int count)
+static int print_samples(float *numbers, const samples *all, const command *cmd)
 {
     subdiv_mesh points = {0};
     size_t size = 0;
-    points.vertex_count = 3 * count;
+    points.vertex_count = 3 * all->count;
     points.positions = numbers;
-    if (count == 0) return DONE;
-    if (subdiv_save_obj_memory(&points, NULL, 0, &size, NULL)) return FAILED;
+    for (int i = 0; i < 9 * all->count; i++)
+        if (!(fabsf(numbers[i]) <= FLT_MAX))
+            return bad_sample(cmd, all->lines[i / 9], "its numbers are too large for floats");
+    if (all->count == 0) return DONE;
+    subdiv_save_obj_memory(&points, NULL, 0, &size, NULL);
     char *text = (char *)malloc(size);
     int result = FAILED;
     if (text && subdiv_save_obj_memory(&points, text, size, &size, NULL) == SUBDIV_OK)
@@ -761,9 +770,11 @@ static int evaluate(work *w, const samples *all, const command *cmd, const subdi
         out.du = numbers + 3;
         out.dv = numbers + 6;
         out.stride = 9;
-        subdiv_evaluate_begin(w->surface, 3, w->cage.positions, 0, scratch, opt);
-        result = subdiv_evaluate_at(w->surface, 3, scratch, all->count, all->at, &out, opt)
-            ? report_samples(w, scratch, all, cmd, opt) : print_samples(numbers, all->count);
+        if (subdiv_evaluate_begin(w->surface, 3, w->cage.positions, 0, scratch, opt))
+            result = report(cmd->input, opt);
+        else if (subdiv_evaluate_at(w->surface, 3, scratch, all->count, all->at, &out, opt))
+            result = report_samples(w, scratch, all, cmd, opt);
+        else result = print_samples(numbers, all, cmd);
         end_step(w, "evaluate");
     } else {
         fputs("subdiv: out of memory\n", stderr);
@@ -782,6 +793,7 @@ static int run_samples(work *w, const command *cmd, const subdiv_options *opt)
     if (!file) fprintf(stderr, "subdiv: %s: cannot be opened\n", cmd->samples);
     else result = read_samples(file, cmd, &all);
     if (file && !is_stdin) fclose(file);
+    end_step(w, "samples");
     if (result == DONE) result = evaluate(w, &all, cmd, opt);
     free(all.at);
     free(all.lines);

@@ -760,6 +760,13 @@ do
     ends 1 --eval samples.txt flat.obj
     says "samples.txt:2: "
 done
+printf '\357\273\2774 0 0\n' > samples.txt
+ends 0 --eval samples.txt flat.obj
+fine "--eval: a byte order mark" test "$(cat out)" = '1 1 0 1 0 0 0 1 0'
+awk '/^v/ { $2 = $2 % 2 ? "3e38" : "-3e38" } { print }' flat.obj > large.obj
+printf '4 0.5 0.5\n4 0 0.5\n' > samples.txt
+ends 1 --eval samples.txt large.obj
+says "samples.txt:1: "
 ends 1 --eval no_such_file flat.obj
 says no_such_file
 ends 2 --eval samples.txt flat.obj out.obj

@@ -628,6 +628,10 @@ static void test_errors(void)
                 SUBDIV_ERROR_INDEX);
     CHECK_EQUAL(subdiv_evaluate_limit_faces(s, scratch, 0, 6, 0, 26, &to, &opt), SUBDIV_OK);
     subdiv_surface_free(s);
+    CHECK_EQUAL(subdiv_prepare(&s, &c.mesh, SUBDIV_EXACT, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_limit(s, c.positions, 3, &to, NULL, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK(strstr(error.message, "SUBDIV_EXACT") != NULL);
+    subdiv_surface_free(s);
     subdiv_surface_free(plain);
 }
 
