@@ -1626,6 +1626,17 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 // A level is a mesh and how sharp everything is: all that refinement needs to know, and all that
 // the next level inherits.
 //
+// More words, for the inside:
+//     order       where the points of the result stand, in closed form, on the grids of cage faces
+//     core        the faces of a level that make points of the result (others are there for the
+//                 masks of those); rough: the ones among them that are no patch on this level
+//     row         the weights of one point
+//     patch       a regular face, its control points; strips: between semi-sharp creases, a part
+//     kind, net   irregular faces that are alike, and the points around such a face
+//     nest        a vertex that stays irregular on every level, and the faces around it
+//     leaf        of the tree that finds the place of (face, u, v): a patch or a face of a nest
+//     tile        a face with rates of its own; home: of a shared point, the face that makes it
+//
 // A face-vertex h is a place in face_vertices, and stands for three things: a face, one of its
 // vertices, and the edge that leads on from there to the next vertex. So an edge is a ring of
 // face-vertices, one for each face that has it, in rising order:
@@ -7102,7 +7113,7 @@ typedef struct sdv_evaluation {
     const float *in;                    // channels a vertex
     size_t       in_stride;
     float       *work;                  // [4 * work_count] for every four channels; or
-    double      *deep;                  // the same of SUBDIV_EXACT: points of a deep level differ
+    double      *doubles;               // the same of SUBDIV_EXACT: points of a fine level differ
     float       *out;                   // in their last digits alone
     size_t       out_stride;
     int          first_point, end_point;
@@ -7142,9 +7153,10 @@ static void sdv_input_job(void *context, int job)
         for (int i = v; i < end; i++, at += 4) {
             int from = e->surface->source ? e->surface->source[i] : i;
             const float *in = e->in + e->in_stride * (size_t)from + c;
-            for (int k = 0; k < 4 && !e->deep; k++) e->work[at + (size_t)k] = k < lanes ? in[k] : 0;
-            for (int k = 0; k < 4 && e->deep; k++)
-                e->deep[at + (size_t)k] = k < lanes ? (double)in[k] : 0;
+            for (int k = 0; k < 4 && !e->doubles; k++)
+                e->work[at + (size_t)k] = k < lanes ? in[k] : 0;
+            for (int k = 0; k < 4 && e->doubles; k++)
+                e->doubles[at + (size_t)k] = k < lanes ? (double)in[k] : 0;
         }
     }
 }
@@ -7155,7 +7167,7 @@ static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int j
     int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         size_t at = (size_t)c * (size_t)e->surface->work_count;
-        if (e->deep) sdv_exact_rows(&e->surface->masks, rows, block, end, e->deep + at);
+        if (e->doubles) sdv_exact_rows(&e->surface->masks, rows, block, end, e->doubles + at);
         else sdv_apply(&e->surface->masks, rows, block, end, e->work + at);
     }
 }
@@ -7720,7 +7732,8 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 //
 // A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
 
-#define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade
+#define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade; the last
+                                        // ones set the rings of vertices apart
 #define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
 #define SDV_NEST_FAR 100                // levels down, where a nest without limit masks has arrived
 #define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
@@ -7768,8 +7781,24 @@ typedef struct sdv_cut_patch {
     unsigned char along, up;            // see sdv_patch
 } sdv_cut_patch;
 
-// A leaf is ~(4 number + what): of a polynomial, a cut patch, a face of a nest.
+// A node is the number of the first of four children or, if it is negative, a leaf: what it is, and
+// the number of a polynomial, a cut patch or a face of a nest.
 enum { SDV_LEAF_PATCH, SDV_LEAF_CUT, SDV_LEAF_NEST };
+
+static inline int sdv_leaf_node(int what, int number)
+{
+    return ~(4 * number + what);
+}
+
+static inline int sdv_leaf_what(int node)
+{
+    return ~node & 3;
+}
+
+static inline int sdv_leaf_number(int node)
+{
+    return ~node >> 2;
+}
 
 typedef struct sdv_exact {
     int patch_count;
@@ -8155,7 +8184,7 @@ static void sdv_take_nest_face(sdv_exact_maker *maker, sdv_level *level, int dep
     taken->level = depth;
     taken->place = level->places ? level->places[f] : sdv_first_place(start);
     level->rough[f] = 0;
-    nodes[maker->slots[f]] = ~(4 * face + SDV_LEAF_NEST);
+    nodes[maker->slots[f]] = sdv_leaf_node(SDV_LEAF_NEST, face);
 }
 
 // Turns the rough faces of nests into leaves.
@@ -8223,7 +8252,7 @@ static int sdv_patch_leaf(sdv_exact_maker *maker, const sdv_patch *patch)
     sdv_exact *exact = maker->surface->exact;
     int number = exact->patch_count++, polynomial = exact->polynomial_count;
     exact->polynomial_count++;
-    if (!patch->up) return ~(4 * polynomial + SDV_LEAF_PATCH);
+    if (!patch->up) return sdv_leaf_node(SDV_LEAF_PATCH, polynomial);
     int parts = strips[patch->along - 1].count * strips[patch->up - 1].count;
     exact->polynomial_count += parts - 1;
     sdv_cut_patch *made = (sdv_cut_patch *)sdv_append(maker->writer->context, &maker->cuts, 1,
@@ -8233,7 +8262,7 @@ static int sdv_patch_leaf(sdv_exact_maker *maker, const sdv_patch *patch)
     made->polynomial = polynomial;
     made->along = patch->along;
     made->up = patch->up;
-    return ~(4 * ((int)maker->cuts.count - 1) + SDV_LEAF_CUT);
+    return sdv_leaf_node(SDV_LEAF_CUT, (int)maker->cuts.count - 1);
 }
 
 // The patches of a level, which are those of its core that are not rough, in order.
@@ -8370,7 +8399,8 @@ static inline void sdv_turn_place(int loop, int turn, double u, double v, double
 }
 
 // The number of the first polynomial of a child of a nest's face.
-static inline size_t sdv_nest_polynomial(const sdv_exact *exact, int face, int depth, int child)
+static inline size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, int depth,
+                                                int child)
 {
     return (size_t)exact->polynomial_count +
            3 * ((size_t)depth * (size_t)exact->nest_face_count + (size_t)face) + (size_t)child - 1;
@@ -8385,8 +8415,8 @@ static inline float sdv_on_face(float u)
 
 // Where a location is: on a leaf of the tree, and on a polynomial of that.
 typedef struct sdv_leaf {
-    int    slot;                        // 0: its face has no surface
-    int    deep;                        // in a nest, nearer to the vertex than polynomials are kept
+    int    node;                        // of the tree; 0: its face has no surface
+    int    below_kept;                  // in a nest, nearer to the vertex than polynomials are kept
     size_t polynomial;
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
@@ -8403,7 +8433,7 @@ static inline void sdv_locate_quad(const int *nodes, int node, float u, float v,
         node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
     }
     float scale = (float)(cells >> level);
-    leaf->slot = node;
+    leaf->node = node;
     leaf->sx = leaf->sy = (double)scale;
     leaf->x = (double)(u * scale - (float)(x >> level));
     leaf->y = (double)(v * scale - (float)(y >> level));
@@ -8415,7 +8445,7 @@ static inline void sdv_locate_triangle(const int *nodes, int node, double x, dou
     double scale = 1;
     if (x + y > 1) y = 1 - x;
     for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
-    leaf->slot = node;
+    leaf->node = node;
     leaf->x = x;
     leaf->y = y;
     leaf->sx = leaf->sy = scale;
@@ -8426,7 +8456,7 @@ static inline void sdv_locate(const subdiv_surface *surface, int loop, const sub
 {
     float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
     int f = at->face;
-    leaf->slot = leaf->deep = 0;
+    leaf->node = leaf->below_kept = 0;
     leaf->polynomial = 0;
     if (surface->exact->absent && surface->exact->absent[f]) return;
     if (surface->own_face) f = surface->own_face[f];
@@ -8464,7 +8494,7 @@ static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number
     sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
     while ((loop ? x + y : x > y ? x : y) < 0.5) {
         if (++depth == SDV_NEST_DEPTH) {
-            leaf->deep = 1;
+            leaf->below_kept = 1;
             return;
         }
         x *= 2;
@@ -8474,12 +8504,12 @@ static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number
     int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
     sdv_turn_place(loop, turn ? (loop ? 3 : 4) - turn : 0, x, y, &leaf->x, &leaf->y);
     leaf->sx = leaf->sy = scale;
-    leaf->polynomial = sdv_nest_polynomial(exact, number, depth, child);
+    leaf->polynomial = sdv_nest_polynomial_number(exact, number, depth, child);
 }
 
 static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
 {
-    int what = ~leaf->slot & 3, number = ~leaf->slot >> 2;
+    int what = sdv_leaf_what(leaf->node), number = sdv_leaf_number(leaf->node);
     leaf->polynomial = (size_t)number;
     if (what == SDV_LEAF_CUT) sdv_find_in_cut(surface, number, leaf);
     if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
@@ -8510,20 +8540,22 @@ static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, 
 #define SDV_CELL_POLYNOMIALS ((size_t)1 << (32 - SDV_CELL_BITS))
 #endif
 
+// From the lowest bit on: 0, as it is no grid; 3 bits across; 3 up; turned; the number. (14 has 7
+// across, more than there are levels.)
 static unsigned sdv_pack_cell(size_t polynomial, int across, int up, int turned)
 {
     if (polynomial >= SDV_CELL_POLYNOMIALS) return SDV_CELL_NONE;
     return (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(turned << 7 | up << 4 | across << 1);
 }
 
-// A square of the face of `at` after so many splits; Loop: a triangle, below its diagonal or above.
+// A square of a face after so many splits; Loop: the triangle below its diagonal, or above.
 typedef struct sdv_square {
-    subdiv_location at;
-    int level, x, y, above;
-    int node;                           // of the tree, or the leaf that it is on;
-    int depth;                          // if that is a nest: how many levels down
-    int whole;                          // is one polynomial all over it? Then
-    unsigned cell;                      // its cell; else SDV_CELL_NONE
+    subdiv_location at;                 // the face, and which corner's quad
+    int level, x, y, above;             // number x along a row of 2^level, in row y
+    int node;                           // of the tree: its own, or the leaf that it is a part of
+    int depth;                          // on a face of a nest: how many levels down
+    int whole;                          // is one polynomial all over it?
+    unsigned cell;                      // if it is; else SDV_CELL_NONE
 } sdv_square;
 
 static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
@@ -8533,7 +8565,7 @@ static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, f
     at.u = u;
     at.v = v;
     sdv_locate(surface, surface->rules.loop, &at, &leaf);
-    if (leaf.slot) sdv_find_polynomial(surface, surface->rules.loop, &leaf);
+    if (leaf.node) sdv_find_polynomial(surface, surface->rules.loop, &leaf);
     return leaf;
 }
 
@@ -8555,12 +8587,12 @@ static unsigned sdv_cut_cell(const subdiv_surface *surface, const sdv_square *sq
 // What it is on, where the tree goes on with a node.
 static void sdv_square_node(const subdiv_surface *surface, sdv_square *square, int node)
 {
-    int what = ~node & 3, level = square->level;
+    int what = sdv_leaf_what(node), level = square->level;
     square->node = node;
     square->depth = 0;
     square->cell = SDV_CELL_NONE;
     if (node < 0 && what == SDV_LEAF_PATCH)
-        square->cell = sdv_pack_cell((size_t)(~node >> 2), level, level, square->above);
+        square->cell = sdv_pack_cell((size_t)sdv_leaf_number(node), level, level, square->above);
     if (node < 0 && what == SDV_LEAF_CUT) square->cell = sdv_cut_cell(surface, square);
     square->whole = node < 0 && (what == SDV_LEAF_PATCH || square->cell != SDV_CELL_NONE);
 }
@@ -8580,15 +8612,15 @@ static void sdv_place_square(sdv_square *square, int loop, int k)
 static sdv_square sdv_split_square(const subdiv_surface *surface, const sdv_square *square, int k)
 {
     const sdv_exact *exact = surface->exact;
-    int loop = surface->rules.loop, sides = loop ? 3 : 4, number = ~square->node >> 2;
+    int loop = surface->rules.loop, sides = loop ? 3 : 4, number = sdv_leaf_number(square->node);
     sdv_square part = *square;
     sdv_place_square(&part, loop, k);
     if (square->node >= 0) {
         sdv_square_node(surface, &part, exact->nodes[square->node + k]);
-    } else if (!square->whole && (~square->node & 3) == SDV_LEAF_NEST) {
+    } else if (!square->whole && sdv_leaf_what(square->node) == SDV_LEAF_NEST) {
         int turn = exact->nest_faces[number].turn;
         int child = k < sides ? (k + sides - turn) % sides : k;
-        size_t polynomial = sdv_nest_polynomial(exact, number, square->depth, child);
+        size_t polynomial = sdv_nest_polynomial_number(exact, number, square->depth, child);
         part.depth++;
         part.whole = child > 0;
         if (part.whole) part.cell = sdv_pack_cell(polynomial, part.level, part.level, part.above);
@@ -8706,6 +8738,9 @@ SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
     return !odd;
 }
 
+// Which squares of the finest grid they are in, or triangles above their diagonals; and where that
+// is in the first grid, by the upper two bits of x and y, and in the second one, by the lower two:
+// square 4 y + x of 16 or, if it is a triangle above the diagonal, 15 less that.
 SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
 {
     const int side = 1 << SDV_CELL_LEVELS;
@@ -8854,31 +8889,31 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 // What an evaluation of the exact surface begins with: the polynomials of all leaves.
 
 // A patch, its control points among work points in doubles, and the strips that it is cut into.
-typedef struct sdv_deep_patch {
+typedef struct sdv_double_patch {
     const sdv_rules  *rules;
     const sdv_patch  *patch;
     const int        *points;
     const double     *work;
     const sdv_strips *along, *up;       // or NULL
-} sdv_deep_patch;
+} sdv_double_patch;
 
-static sdv_deep_patch sdv_deep(const subdiv_surface *surface, const sdv_patch *patch,
+static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const sdv_patch *patch,
                                const int *points, const double *work)
 {
-    sdv_deep_patch deep = { &surface->rules, patch, points, work, NULL, NULL };
-    if (patch->up) deep.along = &surface->strips[patch->along - 1];
-    if (patch->up) deep.up = &surface->strips[patch->up - 1];
-    return deep;
+    sdv_double_patch from = { &surface->rules, patch, points, work, NULL, NULL };
+    if (patch->up) from.along = &surface->strips[patch->along - 1];
+    if (patch->up) from.up = &surface->strips[patch->up - 1];
+    return from;
 }
 
-static const double *sdv_deep_point(const sdv_deep_patch *deep, int i)
+static const double *sdv_double_point(const sdv_double_patch *from, int i)
 {
-    return deep->work + 4 * (size_t)deep->points[i];
+    return from->work + 4 * (size_t)from->points[i];
 }
 
-static int sdv_deep_parts(const sdv_deep_patch *deep)
+static int sdv_double_parts(const sdv_double_patch *from)
 {
-    return deep->along ? deep->along->count * deep->up->count : 1;
+    return from->along ? from->along->count * from->up->count : 1;
 }
 
 // Four lines of control points, step from point to point and next from line to line, become sums
@@ -8918,15 +8953,15 @@ static void sdv_cut_cubic(double (*p)[4], int step, int next)
 
 // The part of a patch where two strips cross. It may be a thousandth of the patch, so it is made in
 // doubles. The polynomial starts where the strips' own segments do, which are its units.
-static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *along,
+static void sdv_cut_polynomial(const sdv_double_patch *from, const sdv_strip *along,
                                const sdv_strip *up, sdv_polynomial *q, double *origin)
 {
-    int sharp = deep->patch->sharp;
+    int sharp = from->patch->sharp;
     double p[16][4];
     for (int i = 0; i < 16; i++)
-        for (int c = 0; c < 4; c++) p[i][c] = sdv_deep_point(deep, i)[c] - origin[c];
-    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, deep->along, along);
-    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, deep->up, up);
+        for (int c = 0; c < 4; c++) p[i][c] = sdv_double_point(from, i)[c] - origin[c];
+    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, from->along, along);
+    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, from->up, up);
     sdv_cut_cubic(p, 1, 4);
     sdv_cut_cubic(p, 4, 1);
     for (int c = 0; c < 4; c++) {
@@ -8939,32 +8974,32 @@ static void sdv_cut_polynomial(const sdv_deep_patch *deep, const sdv_strip *alon
 }
 
 // The polynomial of part number i, around its origin: a control point, or where the part starts.
-static void sdv_deep_polynomial(const sdv_deep_patch *deep, int i, sdv_polynomial *q,
+static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynomial *q,
                                 double *origin)
 {
     static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    const double *first = sdv_deep_point(deep, deep->rules->loop ? 4 : 5);
-    int count = sdv_control_points(deep->rules);
+    const double *first = sdv_double_point(from, from->rules->loop ? 4 : 5);
+    int count = sdv_control_points(from->rules);
     float points[4 * 16];
     sdv_four p[16];
     q->origin = sdv_all(0);
     for (int c = 0; c < 4; c++) origin[c] = first[c];
-    if (deep->along) {
-        int columns = deep->along->count;
-        sdv_cut_polynomial(deep, &deep->along->items[i % columns], &deep->up->items[i / columns],
+    if (from->along) {
+        int columns = from->along->count;
+        sdv_cut_polynomial(from, &from->along->items[i % columns], &from->up->items[i / columns],
                            q, origin);
         return;
     }
     for (int k = 0; k < count; k++)
         for (int c = 0; c < 4; c++)
-            points[4 * k + c] = (float)(sdv_deep_point(deep, k)[c] - origin[c]);
-    if (deep->rules->loop) {
-        sdv_triangle_polynomial(deep->patch, same, 0, deep->rules->linear, points, q);
+            points[4 * k + c] = (float)(sdv_double_point(from, k)[c] - origin[c]);
+    if (from->rules->loop) {
+        sdv_triangle_polynomial(from->patch, same, 0, from->rules->linear, points, q);
         return;
     }
     sdv_load_points(same, count, points, p);
-    if (deep->patch->sharp) sdv_mirror_quad(deep->patch, p);
-    sdv_quad_polynomial(p, 0, 0, deep->rules->linear, q);
+    if (from->patch->sharp) sdv_mirror_quad(from->patch, p);
+    sdv_quad_polynomial(p, 0, 0, from->rules->linear, q);
 }
 
 // Where a patch is, of those of all levels, one level's behind the other's.
@@ -9061,7 +9096,7 @@ static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int 
     return &kind->patches.items[i];
 }
 
-// The scratch memory of an evaluation: work points in doubles, since points of a deep level differ
+// The scratch memory of an evaluation: work points in doubles, since points of a fine level differ
 // in their last digits alone; a nest's; what each nest has behind its last polynomials: the base,
 // and its points as seen from there; then the coefficients of each polynomial.
 typedef struct sdv_exact_memory {
@@ -9098,13 +9133,13 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
     const sdv_exact *exact = surface->exact;
     size_t count = (size_t)exact->polynomial_count +
                    3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
-    size_t deep = sdv_exact_kept_count(exact), polynomial = SDV_SLOTS * sizeof(float);
-    double doubles = (double)surface->work_count + (double)deep + (double)exact->most_work;
+    size_t kept = sdv_exact_kept_count(exact), polynomial = SDV_SLOTS * sizeof(float);
+    double doubles = (double)surface->work_count + (double)kept + (double)exact->most_work;
     if (!sdv_addressable(channels, sizeof(double) * doubles + (double)polynomial * (double)count))
         return SIZE_MAX;
     // Room for two alignments, and for loads of four floats that end behind the last polynomial.
     return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
-           sdv_exact_nest_size(surface) + sdv_exact_doubles(channels, deep) +
+           sdv_exact_nest_size(surface) + sdv_exact_doubles(channels, kept) +
            polynomial * (size_t)channels * count;
 }
 
@@ -9188,10 +9223,10 @@ static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch 
     int parts = 0;
     for (int c = 0; c < e->channels; c += 4) {
         const double *work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
-        sdv_deep_patch deep = sdv_deep(e->surface, patch, points, work);
-        parts = sdv_deep_parts(&deep);
+        sdv_double_patch from = sdv_double_patch_of(e->surface, patch, points, work);
+        parts = sdv_double_parts(&from);
         for (int k = 0; k < parts; k++) {
-            sdv_deep_polynomial(&deep, k, &q, origin);
+            sdv_make_polynomial(&from, k, &q, origin);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
                                 sdv_polynomial_at(e, i + (size_t)k, c));
         }
@@ -9205,10 +9240,10 @@ static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, i
 {
     const int *points;
     const sdv_patch *patch = sdv_nest_patch(s->kind, face, child, turn, &points);
-    sdv_deep_patch deep = sdv_deep(s->surface, patch, points, s->w);
+    sdv_double_patch from = sdv_double_patch_of(s->surface, patch, points, s->w);
     sdv_polynomial q;
     double origin[4];
-    sdv_deep_polynomial(&deep, 0, &q, origin);
+    sdv_make_polynomial(&from, 0, &q, origin);
     for (int c = 0; c < 4; c++) origin[c] = s->base[c] + s->shrink * origin[c];
     sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
 }
@@ -9226,7 +9261,7 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
                 int face = i / 3, child = i % 3 + 1;
-                size_t at = sdv_nest_polynomial(exact, first + face, depth, child);
+                size_t at = sdv_nest_polynomial_number(exact, first + face, depth, child);
                 sdv_child_polynomial(&s, face, child, exact->nest_faces[first + face].turn,
                                      sdv_lanes_from(e->channels, c), sdv_polynomial_at(e, at, c));
             }
@@ -9299,7 +9334,7 @@ static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const sub
     e.surface = evaluation->surface;
     e.channels = evaluation->channels;
     e.memory = sdv_exact_parts(e.surface, e.channels, scratch);
-    evaluation->deep = e.memory.work;
+    evaluation->doubles = e.memory.work;
     sdv_make_work(evaluation, opt);
     const sdv_exact *exact = e.surface->exact;
     e.jobs = sdv_jobs(exact->patch_count, 256);
@@ -9319,7 +9354,8 @@ typedef struct sdv_where {
 } sdv_where;
 
 // From rows, the coefficients of powers of y with their derivatives in x, to values and derivatives
-// up to an order, as subdiv_derivatives has them.
+// up to an order: p, du, dv, duu, duv, dvv, as everywhere here. Of order n they are the first
+// (n + 1)(n + 2) / 2; what is beyond need not be set.
 SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *at, int order,
                                 sdv_four *out)
 {
@@ -9389,11 +9425,11 @@ static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *pa
     double unit[16][4] = { { 0 } }, origin[4];
     float data[4 * SDV_SLOTS], w[4];
     sdv_polynomial q;
-    sdv_deep_patch deep = sdv_deep(surface, patch, same, unit[0]);
+    sdv_double_patch from = sdv_double_patch_of(surface, patch, same, unit[0]);
     for (int first = 0; first < sdv_control_points(&surface->rules); first += 4) {
         sdv_four values[6];
         for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
-        sdv_deep_polynomial(&deep, part, &q, origin);
+        sdv_make_polynomial(&from, part, &q, origin);
         for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
         sdv_keep_polynomial(&q, origin, 1, 4, data);
         sdv_polynomial_values(data, surface->rules.loop, 4, at, 2, values);
@@ -9534,8 +9570,8 @@ static int sdv_parallel(const double *a, const double *b)
     return sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
 }
 
-// Of a face alone on its side of a crease they are, near the vertex: there the normal is the
-// vertex's, whose second tangent is how the crease bends.
+// Near a vertex with one face on a side of its crease tangents are parallel. There the normal is
+// that of the vertex, whose second tangent is how the crease bends.
 static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
 {
     double limit[3][4];
@@ -9596,7 +9632,8 @@ static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale
     }
 }
 
-static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s, int c, size_t i)
+static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sample *s, int c,
+                                size_t i)
 {
     for (int k = 0; k < 6; k++)
         for (int l = 0; l < 4 && c + l < e->channels && e->out[k]; l++) {
@@ -9608,24 +9645,24 @@ static void sdv_nest_put(const sdv_exact_evaluation *e, const sdv_nest_sample *s
     sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-24, e->normals + e->normal_stride * i);
 }
 
-static int sdv_put_nest(const sdv_exact_evaluation *e, int number, double x, double y, double scale,
-                        size_t i)
+static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
 {
     const subdiv_surface *surface = e->surface;
+    int loop = surface->rules.loop, number = sdv_leaf_number(leaf->node);
     const sdv_nest_face *face = &surface->exact->nest_faces[number];
-    const signed char *t = sdv_turns[surface->rules.loop][face->turn];
+    const signed char *t = sdv_turns[loop][face->turn];
     int count = sdv_nest_work(surface->exact, face->nest);
     double stack[4 * SDV_NEST_STACK], *w = stack;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
     s.face = number - surface->exact->nests[face->nest].face;
-    sdv_nest_place(surface->rules.loop, face->turn, x, y, &s.x, &s.y);
+    sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &s.x, &s.y);
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
         sdv_nest_evaluate(&s, e, face->nest, c, w);
-        sdv_nest_turn(&s, t, scale);
-        sdv_nest_put(e, &s, c, i);
+        sdv_nest_turn(&s, t, leaf->sx);
+        sdv_put_nest_sample(e, &s, c, i);
     }
     sdv_arena_free(&arena);
     return w != NULL;
@@ -9643,10 +9680,10 @@ static void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop
 {
     const float *data = e->memory.polynomials + SDV_SLOTS * (size_t)e->channels * leaf->polynomial;
     sdv_where at = { (float)leaf->x, (float)leaf->y, (float)leaf->sx, (float)leaf->sy };
-    if (leaf->slot == 0)
+    if (leaf->node == 0)
         sdv_put_zeros(e, i);
-    else if (leaf->deep)
-        e->failed[job] |= !sdv_put_nest(e, ~leaf->slot >> 2, leaf->x, leaf->y, leaf->sx, i);
+    else if (leaf->below_kept)
+        e->failed[job] |= !sdv_sample_nest(e, leaf, i);
     else
         sdv_put_channels(e, data, loop, &at, i);
 }
@@ -9724,7 +9761,7 @@ SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, in
     if (i < end) sdv_put_rest(e, job, loop, i, (int)(end - i));
 }
 
-static void sdv_samples_job(void *context, int job)
+static void sdv_locations_job(void *context, int job)
 {
     sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
@@ -9802,7 +9839,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
     e.jobs = sdv_jobs(count, 1024);
-    sdv_run(opt, sdv_samples_job, &e, e.jobs);
+    sdv_run(opt, sdv_locations_job, &e, e.jobs);
     if (memchr(e.refused, 1, sizeof e.refused))
         sdv_check_locations(&context, surface, count, locations);
     else if (memchr(e.failed, 1, sizeof e.failed))
@@ -10395,11 +10432,11 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
 }
 
 // The patch of a leaf that is none of a nest.
-static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int slot, const int **points)
+static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int node, const int **points)
 {
     const sdv_exact *exact = surface->exact;
-    int number = ~slot >> 2;
-    if ((~slot & 3) == SDV_LEAF_CUT) number = exact->cuts[number].patch;
+    int number = sdv_leaf_number(node);
+    if (sdv_leaf_what(node) == SDV_LEAF_CUT) number = exact->cuts[number].patch;
     else number -= sdv_more_polynomials(surface, sdv_last_cut(exact, INT_MAX, number));
     return sdv_patch_of(surface, sdv_find_patch(surface, number), points);
 }
@@ -10409,12 +10446,12 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
     const int *points;
-    const sdv_patch *patch = sdv_leaf_patch(surface, leaf.slot, &points);
+    const sdv_patch *patch = sdv_leaf_patch(surface, leaf.node, &points);
     double all[16][6], weights[3 * 16];
     int count = sdv_control_points(&surface->rules), part = 0;
     sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-    if ((~leaf.slot & 3) == SDV_LEAF_CUT)
-        part = (int)leaf.polynomial - surface->exact->cuts[~leaf.slot >> 2].polynomial;
+    if (sdv_leaf_what(leaf.node) == SDV_LEAF_CUT)
+        part = (int)leaf.polynomial - surface->exact->cuts[sdv_leaf_number(leaf.node)].polynomial;
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
     sdv_patch_weights(surface, patch, part, &at, all);
     for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
@@ -10511,13 +10548,13 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
 {
     const subdiv_surface *surface = make->surface;
     const sdv_exact *exact = surface->exact;
-    const sdv_nest_face *face = &exact->nest_faces[~leaf->slot >> 2];
+    const sdv_nest_face *face = &exact->nest_faces[sdv_leaf_number(leaf->node)];
     const sdv_nest *nest = &exact->nests[face->nest];
     const sdv_nest_kind *kind = &exact->kinds[nest->kind];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
     double x, y;
     sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
-    sdv_weigh_nest(surface, kind, (~leaf->slot >> 2) - nest->face, x, y, w);
+    sdv_weigh_nest(surface, kind, sdv_leaf_number(leaf->node) - nest->face, x, y, w);
     for (int i = 0; i < kind->points; i++) {
         double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
@@ -10536,8 +10573,8 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     for (int i = 0; i < count && !context->result; i++) {
         sdv_leaf leaf;
         sdv_locate(surface, surface->rules.loop, &locations[i], &leaf);
-        if ((~leaf.slot & 3) == SDV_LEAF_NEST) sdv_add_leaf_nest(&make, &leaf, w);
-        else if (leaf.slot) sdv_add_leaf_patch(&make, leaf);
+        if (sdv_leaf_what(leaf.node) == SDV_LEAF_NEST) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.node) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
     }
     sdv_copy_stencils(&make, count, stencils);
@@ -10927,43 +10964,43 @@ static sdv_source sdv_begin_source(sdv_context *context, sdv_arena *arena,
     evaluation.channels = channels;
     evaluation.in = in;
     evaluation.in_stride = (size_t)channels;
-    evaluation.deep = source.work;
+    evaluation.doubles = source.work;
     if (source.work) sdv_make_work(&evaluation, opt);
     return source;
 }
 
 // The first count points of a tiling and, unless NULL, their normals.
-typedef struct sdv_samples {
+typedef struct sdv_tile_points {
     const sdv_tiling *tiling;
     const sdv_source *source;
     float *points, *normals;
     int    count, jobs;
     void  *user;                        // of the allocator
     unsigned char failed[SDV_MOST_JOBS];
-} sdv_samples;
+} sdv_tile_points;
 
-// A leaf of the exact surface covers a cell of the grid of its face (a turned triangle the upper
+// A leaf of the exact surface covers an area of the grid of its face (a turned triangle the upper
 // half of one, any other triangle the lower), and makes the points that are there:
 //
-//     +---+---+       those between cells belong to the cell that is nearer to the middle of the
+//     +---+---+       those between cells belong to the area that is nearer to the middle of the
 //     | > | < |       grid or, if they are on an edge of the face, of the edge, so that what is
 //     +---+---+       left of a nest has no points but its vertex as soon as it is as small as the
 //     | > | < |       pieces of the grid. In triangles the middle is where u, v and 1 - u - v are
 //     +---+---+       1/3: no line between cells, which are at multiples of 2^-bits, is there
-typedef struct sdv_cell {
+typedef struct sdv_area {
     int     bits;                       // 2^bits units are a side of the grid: it is, in these,
     int64_t left, right, bottom, top;   // from left to right and from bottom to top
     int     step;                       // -1: turned
     double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
-} sdv_cell;                             // where t is from 0 to 1 along a side of the grid
+} sdv_area;                             // where t is from 0 to 1 along a side of the grid
 
 // Makes them. The polynomial is made for the first line of them.
 typedef struct sdv_leaf_points {
-    const sdv_samples *samples;
+    const sdv_tile_points *samples;
     const sdv_window  *out;
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
-    sdv_cell cell;
+    sdv_area area;
     const sdv_patch *patch;             // and its control points, seen from base: + shrink times
     const int       *points;
     const double    *work;
@@ -10973,36 +11010,36 @@ typedef struct sdv_leaf_points {
     sdv_polynomial polynomial;
 } sdv_leaf_points;
 
-static int64_t sdv_units(const sdv_cell *cell)
+static int64_t sdv_units(const sdv_area *area)
 {
-    return (int64_t)1 << cell->bits;
+    return (int64_t)1 << area->bits;
 }
 
 // The square (or triangle) whose vertex 0 is at (x, y).
-static sdv_cell sdv_cell_at(int bits, int64_t x, int64_t y, int step)
+static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
 {
     int64_t left = step > 0 ? x : x - 1, bottom = step > 0 ? y : y - 1;
     double scale = (double)((int64_t)1 << bits);
-    sdv_cell cell = { bits, left, left + 1, bottom, bottom + 1, step, scale, scale,
+    sdv_area area = { bits, left, left + 1, bottom, bottom + 1, step, scale, scale,
                       (double)x, (double)y };
-    return cell;
+    return area;
 }
 
 // The part of a quad where two strips cross.
-static sdv_cell sdv_cell_of_strips(sdv_cell cell, const sdv_strip *along, const sdv_strip *up)
+static sdv_area sdv_area_of_strips(sdv_area area, const sdv_strip *along, const sdv_strip *up)
 {
     const int64_t whole = 1 << SDV_STRIP_LEVELS;
-    int64_t x = cell.left * whole, y = cell.bottom * whole;
-    cell.bits += SDV_STRIP_LEVELS;
-    cell.left = x + along->from;
-    cell.right = x + along->to;
-    cell.bottom = y + up->from;
-    cell.top = y + up->to;
-    cell.sx *= (double)whole / along->unit;
-    cell.sy *= (double)whole / up->unit;
-    cell.x = (cell.x * (double)whole + along->origin) / along->unit;
-    cell.y = (cell.y * (double)whole + up->origin) / up->unit;
-    return cell;
+    int64_t x = area.left * whole, y = area.bottom * whole;
+    area.bits += SDV_STRIP_LEVELS;
+    area.left = x + along->from;
+    area.right = x + along->to;
+    area.bottom = y + up->from;
+    area.top = y + up->to;
+    area.sx *= (double)whole / along->unit;
+    area.sy *= (double)whole / up->unit;
+    area.x = (area.x * (double)whole + along->origin) / along->unit;
+    area.y = (area.y * (double)whole + up->origin) / up->unit;
+    return area;
 }
 
 // What is left of a nest is the plane of its vertex.
@@ -11034,11 +11071,12 @@ static void sdv_need_polynomial(sdv_leaf_points *l)
         sdv_vertex_plane(l->vertex, q);
         return;
     }
-    sdv_deep_patch deep = sdv_deep(l->samples->source->surface, l->patch, l->points, l->work);
-    double from[4];
-    sdv_deep_polynomial(&deep, l->number, q, from);
+    sdv_double_patch from = sdv_double_patch_of(l->samples->source->surface, l->patch, l->points,
+                                                l->work);
+    double start[4];
+    sdv_make_polynomial(&from, l->number, q, start);
     sdv_four shrink = sdv_all((float)l->shrink);
-    for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * from[c]);
+    for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * start[c]);
     q->origin = sdv_load(origin);
     for (int i = 0; i <= q->degree && l->shrink < 1; i++)
         for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
@@ -11080,9 +11118,9 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
 // Rows, columns, or else a slanted side, which only triangles have: there each point makes a row.
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 {
-    const sdv_cell *cell = &l->cell;
-    double u = cell->step * (cell->sx * line->u - cell->x), du = cell->step * cell->sx * line->du;
-    double v = cell->step * (cell->sy * line->v - cell->y), dv = cell->step * cell->sy * line->dv;
+    const sdv_area *area = &l->area;
+    double u = area->step * (area->sx * line->u - area->x), du = area->step * area->sx * line->du;
+    double v = area->step * (area->sy * line->v - area->y), dv = area->step * area->sy * line->dv;
     int row = fabs(dv) <= 0, column = fabs(du) <= 0, loop = l->tile.loop;
     int tangents = l->out->tangents != NULL;
     sdv_line_points point = *line;
@@ -11100,26 +11138,26 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 }
 
 // Of the points k step / rate of a side, with a step of 1 or 2: the first one behind low, in units
-// of a cell, or there, if the cell owns that.
-static int64_t sdv_first_tick(const sdv_cell *cell, int64_t low, int owns, int step, int64_t rate)
+// of an area, or there, if the area owns that.
+static int64_t sdv_first_tick(const sdv_area *area, int64_t low, int owns, int step, int64_t rate)
 {
-    int bits = cell->bits + step - 1, there = (low * rate & (((int64_t)1 << bits) - 1)) == 0;
+    int bits = area->bits + step - 1, there = (low * rate & (((int64_t)1 << bits) - 1)) == 0;
     return (low * rate >> bits) + !(owns && there);
 }
 
-static int64_t sdv_last_tick(const sdv_cell *cell, int64_t high, int owns, int step, int64_t rate)
+static int64_t sdv_last_tick(const sdv_area *area, int64_t high, int owns, int step, int64_t rate)
 {
-    int bits = cell->bits + step - 1, there = (high * rate & (((int64_t)1 << bits) - 1)) == 0;
+    int bits = area->bits + step - 1, there = (high * rate & (((int64_t)1 << bits) - 1)) == 0;
     return (high * rate >> bits) - (!owns && there);
 }
 
-// Those from 1 to most that a cell from low to high has, of a quad or on an edge.
-static void sdv_find_ticks(const sdv_cell *cell, int64_t low, int64_t high, int step, int64_t rate,
+// Those from 1 to most that an area from low to high has, of a quad or on an edge.
+static void sdv_find_ticks(const sdv_area *area, int64_t low, int64_t high, int step, int64_t rate,
                            int64_t most, sdv_line_points *line)
 {
-    int64_t units = sdv_units(cell);
-    line->first = sdv_first_tick(cell, low, 2 * low <= units, step, rate);
-    line->last = sdv_last_tick(cell, high, 2 * high > units, step, rate);
+    int64_t units = sdv_units(area);
+    line->first = sdv_first_tick(area, low, 2 * low <= units, step, rate);
+    line->last = sdv_last_tick(area, high, 2 * high > units, step, rate);
     if (line->first < 1) line->first = 1;
     if (line->last > most) line->last = most;
 }
@@ -11127,12 +11165,12 @@ static void sdv_find_ticks(const sdv_cell *cell, int64_t low, int64_t high, int 
 // The points inside the grid, row by row.
 static void sdv_put_quad_inside(sdv_leaf_points *l)
 {
-    const sdv_cell *cell = &l->cell;
+    const sdv_area *area = &l->area;
     const sdv_tile *tile = &l->tile;
     int columns = tile->grid.columns, rows = tile->grid.rows;
     sdv_line_points row, up;
-    sdv_find_ticks(cell, cell->bottom, cell->top, 1, rows, rows - 1, &up);
-    sdv_find_ticks(cell, cell->left, cell->right, 1, columns, columns - 1, &row);
+    sdv_find_ticks(area, area->bottom, area->top, 1, rows, rows - 1, &up);
+    sdv_find_ticks(area, area->left, area->right, 1, columns, columns - 1, &row);
     row.u = row.dv = 0;
     row.du = 1.0 / columns;
     row.step = 1;
@@ -11143,9 +11181,12 @@ static void sdv_put_quad_inside(sdv_leaf_points *l)
     }
 }
 
+// Sides belong to the area that is nearer to the middle, see above. A turned one has them above and
+// on the right, the others below and on the left; each has one along a diagonal, where u + v is
+// what it is at the middle or more, or less.
 static void sdv_put_triangle_inside(sdv_leaf_points *l)
 {
-    const sdv_cell *c = &l->cell;
+    const sdv_area *c = &l->area;
     int n = l->tile.grid.columns, turned = c->step < 0;
     int64_t units = sdv_units(c), slant = c->left + c->bottom + 1;      // u + v on the slanted side
     int64_t left = sdv_first_tick(c, c->left, turned || 3 * c->left < units, 1, n);
@@ -11177,7 +11218,7 @@ static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t lo
     int rate = sdv_edge_rate(tile, side), h = tile->first + side;
     sdv_line_points line = *side_line;
     if (tile->tiling->home[cage->vertex_count + cage->face_edges[h]] != h) return;
-    sdv_find_ticks(&l->cell, low, high, step, rate,
+    sdv_find_ticks(&l->area, low, high, step, rate,
                    step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
     if (line.first > line.last) return;
     sdv_side points = sdv_tile_side(tile, side, backwards);
@@ -11193,19 +11234,19 @@ static void sdv_put_spoke(sdv_leaf_points *l)
 {
     int m = l->tile.grid.columns;
     sdv_line_points line = { 0, 0, 1, 0, 0, 1.0 / m, 0, -1 };
-    sdv_find_ticks(&l->cell, l->cell.bottom, l->cell.top, 1, m, m - 1, &line);
+    sdv_find_ticks(&l->area, l->area.bottom, l->area.top, 1, m, m - 1, &line);
     line.index = l->tile.inside + m + l->corner * (m - 1) - (int)line.first;
     sdv_put_line(l, &line);
 }
 
-static void sdv_put_cell_sides(sdv_leaf_points *l)
+static void sdv_put_area_sides(sdv_leaf_points *l)
 {
     static const sdv_line_points bottom  = { 0, 0, 0, 0,  1, 0, 0, 0 };
     static const sdv_line_points right   = { 0, 0, 1, 0,  0, 1, 0, 0 };
     static const sdv_line_points slanted = { 0, 0, 1, 0, -1, 1, 0, 0 };
     static const sdv_line_points top     = { 0, 0, 0, 1,  1, 0, 0, 0 };
     static const sdv_line_points left    = { 0, 0, 0, 0,  0, 1, 0, 0 };
-    const sdv_cell *c = &l->cell;
+    const sdv_area *c = &l->area;
     int loop = l->tile.loop, ngon = l->tile.ngon, last = l->tile.sides - 1;
     int before = ngon ? l->corner ? l->corner - 1 : last : last;
     int64_t units = sdv_units(c), end = loop ? c->left + c->bottom + 1 : c->right;
@@ -11218,16 +11259,16 @@ static void sdv_put_cell_sides(sdv_leaf_points *l)
 }
 
 // The vertices of the face, and the centre of an n-gon.
-static void sdv_put_cell_corners(sdv_leaf_points *l)
+static void sdv_put_area_corners(sdv_leaf_points *l)
 {
-    const sdv_cell *cell = &l->cell;
+    const sdv_area *area = &l->area;
     const sdv_tile *tile = &l->tile;
     const int (*at)[2] = tile->loop ? sdv_corner_triangle : sdv_corner_quad;
-    int64_t units = sdv_units(cell);
+    int64_t units = sdv_units(area);
     for (int i = 0; i < (tile->loop ? 3 : 4); i++) {
         int up = at[i][0] > 0, right = at[i][1] > 0;
-        if (!(right ? cell->right == units : cell->left == 0) ||
-            !(up ? cell->top == units : cell->bottom == 0)) continue;
+        if (!(right ? area->right == units : area->left == 0) ||
+            !(up ? area->top == units : area->bottom == 0)) continue;
         int h = tile->first + (tile->ngon ? l->corner : i);
         int v = tile->tiling->cage->face_vertices[h];
         sdv_line_points point = { 0, 0, (double)right, (double)up, 0, 0, v, 0 };
@@ -11240,18 +11281,19 @@ static void sdv_put_cell_corners(sdv_leaf_points *l)
     }
 }
 
-static void sdv_put_cell(sdv_leaf_points *l)
+static void sdv_put_area(sdv_leaf_points *l)
 {
     l->ready = 0;
     if (l->tile.loop) sdv_put_triangle_inside(l);
     else sdv_put_quad_inside(l);
-    if (l->cell.step < 0) return;
-    sdv_put_cell_sides(l);
-    sdv_put_cell_corners(l);
+    if (l->area.step < 0) return;
+    sdv_put_area_sides(l);
+    sdv_put_area_corners(l);
 }
 
 // A leaf on the grid of face-vertex h. 0: the face has no surface.
-static int sdv_begin_leaf(const sdv_samples *s, const sdv_window *out, int h, sdv_leaf_points *l)
+static int sdv_begin_leaf(const sdv_tile_points *s, const sdv_window *out, int h,
+                          sdv_leaf_points *l)
 {
     const sdv_tiling *tiling = s->tiling;
     int f = sdv_face_of(tiling->cage, h);
@@ -11268,32 +11310,32 @@ static int sdv_begin_leaf(const sdv_samples *s, const sdv_window *out, int h, sd
     return 1;
 }
 
-static void sdv_put_patch_points(const sdv_samples *s, const sdv_window *out, sdv_patch_at at)
+static void sdv_put_patch_points(const sdv_tile_points *s, const sdv_window *out, sdv_patch_at at)
 {
     const subdiv_surface *surface = s->source->surface;
     const int *points;
     const sdv_patch *patch = sdv_patch_of(surface, at, &points);
     sdv_leaf_points l;
     if (!sdv_begin_leaf(s, out, patch->h, &l)) return;
-    sdv_cell cell = sdv_cell_at(at.level - l.tile.ngon, patch->column, patch->row, patch->step);
-    l.cell = cell;
+    sdv_area area = sdv_area_at(at.level - l.tile.ngon, patch->column, patch->row, patch->step);
+    l.area = area;
     l.patch = patch;
     l.points = points;
     if (!patch->up) {
-        sdv_put_cell(&l);
+        sdv_put_area(&l);
         return;
     }
     const sdv_strips *along = &surface->strips[patch->along - 1];
     const sdv_strips *up = &surface->strips[patch->up - 1];
     for (; l.number < along->count * up->count; l.number++) {
-        l.cell = sdv_cell_of_strips(cell, &along->items[l.number % along->count],
+        l.area = sdv_area_of_strips(area, &along->items[l.number % along->count],
                                     &up->items[l.number / along->count]);
-        sdv_put_cell(&l);
+        sdv_put_area(&l);
     }
 }
 
-// The cell of a face of a nest after so many levels, and where its vertex is; or that of its child.
-static sdv_cell sdv_nest_cell(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
+// The area of a face of a nest after so many levels, and where its vertex is; or that of its child.
+static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
 {
     const sdv_place *place = &face->place;
     int loop = tile->loop, sides = loop ? 3 : 4, step = place->step;
@@ -11303,18 +11345,20 @@ static sdv_cell sdv_nest_cell(const sdv_tile *tile, const sdv_nest_face *face, i
     int64_t right = step * at[face->turn][1] / 2, up = step * at[face->turn][0] / 2;
     int64_t x = (place->column + right) * size, y = (place->row + up) * size;
     if (child == 0) {
-        sdv_cell own = sdv_cell_at(bits, x - right, y - up, step);
+        sdv_area own = sdv_area_at(bits, x - right, y - up, step);
         own.x = (double)x;
         own.y = (double)y;
         return own;
     }
     int turned = child < sides ? (child + face->turn) % sides : child;
     int64_t child_right = turned == 1 || turned == (loop ? 3 : 2), child_up = turned >= 2;
-    return sdv_cell_at(bits + 1, 2 * (x - right) + step * child_right,
+    return sdv_area_at(bits + 1, 2 * (x - right) + step * child_right,
                        2 * (y - up) + step * child_up, child == 3 && loop ? -step : step);
 }
 
-// After how many levels what is left of a face of a nest has no points but its vertex.
+// After how many levels what is left of a face of a nest has no points but its vertex: it is
+// smaller than all pieces, or as large as the smallest one and in a corner of the grid, where other
+// points belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
     int most = tile->grid.columns > tile->grid.rows ? tile->grid.columns : tile->grid.rows;
@@ -11323,17 +11367,16 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
         if (rate > most) most = rate;
     }
     for (int depth = 0;; depth++) {
-        sdv_cell cell = sdv_nest_cell(tile, face, depth, 0);
-        int64_t units = sdv_units(&cell), x = (int64_t)cell.x, y = (int64_t)cell.y;
+        sdv_area area = sdv_nest_area(tile, face, depth, 0);
+        int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
         int corner = (x == 0 || x == units) && (y == 0 || y == units);
-        int middle = units <= 2;                // of an edge: one of its halves has it
-        if (units > most || (units == most && units > 1 && corner && !middle))
-            return depth;
+        int halves = units <= 2;                // of an edge: one of them has its middle
+        if (units > most || (units == most && corner && !halves)) return depth;
     }
 }
 
 // The points on patches of a nest's next level.
-static void sdv_put_nest_level(const sdv_samples *s, const sdv_window *out,
+static void sdv_put_nest_level(const sdv_tile_points *s, const sdv_window *out,
                                const sdv_nest_state *state, const sdv_nest_face *faces, int depth)
 {
     sdv_leaf_points l;
@@ -11345,13 +11388,14 @@ static void sdv_put_nest_level(const sdv_samples *s, const sdv_window *out,
         for (int c = 0; c < 4; c++) l.base[c] = state->base[c];
         for (int child = 1; child <= 3; child++) {
             l.patch = sdv_nest_patch(state->kind, i, child, face->turn, &l.points);
-            l.cell = sdv_nest_cell(&l.tile, face, depth, child);
-            sdv_put_cell(&l);
+            l.area = sdv_nest_area(&l.tile, face, depth, child);
+            sdv_put_area(&l);
         }
     }
 }
 
-static void sdv_put_nest_points(const sdv_samples *s, const sdv_window *out, int number, double *w)
+static void sdv_put_nest_points(const sdv_tile_points *s, const sdv_window *out, int number,
+                                double *w)
 {
     const subdiv_surface *surface = s->source->surface;
     const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
@@ -11374,16 +11418,16 @@ static void sdv_put_nest_points(const sdv_samples *s, const sdv_window *out, int
         sdv_leaf_points l;
         if (!sdv_begin_leaf(s, out, faces[i].place.h, &l)) continue;
         vertex.face = i;
-        l.cell = sdv_nest_cell(&l.tile, &faces[i], most, 0);
+        l.area = sdv_nest_area(&l.tile, &faces[i], most, 0);
         l.vertex = &vertex;
-        sdv_put_cell(&l);
+        sdv_put_area(&l);
     }
 }
 
 // Patches of all levels, then nests.
-static void sdv_sample_job(void *context, int job)
+static void sdv_tile_points_job(void *context, int job)
 {
-    sdv_samples *s = (sdv_samples *)context;
+    sdv_tile_points *s = (sdv_tile_points *)context;
     const subdiv_surface *surface = s->source->surface;
     const sdv_exact *exact = surface->exact;
     int patches = exact->patch_count, count = patches + exact->nest_count;
@@ -11413,12 +11457,13 @@ static void sdv_sample_job(void *context, int job)
     sdv_arena_free(&arena);
 }
 
-static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sdv_tiling *tiling,
-                       const sdv_source *source, float *points, float *normals, int count)
+static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
+                                 const sdv_tiling *tiling, const sdv_source *source,
+                                 float *points, float *normals, int count)
 {
     const subdiv_surface *surface = source->surface;
     size_t width = (size_t)source->channels;
-    sdv_samples s;
+    sdv_tile_points s;
     if (context->result) return;
     memset(&s, 0, sizeof s);
     s.tiling = tiling;
@@ -11428,7 +11473,7 @@ static void sdv_sample(sdv_context *context, const subdiv_options *opt, const sd
     s.count = count;
     s.user = context->user;
     s.jobs = sdv_jobs((int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
-    sdv_run(opt, sdv_sample_job, &s, s.jobs);
+    sdv_run(opt, sdv_tile_points_job, &s, s.jobs);
     if (memchr(s.failed, 1, sizeof s.failed))
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
     for (int v = 0; v < tiling->cage->vertex_count; v++) {      // those without faces
@@ -11476,7 +11521,7 @@ static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float f
     if (context->result) return;
     int count = halves.starts[cage->edge_count];
     float *points = SDV_NEW(context, &t->arena, float, 3 * (size_t)count);
-    sdv_sample(context, t->opt, &halves, &t->positions, points, NULL, count);
+    sdv_make_tile_points(context, t->opt, &halves, &t->positions, points, NULL, count);
     if (!context->result) sdv_multiply(points, 3 * (size_t)count, factor);
     for (int e = 0; e < cage->edge_count && !context->result; e++) {
         int h = halves.home[cage->vertex_count + e];
@@ -11632,16 +11677,17 @@ static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
 {
     const subdiv_surface *surface = t->surface, *uv = surface->uv;
     subdiv_mesh *mesh = &t->mesh;
-    sdv_sample(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
+    sdv_make_tile_points(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
                mesh->vertex_count);
     if (surface->colors) {
         sdv_source colors = sdv_begin_source(context, &t->arena, surface, 3, surface->colors,
                                              t->opt);
-        sdv_sample(context, t->opt, &t->points, &colors, mesh->colors, NULL, mesh->vertex_count);
+        sdv_make_tile_points(context, t->opt, &t->points, &colors, mesh->colors, NULL,
+                             mesh->vertex_count);
     }
     if (uv) {
         sdv_source uvs = sdv_begin_source(context, &t->arena, uv, 2, surface->uvs, t->opt);
-        sdv_sample(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
+        sdv_make_tile_points(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
     }
 }
 
