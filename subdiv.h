@@ -11097,22 +11097,25 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     const sdv_window *out = l->out;
     sdv_tangents *wait = out->tangents;
     sdv_curve curve;
-    int index = points->index, i = tangents ? wait->count : 0, count = out->count;
+    int lanes = out->lanes, step = points->step, index = points->index, i = 0;
+    ptrdiff_t stride = (ptrdiff_t)out->stride * step;
+    float *to = out->values + out->stride * (size_t)index;
     sdv_make_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
-    for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
+    if (tangents) i = wait->count;
+    for (int64_t k = points->first, last = points->last; k <= last; k++, to += stride) {
         sdv_four x = sdv_all((float)(from + (double)k * by));
-        sdv_four p = loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x);
-        if (index >= count) continue;
-        sdv_store_some(out->values + out->stride * (size_t)index, p, out->lanes);
+        sdv_store_some(to, loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), lanes);
         if (!tangents) continue;
         wait->at[i] = index;
         wait->along[i] = sdv_horner3(turned ? curve.across : curve.along, x);
         wait->across[i] = sdv_horner3(turned ? curve.along : curve.across, x);
-        wait->count = ++i;
-        if (i < SDV_WAITING) continue;
+        index += step;
+        if (++i < SDV_WAITING) continue;
+        wait->count = i;
         sdv_flush_tangents(wait);
         i = 0;
     }
+    if (tangents) wait->count = i;
 }
 
 // Rows, columns, or else a slanted side, which only triangles have: there each point makes a row.
