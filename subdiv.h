@@ -2794,13 +2794,14 @@ static int *sdv_put_face4(int *out, int a, int b, int c, int d)
 //     a b
 static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
-    int along = low->line.step, a = low->line.first, above = high->line.step, d = high->line.first;
-    int quad[4] = { a, a + along, d + above, d };
-    const int step[4] = { along, along, above, above };
+    unsigned along = (unsigned)low->line.step, above = (unsigned)high->line.step;
+    unsigned a = (unsigned)low->line.first, d = (unsigned)high->line.first;
+    unsigned quad[4] = { a, a + along, d + above, d };
+    const unsigned step[4] = { along, along, above, above };
     for (int i = 0; i < low->size; i++)
         for (int k = 0; k < 4; k++) {
-            out[4 * i + k] = quad[k];
-            quad[k] += step[k];
+            out[4 * i + k] = (int)quad[k];
+            quad[k] += step[k];         // behind the last point it may be beyond INT_MAX
         }
     int *last = out + 4 * ((size_t)low->size - 1);
     out[0] = low->left;
