@@ -9643,7 +9643,7 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
                 (float)(value > FLT_MAX ? large : value < -FLT_MAX ? -large : value);
         }
     if (!e->normals || c > 0) return;
-    sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-24, e->normals + e->normal_stride * i);
+    sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-28, e->normals + e->normal_stride * i);
 }
 
 static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
