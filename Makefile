@@ -13,7 +13,7 @@ FLAGS   = -std=c99 $(CFLAGS) $(WARN) -ffp-contract=off -I.
 THREADS = -pthread
 
 TESTS    = masks order invariants patches evaluate limit exact stencils recorded creases check obj \
-           errors uv tessellate exact_oracle memory
+           errors uv partial_uvs tessellate exact_oracle memory
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
            07_threads 08_tessellate 09_stencils 10_spines make_cages
 

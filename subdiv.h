@@ -13,9 +13,14 @@
 
    Everywhere else just #include "subdiv.h". C99 or C++11, the standard library alone (-lm).
 
+   If one file is all you have, define SUBDIV_STATIC, too: then the compiler leaves out what you do
+   not call, which takes about half of its time. In a larger program give the implementation a file
+   of its own, which is compiled once.
+
    QUICK START: one call
    ---------------------
        #include <stdio.h>
+       #define SUBDIV_STATIC
        #define SUBDIV_IMPLEMENTATION
        #include "subdiv.h"
 
@@ -75,6 +80,7 @@
              >>stencils  all of them as weights
              >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
                          >>tessellator that makes a mesh of them
+             >>normals   of any mesh
              >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
              >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
@@ -167,7 +173,8 @@
 // -------------------------------------------------------------------------------- >>config
 // Define these before the #include, in the file with SUBDIV_IMPLEMENTATION:
 //
-//     SUBDIV_STATIC                  everything static: private to that file
+//     SUBDIV_STATIC                  everything static: private to that file, and compiled only if
+//                                    it is called
 //     SUBDIV_DEF                     your own decoration of the public functions
 //     SUBDIV_MALLOC(size, user)      both or neither; user is opt->user. Memory must be aligned
 //     SUBDIV_FREE(pointer, user)     as malloc's
@@ -175,6 +182,13 @@
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
 //     SUBDIV_NO_HUGE_PAGES           Linux: large blocks in pages of the usual size
 //     SUBDIV_NO_SIMD                 plain C where SSE2, NEON or WebAssembly would be used
+//
+// To leave whole sections out, of the declarations, too. In brackets what that saves of the time to
+// compile all of it, and of its size (gcc -O2):
+//
+//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (27 %)
+//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
+//     SUBDIV_NO_OBJ                  >>obj                                          (10 %)
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
 
@@ -368,6 +382,11 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
+// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
+// a surface of 0 levels. Under opt->triangulate, of the triangles.)
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
+
 // Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
 // more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
 // and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
@@ -488,6 +507,7 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 //        u             u
 #define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
 
+#ifndef SUBDIV_NO_EXACT
 typedef struct subdiv_location {
     int   face, corner;               // from 0; corner: the vertex of an n-gon whose quad it is on,
     float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
@@ -526,6 +546,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
                                             const subdiv_location *locations,
                                             const subdiv_derivatives *out,
                                             const subdiv_options *opt);
+#endif // SUBDIV_NO_EXACT
 
 // ------------------------------------------------------------------------------ >>stencils
 // The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
@@ -553,16 +574,19 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  int first_point, int point_count,
                                                  const subdiv_options *opt);
 
+#ifndef SUBDIV_NO_EXACT
 // Of so many locations on a surface prepared for SUBDIV_EXACT: those of subdiv_evaluate_at, with
 // du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
                                             const subdiv_surface *surface, int count,
                                             const subdiv_location *locations,
                                             const subdiv_options *opt);
+#endif // SUBDIV_NO_EXACT
 
 // Frees what the library made and zeroes the struct.
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
+#ifndef SUBDIV_NO_TOOLS
 // Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
 // it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
 // refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
@@ -571,7 +595,9 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 // the text does not fit.
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt);
+#endif // SUBDIV_NO_TOOLS
 
+#ifndef SUBDIV_NO_EXACT
 // --------------------------------------------------------------------------- >>tessellation
 // A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
 // cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
@@ -649,12 +675,9 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
                                                    const float *positions,
                                                    const subdiv_tessellation *how,
                                                    const subdiv_options *opt);
+#endif // SUBDIV_NO_EXACT
 
-// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
-// a surface of 0 levels. Under opt->triangulate, of the triangles.)
-SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
-SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
-
+#ifndef SUBDIV_NO_TOOLS
 // ------------------------------------------------------------------------------- >>creases
 // Creases from what the mesh has already. Each function adds the edges it finds to the crease
 // list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
@@ -743,7 +766,9 @@ typedef void (*subdiv_report)(void *user, const subdiv_finding *finding);
 // Errors: ARGUMENT, EMPTY, INDEX (of UVs, too), FACE, NOT_FINITE, TOO_LARGE, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
                                       void *user, const subdiv_options *opt);
+#endif // SUBDIV_NO_TOOLS
 
+#ifndef SUBDIV_NO_OBJ
 // ----------------------------------------------------------------------------------- >>obj
 
 // Reads Wavefront OBJ, block by block and without ever going back:
@@ -811,6 +836,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
 SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
                                            const char *path, const subdiv_options *opt);
 #endif
+#endif // SUBDIV_NO_OBJ
 
 // ------------------------------------------ End of the public API. You can stop reading here.
 #endif // SUBDIV_H
@@ -819,6 +845,15 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #define SUBDIV_IMPLEMENTED
 
 // ------------------------------------------------------------------------------ >>platform
+
+// What C++ calls old-style or useless is what C needs.
+#if defined(__GNUC__) && defined(__cplusplus)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#ifndef __clang__
+#pragma GCC diagnostic ignored "-Wuseless-cast"
+#endif
+#endif
 
 #include <float.h>
 #include <limits.h>
@@ -844,6 +879,16 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #define SUBDIV_ASSERT(condition) assert(condition)
 #endif
 
+// For what an inner loop calls at each point: speed does not depend on what the compiler thinks of
+// it, and arguments that are constants make each call a loop of its own kind.
+#if defined(__GNUC__)
+#define SDV_INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define SDV_INLINE static __forceinline
+#else
+#define SDV_INLINE static inline
+#endif
+
 // Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
 // bits are the same with and without, unless the compiler fuses multiplications and additions.
 // (32-bit ARM's NEON does not: it has no numbers below FLT_MIN.)
@@ -852,25 +897,25 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #include <emmintrin.h>
 #define SDV_SIMD
 typedef __m128 sdv_four;
-static sdv_four sdv_load(const float *p)               { return _mm_loadu_ps(p); }
-static void     sdv_store(float *p, sdv_four a)        { _mm_storeu_ps(p, a); }
-static sdv_four sdv_all(float x)                       { return _mm_set1_ps(x); }
-static sdv_four sdv_of(float a, float b, float c, float d) { return _mm_setr_ps(a, b, c, d); }
-static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return _mm_add_ps(a, b); }
-static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return _mm_sub_ps(a, b); }
-static sdv_four sdv_times(sdv_four a, sdv_four b)      { return _mm_mul_ps(a, b); }
-static sdv_four sdv_over(sdv_four a, sdv_four b)       { return _mm_div_ps(a, b); }
-static sdv_four sdv_sqrt(sdv_four a)                   { return _mm_sqrt_ps(a); }
-static int      sdv_less(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_load(const float *p)             { return _mm_loadu_ps(p); }
+SDV_INLINE void sdv_store(float *p, sdv_four a)          { _mm_storeu_ps(p, a); }
+SDV_INLINE sdv_four sdv_all(float x)                     { return _mm_set1_ps(x); }
+SDV_INLINE sdv_four sdv_of(float a, float b, float c, float d) { return _mm_setr_ps(a, b, c, d); }
+SDV_INLINE sdv_four sdv_plus(sdv_four a, sdv_four b)     { return _mm_add_ps(a, b); }
+SDV_INLINE sdv_four sdv_minus(sdv_four a, sdv_four b)    { return _mm_sub_ps(a, b); }
+SDV_INLINE sdv_four sdv_times(sdv_four a, sdv_four b)    { return _mm_mul_ps(a, b); }
+SDV_INLINE sdv_four sdv_over(sdv_four a, sdv_four b)     { return _mm_div_ps(a, b); }
+SDV_INLINE sdv_four sdv_sqrt(sdv_four a)                 { return _mm_sqrt_ps(a); }
+SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
 {
     return _mm_movemask_ps(_mm_cmplt_ps(a, b)) == 15;
 }
-static void     sdv_store_three(float *p, sdv_four a)
+SDV_INLINE void sdv_store_three(float *p, sdv_four a)
 {
     _mm_storel_pi((__m64 *)p, a);
     _mm_store_ss(p + 2, _mm_movehl_ps(a, a));
 }
-static void     sdv_transpose(sdv_four *a)
+SDV_INLINE void sdv_transpose(sdv_four *a)
 {
     _MM_TRANSPOSE4_PS(a[0], a[1], a[2], a[3]);
 }
@@ -878,26 +923,29 @@ static void     sdv_transpose(sdv_four *a)
 #include <arm_neon.h>
 #define SDV_SIMD
 typedef float32x4_t sdv_four;
-static sdv_four sdv_load(const float *p)               { return vld1q_f32(p); }
-static void     sdv_store(float *p, sdv_four a)        { vst1q_f32(p, a); }
-static sdv_four sdv_all(float x)                       { return vdupq_n_f32(x); }
-static sdv_four sdv_of(float a, float b, float c, float d)
+SDV_INLINE sdv_four sdv_load(const float *p)             { return vld1q_f32(p); }
+SDV_INLINE void sdv_store(float *p, sdv_four a)          { vst1q_f32(p, a); }
+SDV_INLINE sdv_four sdv_all(float x)                     { return vdupq_n_f32(x); }
+SDV_INLINE sdv_four sdv_of(float a, float b, float c, float d)
 {
     float x[4] = { a, b, c, d };
     return vld1q_f32(x);
 }
-static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return vaddq_f32(a, b); }
-static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return vsubq_f32(a, b); }
-static sdv_four sdv_times(sdv_four a, sdv_four b)      { return vmulq_f32(a, b); }
-static sdv_four sdv_over(sdv_four a, sdv_four b)       { return vdivq_f32(a, b); }
-static sdv_four sdv_sqrt(sdv_four a)                   { return vsqrtq_f32(a); }
-static int      sdv_less(sdv_four a, sdv_four b)       { return vminvq_u32(vcltq_f32(a, b)) != 0; }
-static void     sdv_store_three(float *p, sdv_four a)
+SDV_INLINE sdv_four sdv_plus(sdv_four a, sdv_four b)     { return vaddq_f32(a, b); }
+SDV_INLINE sdv_four sdv_minus(sdv_four a, sdv_four b)    { return vsubq_f32(a, b); }
+SDV_INLINE sdv_four sdv_times(sdv_four a, sdv_four b)    { return vmulq_f32(a, b); }
+SDV_INLINE sdv_four sdv_over(sdv_four a, sdv_four b)     { return vdivq_f32(a, b); }
+SDV_INLINE sdv_four sdv_sqrt(sdv_four a)                 { return vsqrtq_f32(a); }
+SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
+{
+    return vminvq_u32(vcltq_f32(a, b)) != 0;
+}
+SDV_INLINE void sdv_store_three(float *p, sdv_four a)
 {
     vst1_f32(p, vget_low_f32(a));
     vst1q_lane_f32(p + 2, a, 2);
 }
-static void     sdv_transpose(sdv_four *a)
+SDV_INLINE void sdv_transpose(sdv_four *a)
 {
     float32x4x2_t ab = vtrnq_f32(a[0], a[1]), cd = vtrnq_f32(a[2], a[3]);
     for (int i = 0; i < 2; i++) {
@@ -909,25 +957,28 @@ static void     sdv_transpose(sdv_four *a)
 #include <wasm_simd128.h>
 #define SDV_SIMD
 typedef v128_t sdv_four;
-static sdv_four sdv_load(const float *p)               { return wasm_v128_load(p); }
-static void     sdv_store(float *p, sdv_four a)        { wasm_v128_store(p, a); }
-static sdv_four sdv_all(float x)                       { return wasm_f32x4_splat(x); }
-static sdv_four sdv_of(float a, float b, float c, float d) { return wasm_f32x4_make(a, b, c, d); }
-static sdv_four sdv_plus(sdv_four a, sdv_four b)       { return wasm_f32x4_add(a, b); }
-static sdv_four sdv_minus(sdv_four a, sdv_four b)      { return wasm_f32x4_sub(a, b); }
-static sdv_four sdv_times(sdv_four a, sdv_four b)      { return wasm_f32x4_mul(a, b); }
-static sdv_four sdv_over(sdv_four a, sdv_four b)       { return wasm_f32x4_div(a, b); }
-static sdv_four sdv_sqrt(sdv_four a)                   { return wasm_f32x4_sqrt(a); }
-static int      sdv_less(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_load(const float *p)             { return wasm_v128_load(p); }
+SDV_INLINE void sdv_store(float *p, sdv_four a)          { wasm_v128_store(p, a); }
+SDV_INLINE sdv_four sdv_all(float x)                     { return wasm_f32x4_splat(x); }
+SDV_INLINE sdv_four sdv_of(float a, float b, float c, float d)
+{
+    return wasm_f32x4_make(a, b, c, d);
+}
+SDV_INLINE sdv_four sdv_plus(sdv_four a, sdv_four b)     { return wasm_f32x4_add(a, b); }
+SDV_INLINE sdv_four sdv_minus(sdv_four a, sdv_four b)    { return wasm_f32x4_sub(a, b); }
+SDV_INLINE sdv_four sdv_times(sdv_four a, sdv_four b)    { return wasm_f32x4_mul(a, b); }
+SDV_INLINE sdv_four sdv_over(sdv_four a, sdv_four b)     { return wasm_f32x4_div(a, b); }
+SDV_INLINE sdv_four sdv_sqrt(sdv_four a)                 { return wasm_f32x4_sqrt(a); }
+SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
 {
     return wasm_i32x4_all_true(wasm_f32x4_lt(a, b));
 }
-static void     sdv_store_three(float *p, sdv_four a)
+SDV_INLINE void sdv_store_three(float *p, sdv_four a)
 {
     wasm_v128_store64_lane(p, a, 0);
     wasm_v128_store32_lane(p + 2, a, 2);
 }
-static void     sdv_transpose(sdv_four *a)
+SDV_INLINE void sdv_transpose(sdv_four *a)
 {
     v128_t low[2], high[2];
     for (int i = 0; i < 2; i++) {
@@ -944,66 +995,66 @@ static void     sdv_transpose(sdv_four *a)
 #ifndef SDV_SIMD
 typedef struct sdv_four { float x[4]; } sdv_four;
 
-static sdv_four sdv_load(const float *p)
+SDV_INLINE sdv_four sdv_load(const float *p)
 {
     sdv_four a = { { p[0], p[1], p[2], p[3] } };
     return a;
 }
 
-static void sdv_store(float *p, sdv_four a)
+SDV_INLINE void sdv_store(float *p, sdv_four a)
 {
     for (int i = 0; i < 4; i++) p[i] = a.x[i];
 }
 
-static void sdv_store_three(float *p, sdv_four a)
+SDV_INLINE void sdv_store_three(float *p, sdv_four a)
 {
     for (int i = 0; i < 3; i++) p[i] = a.x[i];
 }
 
-static sdv_four sdv_all(float x)
+SDV_INLINE sdv_four sdv_all(float x)
 {
     sdv_four a = { { x, x, x, x } };
     return a;
 }
 
-static sdv_four sdv_of(float a, float b, float c, float d)
+SDV_INLINE sdv_four sdv_of(float a, float b, float c, float d)
 {
     sdv_four four = { { a, b, c, d } };
     return four;
 }
 
-static sdv_four sdv_plus(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_plus(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] += b.x[i];
     return a;
 }
 
-static sdv_four sdv_minus(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_minus(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] -= b.x[i];
     return a;
 }
 
-static sdv_four sdv_times(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_times(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] *= b.x[i];
     return a;
 }
 
-static sdv_four sdv_over(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_over(sdv_four a, sdv_four b)
 {
     for (int i = 0; i < 4; i++) a.x[i] /= b.x[i];
     return a;
 }
 
-static sdv_four sdv_sqrt(sdv_four a)
+SDV_INLINE sdv_four sdv_sqrt(sdv_four a)
 {
     for (int i = 0; i < 4; i++) a.x[i] = sqrtf(a.x[i]);
     return a;
 }
 
 // In all lanes?
-static int sdv_less(sdv_four a, sdv_four b)
+SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
 {
     int less = 1;
     for (int i = 0; i < 4; i++) less &= a.x[i] < b.x[i];
@@ -1011,7 +1062,7 @@ static int sdv_less(sdv_four a, sdv_four b)
 }
 
 // Lane j of vector i becomes lane i of vector j.
-static void sdv_transpose(sdv_four *a)
+SDV_INLINE void sdv_transpose(sdv_four *a)
 {
     sdv_four from[4] = { a[0], a[1], a[2], a[3] };
     for (int i = 0; i < 4; i++)
@@ -1019,17 +1070,7 @@ static void sdv_transpose(sdv_four *a)
 }
 #endif
 
-// For functions whose arguments are constants where they are called, so that each call is a loop of
-// its own kind.
-#if defined(__GNUC__)
-#define SDV_INLINE static inline __attribute__((always_inline))
-#elif defined(_MSC_VER)
-#define SDV_INLINE static __forceinline
-#else
-#define SDV_INLINE static inline
-#endif
-
-static void sdv_prefetch(const float *p)
+SDV_INLINE void sdv_prefetch(const float *p)
 {
 #ifdef __GNUC__
     __builtin_prefetch(p);
@@ -1037,6 +1078,19 @@ static void sdv_prefetch(const float *p)
     (void)p;
 #endif
 }
+
+// Under the address sanitizer each array is a block of its own, so that it sees what is written
+// beside one.
+#if defined(__SANITIZE_ADDRESS__)
+#define SDV_SEPARATE 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SDV_SEPARATE 1
+#endif
+#endif
+#ifndef SDV_SEPARATE
+#define SDV_SEPARATE 0
+#endif
 
 #define SDV_NEW(context, arena, type, count) \
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
@@ -1112,18 +1166,23 @@ static sdv_block *sdv_allocate(sdv_context *context, size_t size)
     return block;
 }
 
-// Sees to it that the next arrays, so many bytes in all, come from one block.
-static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
+static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
 {
-    if (context->result || size <= arena->left) return;
-    if (size < arena->chunk) size = arena->chunk;
-    if (arena->chunk) arena->chunk *= 2;
     sdv_block *block = sdv_allocate(context, size);
     if (!block) return;
     block->next = arena->blocks;
     arena->blocks = block;
     arena->free = (char *)(block + 1);
     arena->left = size;
+}
+
+// Sees to it that the next arrays, so many bytes in all, come from one block.
+static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
+{
+    if (SDV_SEPARATE || context->result || size <= arena->left) return;
+    if (size < arena->chunk) size = arena->chunk;
+    if (arena->chunk) arena->chunk *= 2;
+    sdv_add_block(context, arena, size);
 }
 
 // Room for count items, not cleared. Never NULL while context->result is SUBDIV_OK.
@@ -1134,8 +1193,9 @@ static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
         return NULL;
     }
-    size_t size = (count * item + 16) / 16 * 16;
-    sdv_reserve(context, arena, size);
+    size_t size = SDV_SEPARATE ? count * item : (count * item + 16) / 16 * 16;
+    if (SDV_SEPARATE) sdv_add_block(context, arena, size);
+    else sdv_reserve(context, arena, size);
     if (context->result) return NULL;
     char *array = arena->free;
     arena->free += size;
@@ -1334,15 +1394,6 @@ static void sdv_fail(sdv_context *context, subdiv_result code, const char *forma
     va_end(args);
 }
 
-static void sdv_fail_line(sdv_context *context, subdiv_result code, int line,
-                          const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    sdv_fail_at(context, code, line, -1, -1, format, args);
-    va_end(args);
-}
-
 static void sdv_fail_mesh(sdv_context *context, subdiv_result code, int face, int vertex,
                           const char *format, ...)
 {
@@ -1364,29 +1415,10 @@ static void sdv_warn(sdv_context *context, int line, const char *format, ...)
     va_end(args);
 }
 
-// Reading or writing failed; often the system knows why.
-static void sdv_forget_errno(void)
-{
-#ifndef SUBDIV_NO_STDIO
-    errno = 0;
-#endif
-}
-
-static void sdv_fail_io(sdv_context *context, const char *what)
-{
-#ifndef SUBDIV_NO_STDIO
-    if (errno) {
-        sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
-        return;
-    }
-#endif
-    sdv_fail(context, SUBDIV_ERROR_IO, what);
-}
-
 // ------------------------------------------------------------------------------ >>validate
 // Everything behind this section may trust the mesh: all arrays there, all indices in range.
 
-static int sdv_face_size(const subdiv_mesh *mesh, int face)
+SDV_INLINE int sdv_face_size(const subdiv_mesh *mesh, int face)
 {
     return mesh->face_size ? mesh->face_size : mesh->face_sizes[face];
 }
@@ -1852,13 +1884,6 @@ typedef struct sdv_cage {
     unsigned char *hole;                // [face_count]
 } sdv_cage;
 
-// Does the edge that leads on from h join a and b?
-static int sdv_joins(const sdv_level *level, int h, int a, int b)
-{
-    int from = level->face_vertices[h], to = level->face_vertices[sdv_next(level, h)];
-    return (from == a && to == b) || (from == b && to == a);
-}
-
 // The end with fewer faces: edges are looked for there, as a vertex may have a huge valence. Of two
 // with as many faces the first, so that it is the same one from both.
 static int sdv_smaller_end(const sdv_level *level, int a, int b)
@@ -1953,21 +1978,6 @@ static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
     const unsigned char *odd = cage->edge_nonmanifold, *behind = odd + level->edge_count;
     for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(behind - odd))) != NULL; odd++)
         sdv_reverse_ring(level->across, level->edge_first[odd - cage->edge_nonmanifold]);
-}
-
-// The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
-// met in rising order, but for the last of a face that leads to its first.
-static int sdv_find_edge(const sdv_level *level, int a, int b)
-{
-    int closing = -1, k = level->vertex_first[sdv_smaller_end(level, a, b)];
-    for (; k >= 0; k = level->vertex_next[k]) {
-        int before = sdv_previous(level, k), joins = sdv_joins(level, before, a, b);
-        if (closing >= 0 && sdv_face_of(level, k) != sdv_face_of(level, closing)) break;
-        if (joins && before < k) return level->face_edges[before];
-        if (sdv_joins(level, k, a, b)) return level->face_edges[k];
-        if (joins) closing = before;
-    }
-    return closing < 0 ? -1 : level->face_edges[closing];
 }
 
 // Notes the edges at v by their other ends: the first one if there are several; or forgets them.
@@ -2317,7 +2327,7 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
     float mean = count ? sum / (float)count : 0;
     fading.rule = sdv_vertex_rule(sharpness, now);
     fading.next = waits ? fading.rule : sdv_vertex_rule(left, next);
-    fading.weight = mean < 1 ? mean : 1;
+    fading.weight = (double)(mean < 1 ? mean : 1);
     return fading;
 }
 
@@ -2470,7 +2480,7 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
                       triangles ? sdv_smooth_triangle_edge(triangles) :
                       sdv_catmull_clark_edge(faces);
     if (sharpness <= 0) return smooth;
-    return sdv_blend(sharpness < 1 ? sharpness : 1, sdv_crease_edge(), smooth);
+    return sdv_blend((double)(sharpness < 1 ? sharpness : 1), sdv_crease_edge(), smooth);
 }
 
 // Limit masks: where a vertex ends up when refinement goes on forever, and how the surface lies
@@ -3557,7 +3567,8 @@ static void sdv_outside_row(int c, int edge, double *row)
 static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
 {
     int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
-    double s = low ? strips->low : strips->high, fraction = s - floor(s), outside[4], inside[4];
+    double s = (double)(low ? strips->low : strips->high), fraction = s - floor(s);
+    double outside[4], inside[4];
     sdv_sharp_row(strips, c, i, row);
     if (s <= 0 || (i > 0 && i < last)) return;
     if (i < 0 || i > last) sdv_outside_row(c, edge, row);
@@ -3588,7 +3599,7 @@ static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int sm
 // Cuts a quad, of so many levels to go. What is sharper than that is sharp on all of them.
 static sdv_strips sdv_cut_strips(float low, float high, int levels)
 {
-    double s = low > high ? low : high;
+    double s = (double)(low > high ? low : high);
     int lasts = s > levels, c = lasts ? 0 : (int)ceil(s), width = s > floor(s) ? 2 : 1;
     int end = 1 << c, left = c && low > 0 ? width : 0, right = end - (c && high > 0 ? width : 0);
     sdv_strips strips;
@@ -4018,11 +4029,13 @@ typedef struct sdv_seams {
     int *source;                        // [level.vertex_count] its value
 } sdv_seams;
 
-// The value at vertex v of the face that leads on from h along an edge at v.
+// The value at vertex v of the face that leads on from h along an edge at v; -1 unless the face has
+// one at each of its vertices.
 static int sdv_value_at(const sdv_seams *seams, int h, int v)
 {
     const sdv_level *cage = &seams->cage->level;
-    return seams->values[cage->face_vertices[h] == v ? h : sdv_next(cage, h)];
+    int at = cage->face_vertices[h] == v ? h : sdv_next(cage, h);
+    return seams->own[at] < 0 ? -1 : seams->values[at];
 }
 
 static void sdv_find_seams(sdv_seams *seams)
@@ -4058,6 +4071,7 @@ static void sdv_seam_faces(sdv_context *context, sdv_arena *keep, sdv_seams *sea
     if (level->face_size) return;
     level->face_starts = SDV_NEW(context, keep, int, (size_t)level->face_count + 1);
     level->face_of = SDV_NEW(context, keep, int, level->face_vertex_count);
+    if (!context->result) level->face_starts[0] = 0;
     for (int f = 0, h = 0; f < cage->face_count && !context->result; f++) {
         if (own_face[f] < 0) continue;
         level->face_starts[own_face[f]] = h;
@@ -4276,9 +4290,9 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *ar
     seams->own = SDV_NEW(context, scratch, int, cage->face_vertex_count);
     seams->home = SDV_NEW(context, scratch, int, cage->face_vertex_count);
     if (context->result) return;
-    sdv_find_seams(seams);
     sdv_seam_faces(context, keep, seams, own_face);
     if (context->result) return;
+    sdv_find_seams(seams);
     sdv_seam_vertices(context, keep, scratch, seams);
     level->across = SDV_NEW(context, around, int, level->face_vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
@@ -4799,6 +4813,19 @@ typedef struct sdv_limit_rows {
     float          *weights;
 } sdv_limit_rows;
 
+// What makes a surface for SUBDIV_EXACT and begins its evaluation. A program that does not ask for
+// such surfaces is not given their code: nothing else names these functions.
+typedef struct sdv_exact_calls {
+    void (*create)(sdv_context *context, subdiv_surface *surface);
+    void (*prepare)(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                    const unsigned char *hole, sdv_arena *arena);
+    size_t (*size)(const subdiv_surface *surface, int channels);
+    void (*begin)(const subdiv_surface *surface, int channels, const float *in, size_t in_stride,
+                  void *scratch, const subdiv_options *opt);
+} sdv_exact_calls;
+
+static const sdv_exact_calls *sdv_find_exact_calls(void);       // NULL under SUBDIV_NO_EXACT
+
 struct subdiv_surface {
     sdv_arena arena;
     sdv_arena points;                   // of what makes points alone: rows and patches;
@@ -4817,6 +4844,7 @@ struct subdiv_surface {
     sdv_limit_rows limit;               // of a limit, instead of last
     subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
+    const struct sdv_exact_calls *exact_calls;
     int       work_count;               // work points
     sdv_order order;
     int       face_count;               // all faces, also those without values
@@ -5496,11 +5524,6 @@ static void sdv_reserve_around(sdv_context *context, subdiv_surface *surface,
                 across + (size_t)work->face_count * sizeof(sdv_patch) + 64);
 }
 
-// See >>exact-surface.
-static void sdv_new_exact(sdv_context *context, subdiv_surface *surface);
-static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
-                              const unsigned char *hole, sdv_arena *arena);
-
 // Level by level from the cage, whose arena it frees.
 static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                                sdv_arena *arena)
@@ -5617,7 +5640,9 @@ typedef struct sdv_values {
     subdiv_uv_rule rule;
 } sdv_values;
 
-static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
+// exact: for SUBDIV_EXACT as levels; else NULL.
+static subdiv_surface *sdv_new_surface(sdv_context *context, int levels,
+                                       const sdv_exact_calls *exact)
 {
     sdv_arena arena = sdv_new_arena(0);
     subdiv_surface *surface = SDV_NEW(context, &arena, subdiv_surface, 1);
@@ -5625,7 +5650,8 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, int levels)
     memset(surface, 0, sizeof *surface);
     surface->arena = arena;
     surface->levels = levels;
-    if (levels == SUBDIV_EXACT) sdv_new_exact(context, surface);
+    surface->exact_calls = exact;
+    if (levels == SUBDIV_EXACT) exact->create(context, surface);
     return surface;
 }
 
@@ -5693,7 +5719,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     sdv_set_order(made);
     if (made->exact) {
         sdv_no_result(made);
-        sdv_prepare_exact(context, made, &seams.level, cage->hole, &scratch);
+        made->exact_calls->prepare(context, made, &seams.level, cage->hole, &scratch);
         return;
     }
     sdv_prepare_levels(context, made, &seams.level, &scratch);
@@ -5817,7 +5843,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     }
     if (!context->result && !alone && surface->exact) {
         sdv_no_result(surface);
-        sdv_prepare_exact(context, surface, &built.level, built.hole, &scratch);
+        surface->exact_calls->prepare(context, surface, &built.level, built.hole, &scratch);
     } else if (!context->result && !alone) {
         if (work.crease_count || work.corner_count)
             sdv_surviving_sharpness(context, surface, &built.level);
@@ -5827,11 +5853,12 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
 }
 
 static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
-                              const subdiv_mesh *cage, int levels, const subdiv_options *opt)
+                              const subdiv_mesh *cage, int levels, const sdv_exact_calls *exact,
+                              const subdiv_options *opt)
 {
     if (surface) *surface = NULL;
     else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < 0 && levels != SUBDIV_EXACT)
+    if (levels < 0 && !(levels == SUBDIV_EXACT && exact))
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
     if (!context->result) sdv_check_mesh(context, cage);
     if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
@@ -5839,24 +5866,25 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
 }
 
 static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_mesh *cage,
-                                         int levels, int borrows, const subdiv_options *opt)
+                                         int levels, int borrows, const sdv_exact_calls *exact,
+                                         const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_request(&context, surface, cage, levels, opt);
+    sdv_check_request(&context, surface, cage, levels, exact, opt);
     if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
     if (!context.result && cage->colors)
         sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, exact);
     if (!made) return context.result;
     sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
-    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels);
+    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels, exact);
     made->rules.limit = opt && opt->limit && !made->exact;
     made->borrows = borrows;
     if (made->uv) made->uv->borrows = borrows;
     if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
     if (!context.result) sdv_keep_data(&context, made, cage);
     if (!context.result && levels == 0 && made->rules.limit)
-        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, opt);
+        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, NULL, opt);
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
@@ -5865,7 +5893,7 @@ static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_
 SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
                                         int levels, const subdiv_options *opt)
 {
-    return sdv_prepare_surface(surface, cage, levels, 0, opt);
+    return sdv_prepare_surface(surface, cage, levels, 0, sdv_find_exact_calls(), opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
@@ -5874,15 +5902,16 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      int levels, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_request(&context, surface, cage, levels, opt);
+    const sdv_exact_calls *exact = sdv_find_exact_calls();
+    sdv_check_request(&context, surface, cage, levels, exact, opt);
     if (!context.result && (value_count < 1 || !indices))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT,
                  indices ? "value_count is %d" : "indices is NULL", value_count);
     if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
     if (!context.result) sdv_check_indices(&context, cage, value_count, indices);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels);
-    subdiv_surface *shape = made ? sdv_new_surface(&context, levels) : NULL;
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, exact);
+    subdiv_surface *shape = made ? sdv_new_surface(&context, levels, exact) : NULL;
     sdv_values values = { value_count, indices, rule };
     if (made) made->is_values = 1;
     if (shape) sdv_prepare(&context, shape, cage, made, values, 1, opt);
@@ -5926,7 +5955,7 @@ static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const s
                            float *weights)
 {
     sdv_arena scratch = sdv_scratch();
-    subdiv_surface *surface = sdv_new_surface(context, nets->depth);
+    subdiv_surface *surface = sdv_new_surface(context, nets->depth, NULL);
     sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
     sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
     size_t points = (size_t)net->vertex_count, parts = (size_t)nets->parts;
@@ -5987,7 +6016,7 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
 static void sdv_put_four_tangents(const struct sdv_tangents *tangents, const int *at, int count,
                                   sdv_four *along, sdv_four *across);
 
-static void sdv_store_some(float *p, sdv_four a, int lanes)
+SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
 {
     if (lanes == 4) {
         sdv_store(p, a);
@@ -6001,7 +6030,7 @@ static void sdv_store_some(float *p, sdv_four a, int lanes)
     }
 }
 
-static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
+SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
     int i = index - out->first;
     if (i >= 0 && i < out->count && out->values)
@@ -6010,7 +6039,7 @@ static void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 
 // The sum of a row of count points that start here, in one order of additions, so that its bits are
 // always the same.
-static inline sdv_four sdv_sum(const sdv_masks *masks, const sdv_weights *mask, int count,
+SDV_INLINE sdv_four sdv_sum(const sdv_masks *masks, const sdv_weights *mask, int count,
                                const int *points, const float *work)
 {
     const int even = mask->first < 0;
@@ -6024,7 +6053,7 @@ static inline sdv_four sdv_sum(const sdv_masks *masks, const sdv_weights *mask, 
 }
 
 // Most rows have four points: their loop is unrolled.
-static inline sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask,
+SDV_INLINE sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask,
                                    const int *points, const float *work)
 {
     if (mask->count == 4) return sdv_sum(masks, mask, 4, points, work);
@@ -6048,7 +6077,7 @@ static void sdv_apply(const sdv_masks *masks, const sdv_rows *rows, int block, i
 }
 
 // Rows as sdv_apply, in doubles. Returns the next row.
-static inline const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
+SDV_INLINE const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
                                        double *out)
 {
     const sdv_weights *mask = &masks->items[row[0]];
@@ -6077,7 +6106,7 @@ static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int blo
 // The first patch of a cage face or one behind it.
 static int sdv_first_patch(const sdv_order *order, const sdv_patches *patches, int face)
 {
-    int low = 0, high = patches->count, h = sdv_face_start(&order->cage, face);
+    int low = 0, high = patches->count, h = high ? sdv_face_start(&order->cage, face) : 0;
     while (low < high) {
         int middle = low + (high - low) / 2;
         if (patches->items[middle].h < h) low = middle + 1;
@@ -6145,7 +6174,7 @@ static void sdv_apply_limit(const subdiv_surface *surface, const float *work, in
 //     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
 //
 // h = 1 gives p1 and p2 back, h = 0 the limit curve. a[i] becomes the coefficient of t^i.
-static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, float hh, sdv_four *a)
+SDV_INLINE void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, float hh, sdv_four *a)
 {
     sdv_four d0 = sdv_minus(p1, p0), d1 = sdv_minus(p2, p1), d2 = sdv_minus(p3, p2);
     sdv_four s = sdv_minus(d1, d0);
@@ -6157,7 +6186,7 @@ static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, float 
 }
 
 // Bilinear: from p1 to p2 straight on.
-static void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
+SDV_INLINE void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
 {
     a[0] = p1;
     a[1] = sdv_minus(p2, p1);
@@ -6165,14 +6194,14 @@ static void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
 }
 
 // a0 + a1 t + a2 t^2 + a3 t^3
-static sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
+SDV_INLINE sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
 {
     sdv_four p = sdv_plus(a[2], sdv_times(a[3], t));
     p = sdv_plus(a[1], sdv_times(p, t));
     return sdv_plus(a[0], sdv_times(p, t));
 }
 
-static sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
+SDV_INLINE sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
 {
     sdv_four p = sdv_plus(a[3], sdv_times(a[4], t));
     p = sdv_plus(a[2], sdv_times(p, t));
@@ -6248,12 +6277,12 @@ SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, 
     }
 }
 
-static inline sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
+SDV_INLINE sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
 {
     return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
 }
 
-static inline void sdv_make_row(const sdv_window *out, const sdv_polynomial *q, float y,
+SDV_INLINE void sdv_make_row(const sdv_window *out, const sdv_polynomial *q, float y,
                                 sdv_curve *row)
 {
     if (!out->tangents && q->degree == 3) sdv_make_curve(q, 3, 0, 0, y, row);
@@ -6262,7 +6291,7 @@ static inline void sdv_make_row(const sdv_window *out, const sdv_polynomial *q, 
     else sdv_make_curve(q, 4, 0, 1, y, row);
 }
 
-static inline void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *row,
+SDV_INLINE void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *row,
                                      float x)
 {
     sdv_four t = sdv_all(x);
@@ -6278,7 +6307,7 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
 // The inner loop of everything: count points that stand one behind the other, those at x, x + h,
 // ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
 // between points, four lanes are stored of each but the last.
-static inline void sdv_put_curve(const sdv_window *out, int index, int count,
+SDV_INLINE void sdv_put_curve(const sdv_window *out, int index, int count,
                                  const sdv_curve *curve, float x, float h)
 {
     const sdv_four a[5] = { curve->a[0], curve->a[1], curve->a[2], curve->a[3], curve->a[4] };
@@ -6296,7 +6325,7 @@ static inline void sdv_put_curve(const sdv_window *out, int index, int count,
     sdv_store_some(p, sdv_curve_point(curve, t), lanes);
 }
 
-static inline void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *row,
+SDV_INLINE void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *row,
                                float x, float h)
 {
     int first = index - out->first, skip = first < 0 ? -first : 0;
@@ -6379,12 +6408,12 @@ static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, cons
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
-static sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
+SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
 {
     return sdv_minus(sdv_plus(edge, edge), inside);
 }
 
-static void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
+SDV_INLINE void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
 {
     for (int i = 0; i < count; i++) p[i] = sdv_load(work + 4 * (size_t)points[i]);
 }
@@ -6405,19 +6434,19 @@ static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
 
 // One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2, and the one
 // between p1 and p2. bend is 1/8, or bilinear 0.
-static inline sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four bend)
+SDV_INLINE sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four bend)
 {
     return sdv_plus(p1, sdv_times(bend, sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1))));
 }
 
-static inline sdv_four sdv_middle(sdv_four a, sdv_four b)
+SDV_INLINE sdv_four sdv_middle(sdv_four a, sdv_four b)
 {
     return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
 }
 
 // The control points of patch i, in room [16] if they have to be gathered. closed: see
 // sdv_gather_quad.
-static inline const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
+SDV_INLINE const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
                                           int i, int closed, int *room)
 {
     size_t width = (size_t)sdv_control_points(&surface->rules);
@@ -6429,7 +6458,7 @@ static inline const int *sdv_patch_points(const subdiv_surface *surface, const s
 
 // Where the point of vertex i of a quad with one level to go stands, and that of edge i. If there
 // is one level in all, its grid is the whole cage face.
-static inline int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
+SDV_INLINE int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
                                   const sdv_patch *patch, int i)
 {
     const int *at = sdv_corner_quad[i];
@@ -6437,7 +6466,7 @@ static inline int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
     return sdv_quad_index(grid, patch->row + at[0], patch->column + at[1]);
 }
 
-static inline int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
+SDV_INLINE int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
                                 const sdv_patch *patch, int i)
 {
     const int *a = sdv_corner_quad[i], *b = sdv_corner_quad[i + 1];
@@ -6447,7 +6476,7 @@ static inline int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
 
 // The points of the bottom or top row that a patch owns, from rows of control points; a and b are
 // its vertices on that row.
-static inline void sdv_put_three(const sdv_window *out, const sdv_order *order,
+SDV_INLINE void sdv_put_three(const sdv_window *out, const sdv_order *order,
                                  const sdv_grid *grid, const sdv_patch *patch, const sdv_four *p,
                                  sdv_four bend, int a, int b)
 {
@@ -6532,7 +6561,7 @@ static void sdv_quad_polynomial(const sdv_four *p, float hx2, float hy2, int lin
 }
 
 // The control points of a strip: across its crease, they are step apart, and lines of them next.
-static inline void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step,
+SDV_INLINE void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step,
                                     int next, sdv_four *p)
 {
     int low = strips->low > 0, high = strips->high > 0;
@@ -6574,17 +6603,17 @@ static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
 }
 
 // Sums for the formulas below: 2a, a + b, ...
-static sdv_four sdv_twice(sdv_four a)
+SDV_INLINE sdv_four sdv_twice(sdv_four a)
 {
     return sdv_plus(a, a);
 }
 
-static sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
+SDV_INLINE sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
 {
     return sdv_plus(sdv_plus(a, b), c);
 }
 
-static sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+SDV_INLINE sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
 {
     return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
 }
@@ -6672,7 +6701,7 @@ static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, 
 }
 
 // The limit curve of the control points p[0], p[step], ...: its point and derivative at t = i / 2.
-static inline void sdv_limit_curve(const sdv_four *p, int step, int i, sdv_four *point,
+SDV_INLINE void sdv_limit_curve(const sdv_four *p, int step, int i, sdv_four *point,
                                    sdv_four *slope)
 {
     if (i == 2) p += step;
@@ -6839,7 +6868,7 @@ static void sdv_load_net(const int *points, int count, const float *work, sdv_ne
 }
 
 // Four sums, channel by channel: lane i of x[k] is channel k of sum i.
-static inline void sdv_net_sums(const sdv_net_values *net, const float *weights, int lanes,
+SDV_INLINE void sdv_net_sums(const sdv_net_values *net, const float *weights, int lanes,
                                 sdv_four *x)
 {
     sdv_four x0 = sdv_all(0), x1 = x0, x2 = x0, x3 = x0;
@@ -6859,7 +6888,7 @@ static inline void sdv_net_sums(const sdv_net_values *net, const float *weights,
 }
 
 // Writes four points, channel by channel as above, to where they stand in the window, if they do.
-static inline void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
+SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
                                 const int *at, int count)
 {
     sdv_transpose(x);
@@ -6887,7 +6916,7 @@ static void sdv_put_block(const sdv_window *out, const sdv_net_values *net, cons
 // The first net of a cage face or one behind it.
 static int sdv_first_net(const sdv_order *order, const sdv_nets *nets, int face)
 {
-    int low = 0, high = nets->count, h = sdv_face_start(&order->cage, face);
+    int low = 0, high = nets->count, h = high ? sdv_face_start(&order->cage, face) : 0;
     while (low < high) {
         int middle = low + (high - low) / 2;
         if (nets->items[middle].patch.h < h) low = middle + 1;
@@ -6966,7 +6995,7 @@ static void sdv_cross(const double *a, const double *b, double *n)
 }
 
 // A vector made 1 long, or 0.
-static inline void sdv_make_unit(const double *n, float *unit)
+SDV_INLINE void sdv_make_unit(const double *n, float *unit)
 {
     double squares = sdv_dot3(n, n), scale = squares > 0 ? 1 / sqrt(squares) : 0;
     for (int k = 0; k < 3; k++) unit[k] = scale > 0 ? (float)(n[k] * scale) : 0;
@@ -6990,14 +7019,14 @@ static void sdv_unit_normal(const float *a, const float *b, float *normal)
     sdv_unit_cross(x, y, 1e-12, normal);
 }
 
-static inline sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
+SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
 {
     return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
 // The same for four vectors, channel by channel. Floats do unless products are too small or too
 // large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin loses digits.
-static inline void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
+SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
 {
     const float least = 1e-30f, least_sin2 = 1.0f / 64;
     for (int i = 0; i < 3; i++) {
@@ -7264,6 +7293,21 @@ SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
     return surface->cage_face_count;
 }
 
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
+{
+    return surface->order.cage.edge_count;
+}
+
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
+{
+    const sdv_level *cage = &surface->order.cage;
+    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        ends[2 * cage->face_edges[h]] = a < b ? a : b;
+        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
+    }
+}
+
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 {
     if (surface->levels == 0 || surface->cage_face_count == 0 || surface->exact)
@@ -7277,11 +7321,6 @@ static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
     return surface->at_level_1 ? surface->at_level_1 : surface;
 }
 
-// See >>exact-surface.
-static size_t sdv_exact_size(const subdiv_surface *surface, int channels);
-
-static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt);
-
 // Is there room for so many bytes a channel, on a machine of 32 bits, too?
 static int sdv_addressable(int channels, double bytes)
 {
@@ -7290,7 +7329,7 @@ static int sdv_addressable(int channels, double bytes)
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
-    if (surface->exact) return sdv_exact_size(surface, channels);
+    if (surface->exact) return surface->exact_calls->size(surface, channels);
     surface = sdv_maker(surface);
     if (!sdv_addressable(channels, sizeof(float) * (double)surface->work_count)) return SIZE_MAX;
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
@@ -7315,6 +7354,10 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, scratch, &in_stride);
     if (context.result) return context.result;
+    if (surface->exact) {
+        surface->exact_calls->begin(surface, channels, in, (size_t)in_stride, scratch, opt);
+        return SUBDIV_OK;
+    }
     sdv_evaluation evaluation;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.surface = sdv_maker(surface);
@@ -7322,8 +7365,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, in
     evaluation.in = in;
     evaluation.in_stride = (size_t)in_stride;
     evaluation.work = (float *)scratch;
-    if (surface->exact) sdv_exact_begin(&evaluation, scratch, opt);
-    else sdv_make_work(&evaluation, opt);
+    sdv_make_work(&evaluation, opt);
     return SUBDIV_OK;
 }
 
@@ -7612,8 +7654,8 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
 static void sdv_multiply(float *values, size_t count, float factor)
 {
     for (size_t i = 0; i < count && factor != 1; i++) {
-        double value = (double)values[i] * factor;      // rounding may have made it too large
-        values[i] = (float)(value > FLT_MAX ? FLT_MAX : value < -FLT_MAX ? -FLT_MAX : value);
+        double value = (double)values[i] * (double)factor, most = (double)FLT_MAX;
+        values[i] = (float)(value > most ? most : value < -most ? -most : value);    // by rounding
     }
 }
 
@@ -7708,13 +7750,14 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
         if (fine && fine != cage) *fine = out;
         return context.result;
     }
-    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, opt);
+    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, NULL, opt);
     if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
     *fine = out;
     return result;
 }
 
+#ifndef SUBDIV_NO_EXACT
 // -------------------------------------------------------------------------- >>exact-surface
 // The limit surface anywhere. The cage is refined where it is not regular, until every face left
 // is a patch, whose polynomial is the surface, or in a nest: the faces around one irregular vertex
@@ -7786,17 +7829,17 @@ typedef struct sdv_cut_patch {
 // the number of a polynomial, a cut patch or a face of a nest.
 enum { SDV_LEAF_PATCH, SDV_LEAF_CUT, SDV_LEAF_NEST };
 
-static inline int sdv_leaf_node(int what, int number)
+SDV_INLINE int sdv_leaf_node(int what, int number)
 {
     return ~(4 * number + what);
 }
 
-static inline int sdv_leaf_what(int node)
+SDV_INLINE int sdv_leaf_what(int node)
 {
     return ~node & 3;
 }
 
-static inline int sdv_leaf_number(int node)
+SDV_INLINE int sdv_leaf_number(int node)
 {
     return ~node >> 2;
 }
@@ -7825,7 +7868,7 @@ typedef struct sdv_exact_maker {
 } sdv_exact_maker;
 
 // The first node of a face, or the node of an n-gon's quad.
-static inline int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
+SDV_INLINE int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
 {
     if (cage->face_size == (loop ? 3 : 4)) return f;
     return sdv_face_start(cage, f) + corner;
@@ -8364,7 +8407,7 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 // Which leaf of the tree a location is on, and which polynomial of that.
 
 // Which child of a face, and where on it; a middle triangle is turned by half.
-static inline int sdv_descend_quad(double *x, double *y)
+SDV_INLINE int sdv_descend_quad(double *x, double *y)
 {
     int right = *x >= 0.5, up = *y >= 0.5;
     *x = 2 * *x - right;
@@ -8372,7 +8415,7 @@ static inline int sdv_descend_quad(double *x, double *y)
     return right ^ (up * 3);
 }
 
-static inline int sdv_descend_triangle(double *x, double *y, double *scale)
+SDV_INLINE int sdv_descend_triangle(double *x, double *y, double *scale)
 {
     int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
     *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
@@ -8387,7 +8430,7 @@ static const signed char sdv_turns[2][4][4] = {
     { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
     { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
 
-static inline void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
+SDV_INLINE void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
 {
     double w = 1 - u - v;
     if (loop) {
@@ -8400,7 +8443,7 @@ static inline void sdv_turn_place(int loop, int turn, double u, double v, double
 }
 
 // The number of the first polynomial of a child of a nest's face.
-static inline size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, int depth,
+SDV_INLINE size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, int depth,
                                                 int child)
 {
     return (size_t)exact->polynomial_count +
@@ -8408,7 +8451,7 @@ static inline size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face
 }
 
 // A coordinate, clamped to [0, 1].
-static inline float sdv_on_face(float u)
+SDV_INLINE float sdv_on_face(float u)
 {
     u = u > 0 ? u : 0;
     return u < 1 ? u : 1;
@@ -8423,7 +8466,7 @@ typedef struct sdv_leaf {
 } sdv_leaf;
 
 // From the cell of the deepest level a location is in. Nothing is rounded.
-static inline void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
+SDV_INLINE void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
 {
     const int cells = 1 << SDV_EXACT_LEVELS;
     int x = (int)(u * (float)cells), y = (int)(v * (float)cells), level = SDV_EXACT_LEVELS;
@@ -8440,7 +8483,7 @@ static inline void sdv_locate_quad(const int *nodes, int node, float u, float v,
     leaf->y = (double)(v * scale - (float)(y >> level));
 }
 
-static inline void sdv_locate_triangle(const int *nodes, int node, double x, double y,
+SDV_INLINE void sdv_locate_triangle(const int *nodes, int node, double x, double y,
                                        sdv_leaf *leaf)
 {
     double scale = 1;
@@ -8452,7 +8495,7 @@ static inline void sdv_locate_triangle(const int *nodes, int node, double x, dou
     leaf->sx = leaf->sy = scale;
 }
 
-static inline void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
+SDV_INLINE void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
                               sdv_leaf *leaf)
 {
     float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
@@ -8467,7 +8510,7 @@ static inline void sdv_locate(const subdiv_surface *surface, int loop, const sub
 }
 
 // The strip that a coordinate is on; it then counts in the strip's own segment.
-static inline int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
+SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
 {
     const double whole = 1 << SDV_STRIP_LEVELS;
     int i = 0;
@@ -8477,7 +8520,7 @@ static inline int sdv_find_strip(const sdv_strips *strips, double *x, double *sc
     return i;
 }
 
-static inline void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
+SDV_INLINE void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
 {
     const sdv_cut_patch *cut = &surface->exact->cuts[number];
     const sdv_strips *along = &surface->strips[cut->along - 1];
@@ -8488,7 +8531,7 @@ static inline void sdv_find_in_cut(const subdiv_surface *surface, int number, sd
 
 // On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
 // as seen by the face again.
-static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
+SDV_INLINE void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
 {
     int turn = exact->nest_faces[number].turn, depth = 0;
     double x, y, scale = 2 * leaf->sx;
@@ -8508,7 +8551,7 @@ static inline void sdv_find_in_nest(const sdv_exact *exact, int loop, int number
     leaf->polynomial = sdv_nest_polynomial_number(exact, number, depth, child);
 }
 
-static inline void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
+SDV_INLINE void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
 {
     int what = sdv_leaf_what(leaf->node), number = sdv_leaf_number(leaf->node);
     leaf->polynomial = (size_t)number;
@@ -9328,15 +9371,20 @@ static void sdv_exact_nests_job(void *context, int job)
         if (sdv_nest_work(exact, i) <= SDV_NEST_STACK) sdv_nest_polynomials(e, i, w);
 }
 
-static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const subdiv_options *opt)
+static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
+                            size_t in_stride, void *scratch, const subdiv_options *opt)
 {
+    sdv_evaluation work;
     sdv_exact_evaluation e;
     memset(&e, 0, sizeof e);
-    e.surface = evaluation->surface;
-    e.channels = evaluation->channels;
-    e.memory = sdv_exact_parts(e.surface, e.channels, scratch);
-    evaluation->doubles = e.memory.work;
-    sdv_make_work(evaluation, opt);
+    memset(&work, 0, sizeof work);
+    e.surface = work.surface = surface;
+    e.channels = work.channels = channels;
+    e.memory = sdv_exact_parts(surface, channels, scratch);
+    work.in = in;
+    work.in_stride = in_stride;
+    work.doubles = e.memory.work;
+    sdv_make_work(&work, opt);
     const sdv_exact *exact = e.surface->exact;
     e.jobs = sdv_jobs(exact->patch_count, 256);
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
@@ -9344,6 +9392,13 @@ static void sdv_exact_begin(sdv_evaluation *evaluation, void *scratch, const sub
     sdv_run(opt, sdv_exact_nests_job, &e, e.jobs);
     for (int i = 0; i < exact->nest_count; i++)         // they are few, and there is room for one
         if (sdv_nest_work(exact, i) > SDV_NEST_STACK) sdv_nest_polynomials(&e, i, e.memory.nest);
+}
+
+static const sdv_exact_calls *sdv_find_exact_calls(void)
+{
+    static const sdv_exact_calls calls = { sdv_new_exact, sdv_prepare_exact, sdv_exact_size,
+                                           sdv_exact_begin };
+    return &calls;
 }
 
 // ------------------------------------------------------------------------------- >>samples
@@ -9638,9 +9693,9 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
 {
     for (int k = 0; k < 6; k++)
         for (int l = 0; l < 4 && c + l < e->channels && e->out[k]; l++) {
-            double value = s->values[k][l], large = k > 0 ? HUGE_VAL : (double)FLT_MAX;
+            double value = s->values[k][l], most = (double)FLT_MAX, large = k > 0 ? HUGE_VAL : most;
             e->out[k][e->stride * i + (size_t)(c + l)] =
-                (float)(value > FLT_MAX ? large : value < -FLT_MAX ? -large : value);
+                (float)(value > most ? large : value < -most ? -large : value);
         }
     if (!e->normals || c > 0) return;
     sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-28, e->normals + e->normal_stride * i);
@@ -9703,8 +9758,8 @@ typedef struct sdv_batch {
     const float *data[SDV_LOOKUP];
 } sdv_batch;
 
-SDV_INLINE int sdv_find_batch(sdv_exact_evaluation *e, int job, int loop, size_t i, int count,
-                              sdv_batch *batch)
+SDV_INLINE int sdv_find_some(sdv_exact_evaluation *e, int job, int loop, size_t i, int count,
+                             sdv_batch *batch)
 {
     size_t width = SDV_SLOTS * (size_t)e->channels;
     if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) {
@@ -9714,6 +9769,13 @@ SDV_INLINE int sdv_find_batch(sdv_exact_evaluation *e, int job, int loop, size_t
     for (int k = 0; k < count; k++)
         batch->data[k] = e->memory.polynomials + width * (batch->at.cells[k] >> SDV_CELL_BITS);
     return 1;
+}
+
+// Whole batches, so that the loops have a constant count.
+static int sdv_find_batch(sdv_exact_evaluation *e, int job, size_t i, sdv_batch *batch)
+{
+    return e->surface->rules.loop ? sdv_find_some(e, job, 1, i, SDV_LOOKUP, batch)
+                                  : sdv_find_some(e, job, 0, i, SDV_LOOKUP, batch);
 }
 
 // lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
@@ -9731,8 +9793,7 @@ SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int la
 static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, int count)
 {
     sdv_batch batch;
-    int found = loop ? sdv_find_batch(e, job, 1, i, count, &batch)
-                     : sdv_find_batch(e, job, 0, i, count, &batch);
+    int found = sdv_find_some(e, job, loop, i, count, &batch);
     for (int k = 0; k < count && found; k++)
         sdv_put_found(e, job, loop, 0, 0, &batch, k, i + (size_t)k);
 }
@@ -9743,14 +9804,14 @@ SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, in
     size_t i = (size_t)sdv_share(e->count, job, e->jobs), third;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     sdv_batch batches[2], *batch = batches, *next = batches + 1, *last;
-    if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, loop, i, SDV_LOOKUP, next)) return;
+    if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, i, next)) return;
     third = SDV_SLOTS * (size_t)e->channels / 3;
     while (end - i >= SDV_LOOKUP) {
         last = batch;
         batch = next;
         if (end - i >= 2 * SDV_LOOKUP) {
             next = last;
-            if (!sdv_find_batch(e, job, loop, i + SDV_LOOKUP, SDV_LOOKUP, next)) return;
+            if (!sdv_find_batch(e, job, i + SDV_LOOKUP, next)) return;
         }
         for (int k = 0; k < SDV_LOOKUP; k++, i++) {
             sdv_prefetch(next->data[k]);
@@ -9847,6 +9908,12 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
 }
+#else
+static const sdv_exact_calls *sdv_find_exact_calls(void)
+{
+    return NULL;
+}
+#endif // SUBDIV_NO_EXACT
 
 // ------------------------------------------------------------------------------ >>stencils
 // No rule is here a second time: rows have weights, and what a patch does to its control points
@@ -10432,6 +10499,16 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     return context.result;
 }
 
+SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!stencils) return;
+    owned.blocks = (sdv_block *)stencils->memory;
+    sdv_arena_free(&owned);
+    memset(stencils, 0, sizeof *stencils);
+}
+
+#ifndef SUBDIV_NO_EXACT
 // The patch of a leaf that is none of a nest.
 static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int node, const int **points)
 {
@@ -10597,16 +10674,9 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
     return context.result;
 }
+#endif // SUBDIV_NO_EXACT
 
-SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
-{
-    sdv_arena owned = sdv_new_arena(0);
-    if (!stencils) return;
-    owned.blocks = (sdv_block *)stencils->memory;
-    sdv_arena_free(&owned);
-    memset(stencils, 0, sizeof *stencils);
-}
-
+#ifndef SUBDIV_NO_EXACT
 // ---------------------------------------------------------------------------------- >>tiles
 // THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
 // its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
@@ -11777,29 +11847,83 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
     if (!fine || fine == cage)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
     if (!context.result)
-        context.result = sdv_prepare_surface(&surface, cage, SUBDIV_EXACT, 1, opt);
+        context.result = sdv_prepare_surface(&surface, cage, SUBDIV_EXACT, 1,
+                                             sdv_find_exact_calls(), opt);
     if (!context.result)
         context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
     subdiv_surface_free(surface);
     if (fine && fine != cage) *fine = out;
     return context.result;
 }
+#endif // SUBDIV_NO_EXACT
 
-SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
+// -------------------------------------------------------------------------------- >>normals
+// Normals of any mesh, from its faces alone.
+
+// The normal of a face by Newell's method, as long as twice its area. Returns how long rounding of
+// the coordinates could make it: by FLT_EPSILON / 2 of their size each.
+//
+//     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
+static double sdv_area_normal(const float *positions, const int *vertices, int size, double n[3])
 {
-    return surface->order.cage.edge_count;
+    const float *o = positions + 3 * (size_t)vertices[0];
+    double p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
+    n[0] = n[1] = n[2] = 0;
+    for (int i = 0; i < size; i++) {
+        const float *next = positions + 3 * (size_t)vertices[i + 1 < size ? i + 1 : 0];
+        double q[3], squares = 0;
+        for (int k = 0; k < 3; k++) {
+            q[k] = (double)next[k] - (double)o[k];
+            squares += (q[k] - p[k]) * (q[k] - p[k]);
+            if (fabs((double)next[k]) > largest) largest = fabs((double)next[k]);
+        }
+        for (int k = 0; k < 3; k++)
+            n[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
+        memcpy(p, q, sizeof p);
+        perimeter += sqrt(squares);
+    }
+    return 2 * (double)FLT_EPSILON * largest * perimeter;
 }
 
-SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
+// sums: [3 * vertex_count], the normals before they are made 1 long.
+static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
 {
-    const sdv_level *cage = &surface->order.cage;
-    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
-        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
-        ends[2 * cage->face_edges[h]] = a < b ? a : b;
-        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
+    const int *v = mesh->face_vertices;
+    memset(sums, 0, 3 * (size_t)mesh->vertex_count * sizeof(double));
+    for (int f = 0; f < mesh->face_count; f++) {
+        int size = sdv_face_size(mesh, f);
+        double n[3];
+        sdv_area_normal(mesh->positions, v, size, n);
+        for (int i = 0; i < size; i++)
+            for (int k = 0; k < 3; k++) sums[3 * (size_t)v[i] + (size_t)k] += n[k];
+        v += size;
     }
 }
 
+SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    subdiv_mesh shape;
+    if (mesh) shape = *mesh;
+    shape.normals = NULL;                       // may be anything before
+    sdv_check_all(&context, mesh ? &shape : NULL);
+    if (context.result) return context.result;
+    sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
+    size_t count = 3 * (size_t)mesh->vertex_count;
+    owned.blocks = (sdv_block *)mesh->memory;
+    double *sums = SDV_NEW(&context, &scratch, double, count);
+    float *normals = mesh->normals ? mesh->normals : SDV_NEW(&context, &owned, float, count);
+    if (!context.result) {
+        sdv_sum_normals(mesh, sums);
+        for (size_t i = 0; i < count; i += 3) sdv_make_unit(sums + i, normals + i);
+        mesh->normals = normals;
+        mesh->memory = owned.blocks;
+    }
+    sdv_arena_free(&scratch);
+    return context.result;
+}
+
+#ifndef SUBDIV_NO_TOOLS
 // ---------------------------------------------------------------------------- >>generators
 // Creases from the mesh itself: each generator asks one question of two faces that share an edge.
 // Boundary and non-manifold edges are sharp by shape, nobody asks about them.
@@ -11902,75 +12026,12 @@ static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *gene
     return context->result;
 }
 
-// The normal of a face by Newell's method, as long as twice its area. Returns how long rounding of
-// the coordinates could make it: by FLT_EPSILON / 2 of their size each.
-//
-//     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
-static double sdv_area_normal(const float *positions, const int *vertices, int size, double n[3])
-{
-    const float *o = positions + 3 * (size_t)vertices[0];
-    double p[3] = { 0, 0, 0 }, largest = 0, perimeter = 0;
-    n[0] = n[1] = n[2] = 0;
-    for (int i = 0; i < size; i++) {
-        const float *next = positions + 3 * (size_t)vertices[i + 1 < size ? i + 1 : 0];
-        double q[3], squares = 0;
-        for (int k = 0; k < 3; k++) {
-            q[k] = (double)next[k] - (double)o[k];
-            squares += (q[k] - p[k]) * (q[k] - p[k]);
-            if (fabs((double)next[k]) > largest) largest = fabs((double)next[k]);
-        }
-        for (int k = 0; k < 3; k++)
-            n[k] += p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
-        memcpy(p, q, sizeof p);
-        perimeter += sqrt(squares);
-    }
-    return 2 * (double)FLT_EPSILON * largest * perimeter;
-}
-
 // Of length 1. A face that is so thin that rounding could have made it so has none: 0.
 static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
 {
     double n[3], error = sdv_area_normal(positions, vertices, size, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
-}
-
-// sums: [3 * vertex_count], the normals before they are made 1 long.
-static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
-{
-    const int *v = mesh->face_vertices;
-    memset(sums, 0, 3 * (size_t)mesh->vertex_count * sizeof(double));
-    for (int f = 0; f < mesh->face_count; f++) {
-        int size = sdv_face_size(mesh, f);
-        double n[3];
-        sdv_area_normal(mesh->positions, v, size, n);
-        for (int i = 0; i < size; i++)
-            for (int k = 0; k < 3; k++) sums[3 * (size_t)v[i] + (size_t)k] += n[k];
-        v += size;
-    }
-}
-
-SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    subdiv_mesh shape;
-    if (mesh) shape = *mesh;
-    shape.normals = NULL;                       // may be anything before
-    sdv_check_all(&context, mesh ? &shape : NULL);
-    if (context.result) return context.result;
-    sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
-    size_t count = 3 * (size_t)mesh->vertex_count;
-    owned.blocks = (sdv_block *)mesh->memory;
-    double *sums = SDV_NEW(&context, &scratch, double, count);
-    float *normals = mesh->normals ? mesh->normals : SDV_NEW(&context, &owned, float, count);
-    if (!context.result) {
-        sdv_sum_normals(mesh, sums);
-        for (size_t i = 0; i < count; i += 3) sdv_make_unit(sums + i, normals + i);
-        mesh->normals = normals;
-        mesh->memory = owned.blocks;
-    }
-    sdv_arena_free(&scratch);
-    return context.result;
 }
 
 // By atan2, which is exact for all angles, where a cosine blurs the small ones.
@@ -12195,6 +12256,28 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 
 // ------------------------------------------------------------------------------ >>oddities
 // What subdiv_check finds, kind by kind. Each kind looks at every face, edge, vertex or entry once.
+
+// Does the edge that leads on from h join a and b?
+static int sdv_joins(const sdv_level *level, int h, int a, int b)
+{
+    int from = level->face_vertices[h], to = level->face_vertices[sdv_next(level, h)];
+    return (from == a && to == b) || (from == b && to == a);
+}
+
+// The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
+// met in rising order, but for the last of a face that leads to its first.
+static int sdv_find_edge(const sdv_level *level, int a, int b)
+{
+    int closing = -1, k = level->vertex_first[sdv_smaller_end(level, a, b)];
+    for (; k >= 0; k = level->vertex_next[k]) {
+        int before = sdv_previous(level, k), joins = sdv_joins(level, before, a, b);
+        if (closing >= 0 && sdv_face_of(level, k) != sdv_face_of(level, closing)) break;
+        if (joins && before < k) return level->face_edges[before];
+        if (sdv_joins(level, k, a, b)) return level->face_edges[k];
+        if (joins) closing = before;
+    }
+    return closing < 0 ? -1 : level->face_edges[closing];
+}
 
 typedef struct sdv_checker {
     const subdiv_mesh *mesh;
@@ -12556,7 +12639,9 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
     sdv_arena_free(&arena);
     return context.result;
 }
+#endif // SUBDIV_NO_TOOLS
 
+#if !defined(SUBDIV_NO_OBJ) || !defined(SUBDIV_NO_TOOLS)
 // ------------------------------------------------------------------------------- >>numbers
 // Text to the nearest float, and a float to its shortest text, independent of the locale. 53 or 64
 // bits do for both, unless a number comes so close to where the answer changes that their error
@@ -12649,7 +12734,7 @@ static float sdv_nearest_float(const sdv_decimal *decimal)
     if (decimal->head == 0 || magnitude < -45) return 0;
     if (magnitude > 39) return (float)HUGE_VAL;
     double d = sdv_scale((double)decimal->head, decimal->exponent), middle;
-    if (d >= FLT_MIN) {
+    if (d >= (double)FLT_MIN) {
         uint64_t bits;
         memcpy(&bits, &d, sizeof bits);
         int64_t above = (int64_t)(bits & 0x1fffffff) - 0x10000000;  // the middle, in ulp of d
@@ -12664,6 +12749,66 @@ static float sdv_nearest_float(const sdv_decimal *decimal)
     return (float)(middle * (1 + sdv_compare_decimal(decimal, middle) * ldexp(1, -50)));
 }
 
+// The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
+static uint32_t sdv_shortest(float number, int *ten)
+{
+    double size = (double)number;
+    int e = (int)floor(log10(size)), binary;
+    int twice_above = frexp(size, &binary) == 0.5;  // the next float is farther above than below
+    if (sdv_scale(size, -e) < 1) e--;
+    if (sdv_scale(size, -e) >= 10) e++;
+    sdv_decimal decimal = { 0, 0, 0, 0, NULL, NULL };
+    // With 6 digits every float is hit that a shorter decimal hits; denormals have fewer.
+    for (int count = size < (double)FLT_MIN ? 1 : 6; count <= 9; count++) {
+        *ten = e + 1 - count;
+        decimal.head = (uint64_t)(sdv_scale(size, -*ten) + 0.5);
+        decimal.exponent = *ten;
+        decimal.head_count = count;
+        if (sdv_nearest_float(&decimal) == number) break;
+        decimal.head += (uint64_t)twice_above;
+        if (twice_above && sdv_nearest_float(&decimal) == number) break;
+    }
+    return (uint32_t)decimal.head;
+}
+
+// digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
+static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
+{
+    for (; digits && digits % 10 == 0; digits /= 10) ten++;
+    char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
+    int count = (int)(end - first), point = count + ten;    // digits before the point
+    if (point > 9 || point < -4) {
+        ten = point - 1;
+        point = 1;
+    } else {
+        ten = 0;
+    }
+    for (int i = point < 1 ? point - 1 : 0; i < count || i < point; i++) {
+        if (i == point) *p++ = '.';
+        *p++ = i < 0 || i >= count ? '0' : first[i];
+    }
+    if (ten == 0) return p;
+    *p++ = 'e';
+    if (ten < 0) *p++ = '-';
+    for (first = sdv_digits(end, (uint64_t)(ten < 0 ? -ten : ten)); first < end;) *p++ = *first++;
+    return p;
+}
+
+// The shortest text of any float, by trial.
+static char *sdv_write_exactly(char *p, float number)
+{
+    float size = (float)fabs((double)number);
+    uint32_t bits, digits = 0;
+    int ten = 0;
+    memcpy(&bits, &number, sizeof bits);
+    if (bits >> 31) *p++ = '-';
+    if (size > 0) digits = sdv_shortest(size, &ten);
+    return sdv_write_decimal(p, digits, ten);
+}
+
+#endif // numbers
+
+#ifndef SUBDIV_NO_OBJ
 // The digits and the point from p to end, times 10^power: any number of digits, any power.
 static float sdv_read_exactly(const char *p, const char *end, int64_t power)
 {
@@ -12723,7 +12868,7 @@ static const char *sdv_read_any_number(const char *p, float *out)
 
 // Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
 // little above the double. NULL for others.
-static inline const char *sdv_read_short_number(const char *p, float *out)
+SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
 {
     static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
                                     1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18 };
@@ -12751,51 +12896,6 @@ static const char *sdv_read_number(const char *p, float *out)
     return end && *end != 'e' && *end != 'E' ? end : sdv_read_any_number(p, out);
 }
 
-// The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
-static uint32_t sdv_shortest(float number, int *ten)
-{
-    double size = (double)number;
-    int e = (int)floor(log10(size)), binary;
-    int twice_above = frexp(size, &binary) == 0.5;  // the next float is farther above than below
-    if (sdv_scale(size, -e) < 1) e--;
-    if (sdv_scale(size, -e) >= 10) e++;
-    sdv_decimal decimal = { 0, 0, 0, 0, NULL, NULL };
-    // With 6 digits every float is hit that a shorter decimal hits; denormals have fewer.
-    for (int count = size < FLT_MIN ? 1 : 6; count <= 9; count++) {
-        *ten = e + 1 - count;
-        decimal.head = (uint64_t)(sdv_scale(size, -*ten) + 0.5);
-        decimal.exponent = *ten;
-        decimal.head_count = count;
-        if (sdv_nearest_float(&decimal) == number) break;
-        decimal.head += (uint64_t)twice_above;
-        if (twice_above && sdv_nearest_float(&decimal) == number) break;
-    }
-    return (uint32_t)decimal.head;
-}
-
-// digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
-static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
-{
-    for (; digits && digits % 10 == 0; digits /= 10) ten++;
-    char buffer[24], *end = buffer + sizeof buffer, *first = sdv_digits(end, digits);
-    int count = (int)(end - first), point = count + ten;    // digits before the point
-    if (point > 9 || point < -4) {
-        ten = point - 1;
-        point = 1;
-    } else {
-        ten = 0;
-    }
-    for (int i = point < 1 ? point - 1 : 0; i < count || i < point; i++) {
-        if (i == point) *p++ = '.';
-        *p++ = i < 0 || i >= count ? '0' : first[i];
-    }
-    if (ten == 0) return p;
-    *p++ = 'e';
-    if (ten < 0) *p++ = '-';
-    for (first = sdv_digits(end, (uint64_t)(ten < 0 ? -ten : ten)); first < end;) *p++ = *first++;
-    return p;
-}
-
 typedef struct sdv_figures {            // what writing many numbers needs
     uint64_t gaps[256];                 // [exponent of a float] to the next one, in units of
     int      tens[256];                 // 10^tens / 2^36: 1 to 10 of 10^tens. 0: by trial
@@ -12818,14 +12918,14 @@ static void sdv_make_figures(sdv_figures *figures)
 }
 
 // A number below 10^8 as text with all 8 digits, the first one in the lowest byte.
-static inline uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number)
+SDV_INLINE uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number)
 {
     uint32_t high = number / 10000;
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
 // The first and the last of 8 digits that is not 0; one of them is.
-static inline int sdv_first_digit(uint64_t text)
+SDV_INLINE int sdv_first_digit(uint64_t text)
 {
     uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
@@ -12837,7 +12937,7 @@ static inline int sdv_first_digit(uint64_t text)
 #endif
 }
 
-static inline int sdv_last_digit(uint64_t text)
+SDV_INLINE int sdv_last_digit(uint64_t text)
 {
     uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
@@ -12849,7 +12949,7 @@ static inline int sdv_last_digit(uint64_t text)
 #endif
 }
 
-static inline void sdv_store_eight(char *p, uint64_t text)
+SDV_INLINE void sdv_store_eight(char *p, uint64_t text)
 {
     const uint16_t one = 1;
     if (*(const unsigned char *)&one)                           // the lowest byte first
@@ -12858,26 +12958,14 @@ static inline void sdv_store_eight(char *p, uint64_t text)
         for (int i = 0; i < 8; i++) p[i] = (char)(text >> 8 * i & 255);
 }
 
-// The shortest text of any float, by trial.
-static char *sdv_write_exactly(char *p, float number)
-{
-    float size = (float)fabs((double)number);
-    uint32_t bits, digits = 0;
-    int ten = 0;
-    memcpy(&bits, &number, sizeof bits);
-    if (bits >> 31) *p++ = '-';
-    if (size > 0) digits = sdv_shortest(size, &ten);
-    return sdv_write_decimal(p, digits, ten);
-}
-
-// A blank and the same, mostly at once: with the blank at most 17 characters, and up to 8 more may
+// A blank and the shortest text, mostly at once: with the blank at most 17 characters, and up to 8 more may
 // be spoiled. Returns where they end.
 //
 // All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
 // So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
 // nearest multiple of 1 is the answer. A power of 2 counts as the last number before it, plus one:
 // its gap is the one below. Above there is more room, which only matters if nothing is found.
-static inline char *sdv_write_float(const sdv_figures *figures, char *p, const float *number)
+SDV_INLINE char *sdv_write_float(const sdv_figures *figures, char *p, const float *number)
 {
     const uint64_t one = (uint64_t)1 << 36, doubt = one >> 11;
     uint32_t bits;
@@ -12918,7 +13006,7 @@ static inline char *sdv_write_float(const sdv_figures *figures, char *p, const f
 }
 
 // A number from 0 on, of at most 10 digits; may spoil as many characters. Returns where it ends.
-static inline char *sdv_write_index(const sdv_figures *figures, char *p, int number)
+SDV_INLINE char *sdv_write_index(const sdv_figures *figures, char *p, int number)
 {
     if (number >= 100000000) {
         char digits[16], *end = digits + sizeof digits;
@@ -12936,8 +13024,36 @@ static inline char *sdv_write_index(const sdv_figures *figures, char *p, int num
 // lines are there; what is left of a block moves to the front before the next one is read. Behind
 // the text there are always line ends, so nothing has to look whether the text is over.
 
+static void sdv_fail_line(sdv_context *context, subdiv_result code, int line,
+                          const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    sdv_fail_at(context, code, line, -1, -1, format, args);
+    va_end(args);
+}
+
+// Reading or writing failed; often the system knows why.
+static void sdv_forget_errno(void)
+{
+#ifndef SUBDIV_NO_STDIO
+    errno = 0;
+#endif
+}
+
+static void sdv_fail_io(sdv_context *context, const char *what)
+{
+#ifndef SUBDIV_NO_STDIO
+    if (errno) {
+        sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
+        return;
+    }
+#endif
+    sdv_fail(context, SUBDIV_ERROR_IO, what);
+}
+
 // So many more items, not cleared; NULL when out of memory.
-static inline void *sdv_push(sdv_context *context, sdv_array *array, size_t count, size_t item)
+SDV_INLINE void *sdv_push(sdv_context *context, sdv_array *array, size_t count, size_t item)
 {
     if (count > array->capacity - array->count) {
         size_t most = array->capacity > count ? array->capacity : count;
@@ -12997,14 +13113,14 @@ static void sdv_series_grow(sdv_context *context, sdv_series *series, size_t cou
 }
 
 // Where so many more items can be written; then sdv_series_add counts them. NULL: out of memory.
-static inline void *sdv_series_room(sdv_context *context, sdv_series *series, size_t count)
+SDV_INLINE void *sdv_series_room(sdv_context *context, sdv_series *series, size_t count)
 {
     if (count > series->room) sdv_series_grow(context, series, count);
     if (context->result) return NULL;
     return (int *)(series->last + 1) + series->last->count;
 }
 
-static inline void sdv_series_add(sdv_series *series, size_t count)
+SDV_INLINE void sdv_series_add(sdv_series *series, size_t count)
 {
     series->last->count += count;
     series->count += count;
@@ -13115,23 +13231,23 @@ static void sdv_count_line(sdv_obj *obj)
     if (obj->next_line < INT_MAX) obj->next_line++;
 }
 
-static inline int sdv_is_blank(char c)
+SDV_INLINE int sdv_is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\f' || c == '\v';
 }
 
-static inline int sdv_is_newline(char c)
+SDV_INLINE int sdv_is_newline(char c)
 {
     return c == '\n' || c == '\r';
 }
 
 // Nothing more in this statement: a line end or a comment.
-static inline int sdv_at_end(const char *p)
+SDV_INLINE int sdv_at_end(const char *p)
 {
     return sdv_is_newline(*p) || *p == '#';
 }
 
-static inline int sdv_continues(const char *p)          // the statement, on the next line
+SDV_INLINE int sdv_continues(const char *p)          // the statement, on the next line
 {
     return *p == '\\' && sdv_is_newline(p[1]);
 }
@@ -13141,7 +13257,7 @@ static const char *sdv_skip_newline(const char *p)
     return p + (p[0] == '\r' && p[1] == '\n' ? 2 : 1);
 }
 
-static inline const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
+SDV_INLINE const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
 {
     while (sdv_is_blank(*p) || sdv_continues(p)) {
         if (*p == '\\') {
@@ -13155,7 +13271,7 @@ static inline const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
 }
 
 // Behind a token: it is over. "-1.#IND" is one token, and not a number.
-static inline int sdv_ends_token(const char *p)
+SDV_INLINE int sdv_ends_token(const char *p)
 {
     return sdv_is_blank(*p) || sdv_is_newline(*p) || (*p == '#' && p[-1] != '.') ||
            sdv_continues(p) || *p == 0;
@@ -13237,7 +13353,7 @@ static const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numbers,
             sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a number");
             break;
         }
-        if (fabs((double)numbers[*count]) > FLT_MAX) {
+        if (fabs((double)numbers[*count]) > (double)FLT_MAX) {
             sdv_refuse(obj, SUBDIV_ERROR_NOT_FINITE, p, "\"%t\" is too large for a float");
             break;
         }
@@ -13292,7 +13408,7 @@ static const char *sdv_read_uv(sdv_obj *obj, const char *p)
 
 // Counted from 1, or from the end if negative. What is named may follow: only the largest index so
 // far need be remembered, as the first that is too large is one of them.
-static inline int sdv_resolve(sdv_obj *obj, int uv, int64_t number, const char *p)
+SDV_INLINE int sdv_resolve(sdv_obj *obj, int uv, int64_t number, const char *p)
 {
     int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
     int64_t index = number < 0 ? number + count : number - 1;
@@ -13335,7 +13451,7 @@ static const char *sdv_read_face_vertex(const char *p, int64_t *v, int64_t *t, c
 }
 
 // A face whose vertices, and UVs if it has some, stand where there was room for them.
-static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
+SDV_INLINE void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 {
     if (size > INT_MAX || obj->mesh.face_count == obj->most_faces) {
         sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many faces");
@@ -13360,7 +13476,7 @@ static inline void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 }
 
 // Where the vertices and UVs of a face can be written. Faces without UVs get their -1 later.
-static inline int sdv_face_room(sdv_obj *obj, size_t size, int with_uvs, int **v, int **t)
+SDV_INLINE int sdv_face_room(sdv_obj *obj, size_t size, int with_uvs, int **v, int **t)
 {
     *v = (int *)sdv_series_room(obj->context, &obj->face_vertices, size);
     *t = NULL;
@@ -13621,7 +13737,7 @@ static void sdv_skip_byte_order_mark(sdv_obj *obj)
 
 // -------- lines as most programs write them, in short. For others, NULL, and nothing happened.
 
-static inline const char *sdv_plain_end(sdv_obj *obj, const char *p)
+SDV_INLINE const char *sdv_plain_end(sdv_obj *obj, const char *p)
 {
     while (*p == ' ') p++;
     if (*p == '\r' && p[1] == '\n') p++;
@@ -13630,7 +13746,7 @@ static inline const char *sdv_plain_end(sdv_obj *obj, const char *p)
     return p + 1;
 }
 
-static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_series *series,
+SDV_INLINE const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_series *series,
                                             int count)
 {
     float *numbers = (float *)sdv_series_room(obj->context, series, 3);
@@ -13647,7 +13763,7 @@ static inline const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_ser
 }
 
 // An index from 1 to count.
-static inline const char *sdv_plain_index(const char *p, int count, int *out)
+SDV_INLINE const char *sdv_plain_index(const char *p, int count, int *out)
 {
     const char *first = p;
     unsigned number = 0, digit;
@@ -14414,7 +14530,9 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 }
 
 #endif // SUBDIV_NO_STDIO
+#endif // SUBDIV_NO_OBJ
 
+#ifndef SUBDIV_NO_TOOLS
 // -------------------------------------------------------------------------------- >>explain
 // The words for what >>sharpness and >>masks decide, and the row that they write for a point.
 
@@ -14954,11 +15072,11 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     memset(&x, 0, sizeof x);
     if (text && capacity) text[0] = 0;
     else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
-    if (!context.result) sdv_check_request(&context, &cut, cage, 1, opt);
+    if (!context.result) sdv_check_request(&context, &cut, cage, 1, NULL, opt);
     if (context.result) return context.result;
 
     subdiv_mesh work = *cage;
-    cut = sdv_new_surface(&context, 1);
+    cut = sdv_new_surface(&context, 1, NULL);
     x.context = &context;
     x.arena = sdv_scratch();
     x.out.text = text;
@@ -14979,18 +15097,50 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     subdiv_surface_free(cut);
     return context.result;
 }
+#endif // SUBDIV_NO_TOOLS
 
 // ------------------------------------------------------------------------------- >>cleanup
+#undef SDV_INLINE
+#undef SDV_SIMD
+#undef SDV_SEPARATE
 #undef SDV_NEW
-#undef SDV_IMPLIED
 #undef SDV_CHECKED
+#undef SDV_ENDLESS
+#undef SDV_HUGE
+#undef SDV_IMPLIED
+#undef SDV_DROPPED
+#undef SDV_ROW_BLOCK
+#undef SDV_KNOWN_MASKS
+#undef SDV_QUAD_PATCH_DEPTH
+#undef SDV_LOOP_PATCH_DEPTH
+#undef SDV_FOREVER
+#undef SDV_STRIP_LEVELS
+#undef SDV_NET_FACES
+#undef SDV_LEAST_NET_DEPTH
+#undef SDV_MOST_NET_DEPTH
+#undef SDV_NET_VALENCE
+#undef SDV_NET_POINTS
+#undef SDV_KIND_WORDS
+#undef SDV_WAITING
 #undef SDV_MOST_JOBS
+#undef SDV_EXACT_LEVELS
+#undef SDV_NEST_DEPTH
+#undef SDV_NEST_FAR
+#undef SDV_SLOTS
+#undef SDV_CELL_LEVELS
+#undef SDV_CELL_BITS
+#undef SDV_CELL_NONE
+#undef SDV_CELL_POLYNOMIALS
+#undef SDV_LOOKUP
+#undef SDV_NEST_STACK
+#undef SDV_CACHE_LINE
 #undef SDV_OUTPUT_SIZE
 #undef SDV_PIECE_SIZE
 #undef SDV_STREAM_POINTS
-#undef SDV_QUAD_PATCH_DEPTH
-#undef SDV_LOOP_PATCH_DEPTH
-#undef SDV_SIMD
+
+#if defined(__GNUC__) && defined(__cplusplus)
+#pragma GCC diagnostic pop
+#endif
 #endif // SUBDIV_IMPLEMENTATION
 
 /* Either of these two licences, as you like.

@@ -37,7 +37,7 @@ check_with() {
 rm -rf $out
 mkdir -p $out
 half="masks order invariants patches recorded creases check obj"
-rest="evaluate limit exact stencils errors uv tessellate memory"
+rest="evaluate limit exact stencils errors uv partial_uvs tessellate memory"
 for compiler in gcc clang; do
     command -v $compiler > /dev/null && installed="$installed $compiler"
 done
