@@ -70,7 +70,6 @@
              >>split     the faces, edges and sharpness of the next level, where needed
              >>patches   regular faces: their control points
              >>face-varying  UVs: a topology of their own
-             >>kinds     irregular faces: matrices for what occurs often
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
@@ -1664,7 +1663,6 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 //                 masks of those); rough: the ones among them that are no patch on this level
 //     row         the weights of one point
 //     patch       a regular face, its control points; strips: between semi-sharp creases, a part
-//     kind, net   irregular faces that are alike, and the points around such a face
 //     nest        a vertex that stays irregular on every level, and the faces around it
 //     leaf        of the tree that finds the place of (face, u, v): a patch or a face of a nest
 //     tile        a face with rates of its own; home: of a shared point, the face that makes it
@@ -1684,7 +1682,6 @@ typedef struct sdv_rules {
     int linear;                         // nothing is smoothed
     int straight;                       // boundaries stay straight
     int limit;                          // the result is on the limit surface
-    int net;                            // a net, of which only face 0 counts (see >>kinds)
     subdiv_creasing creasing;
     subdiv_triangles triangles;
 } sdv_rules;
@@ -4307,493 +4304,6 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *ar
     sdv_seam_sharpness(seams);
 }
 
-// --------------------------------------------------------------------------------- >>kinds
-// A rough face has a closed form, too, if not a short one: its points on the last level are sums of
-// the points around it, its net, and the weights are the same for all nets of one kind, with as
-// many faces at each vertex and the same sharpness. So each kind that occurs often enough gets a
-// matrix, which is made by refining the net itself. A net is that of a face whose vertices are all
-// inside: first the vertices, then what is around each, counter-clockwise, ends of edges s and,
-// of quads, vertices across faces d: at a vertex of valence n, n - 2 and n - 3.
-//
-//     d---s---s---d         Loop: the last s at a vertex is the first at the next one,
-//     |   |   |   |         and so it is left out.
-//     s---3---2---s
-//     |   |   |   |
-//     s---0---1---s
-//     |   |   |   |
-//     d---s---s---d
-
-// The points that a net makes stand in blocks of four, the last one of them repeated: side by side
-// its first vertex and what is inside it, so that a side that another face writes takes no time;
-// then, row by row, those within. All this is in the order of the kind: the face may be turned
-// against it.
-typedef struct sdv_spot {
-    short row, column;                  // from the face's vertex 0
-    short owner;                        // its bit of sdv_patch's owned, or 0: within, where the
-    short first;                        // index is first + row * sdv_row_length behind vertex 0's
-} sdv_spot;
-
-typedef struct sdv_spots {
-    int size, n, turn, step;            // step: that of sdv_patch
-    sdv_spot *next;
-} sdv_spots;
-
-static int sdv_net_blocks(int size, int n)
-{
-    int points = size == 4 ? (n + 1) * (n + 1) : (n + 1) * (n + 2) / 2;
-    return (points + 3) / 4;
-}
-
-// x runs from vertex 0 of the kind to the next one, y to the last one.
-static void sdv_add_spot(sdv_spots *spots, int x, int y, int owner)
-{
-    const int (*at)[2] = spots->size == 3 ? sdv_corner_triangle : sdv_corner_quad;
-    int n = spots->n, last = (spots->turn + spots->size - 1) % spots->size;
-    const int *a = at[spots->turn], *b = at[spots->turn + 1], *c = at[last];
-    sdv_spot *spot = spots->next++;
-    int row = (a[0] * n + (b[0] - a[0]) * x + (c[0] - a[0]) * y) / 2 * spots->step;
-    int column = (a[1] * n + (b[1] - a[1]) * x + (c[1] - a[1]) * y) / 2 * spots->step;
-    spot->row = (short)row;
-    spot->column = (short)column;
-    spot->owner = (short)owner;
-    spot->first = (short)(column - (spots->size == 3 ? row * (row - 1) / 2 : 0));
-}
-
-static void sdv_make_spots(int size, int n, int turn, int step, sdv_spot *first)
-{
-    const int (*at)[2] = size == 3 ? sdv_corner_triangle : sdv_corner_quad;
-    sdv_spots spots = { size, n, turn, step, first };
-    for (int i = 0; i < size; i++) {
-        int own = (i + turn) % size, side = size == 3 && own == 2 ? 3 : own;
-        for (int t = 0; t < n; t++)
-            sdv_add_spot(&spots, (n * at[i][1] + t * (at[i + 1][1] - at[i][1])) / 2,
-                         (n * at[i][0] + t * (at[i + 1][0] - at[i][0])) / 2,
-                         1 << (t ? side : 4 + side));
-    }
-    for (int y = 1; y < n; y++)
-        for (int x = 1; x < (size == 3 ? n - y : n); x++) sdv_add_spot(&spots, x, y, 0);
-    for (; (spots.next - first) % 4; spots.next++) spots.next[0] = spots.next[-1];
-}
-
-// How far the index of a point is behind the one below, but for what first says of triangles.
-static int sdv_row_length(const sdv_grid *grid, int row)
-{
-    return grid->columns - 1 - (grid->triangle ? row : 0);
-}
-
-// The indices of a block of spots, -1 where the net does not write. Are there any?
-static inline int sdv_outer_indices(const sdv_grid *grid, const sdv_patch *patch,
-                                    const sdv_spot *spot, int *index)
-{
-    int any = -1;
-    for (int i = 0; i < 4; i++, spot++) {
-        index[i] = !(spot->owner & patch->owned) ? -1 :
-            sdv_grid_index(grid, patch->row + spot->row, patch->column + spot->column);
-        any &= index[i];
-    }
-    return any >= 0;
-}
-
-static inline int sdv_spot_indices(const sdv_grid *grid, const sdv_patch *patch, int first,
-                                   int length, const sdv_spot *spot, int *index)
-{
-    if (spot->owner) return sdv_outer_indices(grid, patch, spot, index);
-    for (int i = 0; i < 4; i++) index[i] = first + spot[i].first + length * spot[i].row;
-    return 1;
-}
-
-typedef struct sdv_net_matrix {             // of a kind
-    int    points;                      // of the net
-    float *weights;                     // [blocks][parts][points / 2 * 2][4] all but the first
-} sdv_net_matrix;                       //              point's, and to make it even, 0
-
-typedef struct sdv_net {
-    sdv_patch patch;                    // its place and what it writes
-    int turn;                           // the face's vertex that is vertex 0 of its kind
-    int kind;                           // its matrix
-    size_t first;                       // its points
-} sdv_net;
-
-typedef struct sdv_nets {               // of one level
-    int         count, depth;           // depth: levels to go
-    int         parts;                  // 1, or in the limit 3: with two tangents
-    sdv_net    *items;                  // [count] in the order of cage faces
-    int        *points;                 // work points
-    sdv_net_matrix *matrices;
-    int         blocks;
-    sdv_spot   *spots;                  // [turn, those of step -1 behind][4 * blocks]
-} sdv_nets;
-
-static const sdv_spot *sdv_net_spots(const sdv_nets *nets, const sdv_net *net)
-{
-    int turn = net->turn + (net->patch.step < 0 ? 3 : 0);
-    return nets->spots + 4 * turn * nets->blocks;
-}
-
-// A kind pays for so many faces at least, with so many levels to go.
-#ifndef SDV_NET_FACES
-#define SDV_NET_FACES 8
-#endif
-#define SDV_LEAST_NET_DEPTH 2
-#define SDV_MOST_NET_DEPTH 3
-
-#define SDV_NET_VALENCE 20              // at most
-#define SDV_NET_POINTS 48               // at most; so a kind has 57 words at most
-#define SDV_KIND_WORDS (2 * 57)
-
-// What a kind is: for each vertex its valence alone if all is smooth there, or with a sign; then
-// the bits of its sharpness, of the edge's that leads on from it, and of the other edges'.
-typedef struct sdv_kind_key {
-    int words[SDV_KIND_WORDS];          // twice: to turn the face is to start elsewhere
-    int starts[9];                      // of each vertex
-    int points;
-} sdv_kind_key;
-
-typedef struct sdv_known_kind {
-    int first, words;                   // its key
-    int next;                           // with the same hash, or -1
-    int faces, points;
-    int matrix;                         // or -1
-} sdv_known_kind;
-
-// The kinds of a level.
-typedef struct sdv_kinds {
-    sdv_context *context;
-    const sdv_level *level;
-    const sdv_rules *rules;
-    int levels;                         // to go
-    unsigned char *valence;             // [vertex_count]  0: not known, 1: no net
-    int *heads, hashes;                 // [hashes] the first kind with a hash, or -1
-    sdv_array items, words;             // sdv_known_kinds, their keys
-} sdv_kinds;
-
-// The valence of a vertex in the middle of as many faces of the regular size, or 1.
-static int sdv_net_valence(const sdv_level *level, int h, int size)
-{
-    int v = level->face_vertices[h], faces = level->vertex_faces[v];
-    if (level->partner && level->partner[v] >= 0) return 1;
-    if (faces < 3 || faces > SDV_NET_VALENCE || !sdv_has_regular_faces(level, v, faces, size))
-        return 1;
-    for (int i = level->vertex_first[v]; i >= 0; i = level->vertex_next[i])
-        if (level->across[level->across[i]] != i) return 1;
-    return sdv_ring_closes(level, h) ? faces : 1;
-}
-
-// The bits of sharpness that lasts, or fades before the last level. Chaikin's depends on more than
-// is in the net: -1.
-static int sdv_sharp_bits(const sdv_kinds *kinds, float sharpness)
-{
-    int bits;
-    if (sdv_lasts(sharpness, kinds->levels, kinds->rules)) sharpness = SUBDIV_INFINITE;
-    else if (sharpness > 0 && kinds->rules->creasing == SUBDIV_CREASING_CHAIKIN) return -1;
-    memcpy(&bits, &sharpness, sizeof bits);
-    return bits;
-}
-
-// The words of the vertex of h; NULL if it has no kind.
-static int *sdv_vertex_words(const sdv_kinds *kinds, int h, int valence, int *words)
-{
-    const sdv_level *level = kinds->level;
-    int v = level->face_vertices[h], none = 0, at = h, *first = words;
-    *words++ = valence;
-    if (!level->creased[v] && level->vertex_sharpness[v] <= 0) return words;
-    *first = -valence;
-    *words = sdv_sharp_bits(kinds, level->vertex_sharpness[v]);
-    none |= *words++;
-    *words = sdv_sharp_bits(kinds, level->sharpness[h]);
-    none |= *words++;
-    for (int i = 2; i < valence; i++) {
-        at = sdv_around(level, at);
-        *words = sdv_sharp_bits(kinds, level->sharpness[sdv_previous(level, at)]);
-        none |= *words++;
-    }
-    return none < 0 ? NULL : words;
-}
-
-// The key of a face. 0: it has none.
-static int sdv_find_key(const sdv_kinds *kinds, int h, int size, sdv_kind_key *key)
-{
-    int *words = key->words, threes = 0;
-    key->points = size == 4 ? 4 : -6;
-    for (int i = 0; i < size; i++) {
-        unsigned char *valence = &kinds->valence[kinds->level->face_vertices[h + i]];
-        if (!*valence) *valence = (unsigned char)sdv_net_valence(kinds->level, h + i, size);
-        if (*valence < 3) return 0;
-        threes += *valence == 3;
-        key->points += size == 4 ? 2 * *valence - 5 : *valence;
-        if (key->points > SDV_NET_POINTS) return 0;
-        key->starts[i] = (int)(words - key->words);
-        words = sdv_vertex_words(kinds, h + i, *valence, words);
-        if (!words) return 0;
-    }
-    int count = (int)(words - key->words);
-    for (int i = 0; i < count; i++) words[i] = key->words[i];
-    for (int i = 0; i <= size; i++) key->starts[size + i] = key->starts[i] + count;
-    return size == 4 || threes < 2;
-}
-
-static int sdv_compare_words(const int *a, const int *b, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
-    return 0;
-}
-
-// Of the ways to turn a face the one with the largest key, so that there are fewer kinds.
-static int sdv_key_turn(const sdv_kind_key *key, int size)
-{
-    int turn = 0;
-    for (int i = 1; i < size; i++)
-        if (sdv_compare_words(key->words + key->starts[i], key->words + key->starts[turn],
-                              key->starts[size]) > 0) turn = i;
-    return turn;
-}
-
-// The number of a kind, which may be new. -1: out of memory.
-static int sdv_kind_number(sdv_kinds *kinds, const int *words, int count, int points)
-{
-    uint32_t hash = 0;
-    for (int i = 0; i < count; i++) hash = (hash ^ (uint32_t)words[i]) * 2654435761u;
-    hash ^= hash >> 15;
-    int *head = &kinds->heads[hash % (uint32_t)kinds->hashes];
-    sdv_known_kind *items = (sdv_known_kind *)sdv_items(&kinds->items);
-    int *all = (int *)sdv_items(&kinds->words);
-    for (int i = *head; i >= 0; i = items[i].next)
-        if (items[i].words == count && !sdv_compare_words(all + items[i].first, words, count))
-            return i;
-    sdv_known_kind *made = (sdv_known_kind *)sdv_array_room(kinds->context, &kinds->items, 1,
-                                                            sizeof *made);
-    all = (int *)sdv_array_room(kinds->context, &kinds->words, (size_t)count, sizeof *all);
-    if (!made || !all) return -1;
-    sdv_copy(all, words, (size_t)count, sizeof *all);
-    made->first = (int)kinds->words.count;
-    made->words = count;
-    made->points = points;
-    made->next = *head;
-    made->faces = 0;
-    made->matrix = -1;
-    kinds->words.count += (size_t)count;
-    return *head = (int)kinds->items.count++;
-}
-
-// Where the points around each vertex start; one more for the end.
-static void sdv_net_starts(int size, const int *valence, int *starts)
-{
-    starts[0] = size;
-    for (int i = 0; i < size; i++)
-        starts[i + 1] = starts[i] + (size == 4 ? 2 * valence[i] - 5 : valence[i] - 3);
-}
-
-// The end of the j-th edge from vertex i that is not in the face.
-static int sdv_net_point(int size, const int *valence, const int *starts, int i, int j)
-{
-    if (size == 4) return starts[i] + 2 * j;
-    for (; j == valence[i] - 3; j = 0) i = (i + 1) % 3;
-    return starts[i] + j;
-}
-
-// The faces of a net: the face, those across its edges, and those between.
-static int sdv_net_faces(int size, const int *valence, const int *starts, int *faces)
-{
-    int *out = faces;
-    for (int i = 0; i < size; i++) *out++ = i;
-    for (int i = 0; i < size; i++) {
-        int next = (i + 1) % size;
-        *out++ = i;
-        *out++ = sdv_net_point(size, valence, starts, i, valence[i] - 3);
-        if (size == 4) *out++ = sdv_net_point(size, valence, starts, next, 0);
-        *out++ = next;
-        for (int j = 0; j + 3 < valence[i]; j++) {
-            *out++ = i;
-            *out++ = sdv_net_point(size, valence, starts, i, j);
-            if (size == 4) *out++ = starts[i] + 2 * j + 1;
-            *out++ = sdv_net_point(size, valence, starts, i, j + 1);
-        }
-    }
-    return (int)(out - faces) / size;
-}
-
-static void sdv_add_net_crease(subdiv_mesh *net, int a, int b, int bits)
-{
-    int i = net->crease_count++;
-    net->crease_vertices[2 * i] = a;
-    net->crease_vertices[2 * i + 1] = b;
-    memcpy(&net->crease_sharpness[i], &bits, sizeof bits);
-}
-
-// Puts the words of vertex i into the lists of creases and corners; returns those of the next one.
-static const int *sdv_net_sharpness(int size, const int *valence, const int *starts, int i,
-                                    const int *words, subdiv_mesh *net)
-{
-    if (*words > 0) return words + 1;
-    if (words[1]) {
-        net->corner_vertices[net->corner_count] = i;
-        memcpy(&net->corner_sharpness[net->corner_count++], words + 1, sizeof *words);
-    }
-    if (words[2]) sdv_add_net_crease(net, i, (i + 1) % size, words[2]);
-    for (int j = 0; j + 2 < valence[i]; j++)
-        if (words[3 + j])
-            sdv_add_net_crease(net, i, sdv_net_point(size, valence, starts, i, j), words[3 + j]);
-    return words + 1 + valence[i];
-}
-
-static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const sdv_nets *nets,
-                           float *weights);
-
-// Makes the matrix of a kind from its net.
-static void sdv_make_matrix(sdv_kinds *kinds, sdv_arena *arena, const sdv_known_kind *kind,
-                            sdv_nets *nets)
-{
-    int faces[4 * SDV_NET_POINTS], creases[4 * SDV_NET_POINTS], corners[4];
-    float crease_sharpness[2 * SDV_NET_POINTS], corner_sharpness[4];
-    int size = kinds->rules->loop ? 3 : 4, valence[4], starts[5];
-    sdv_net_matrix *matrix = &nets->matrices[kind->matrix];
-    const int *first = (const int *)sdv_items(&kinds->words) + kind->first, *words = first;
-    subdiv_mesh net;
-    memset(&net, 0, sizeof net);
-    for (int i = 0; i < size; i++) {
-        valence[i] = *words > 0 ? *words : -*words;
-        words += *words > 0 ? 1 : 1 + valence[i];
-    }
-    sdv_net_starts(size, valence, starts);
-    net.scheme = size == 3 ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK;
-    net.vertex_count = kind->points;
-    net.face_size = size;
-    net.face_count = sdv_net_faces(size, valence, starts, faces);
-    net.face_vertices = faces;
-    net.crease_vertices = creases;
-    net.crease_sharpness = crease_sharpness;
-    net.corner_vertices = corners;
-    net.corner_sharpness = corner_sharpness;
-    words = first;
-    for (int i = 0; i < size; i++)
-        words = sdv_net_sharpness(size, valence, starts, i, words, &net);
-    matrix->points = kind->points;
-    matrix->weights = SDV_NEW(kinds->context, arena, float,
-                              4 * (size_t)(nets->blocks * nets->parts) *
-                              (size_t)(kind->points / 2 * 2));
-    if (!kinds->context->result) sdv_refine_net(kinds->context, &net, nets, matrix->weights);
-}
-
-// The points of a face's net, of which h is vertex 0.
-static int *sdv_gather_net(const sdv_kinds *kinds, int h, int turn, int size, int *points)
-{
-    const sdv_level *level = kinds->level;
-    for (int i = 0; i < size; i++) *points++ = sdv_point_at(level, h + (turn + i) % size);
-    for (int i = 0; i < size; i++) {
-        int at = h + (turn + i) % size;
-        int count = kinds->valence[level->face_vertices[at]] - (size == 4 ? 2 : 3);
-        for (int j = 0; j < count; j++) {
-            at = sdv_around(level, at);
-            if (size == 4 && j > 0)
-                *points++ = sdv_point_at(level, sdv_next(level, sdv_next(level, at)));
-            *points++ = sdv_point_at(level, sdv_previous(level, at));
-        }
-    }
-    return points;
-}
-
-// Which rough faces of a level have a kind: its number and their turn, or -1.
-typedef struct sdv_kind_of {
-    int kind, turn;
-} sdv_kind_of;
-
-static void sdv_count_kinds(sdv_kinds *kinds, int size, sdv_kind_of *of)
-{
-    const sdv_level *level = kinds->level;
-    sdv_kind_key key;
-    for (int i = 0; i < kinds->hashes; i++) kinds->heads[i] = -1;
-    memset(kinds->valence, 0, (size_t)level->vertex_count);
-    for (int f = 0; f < level->face_count && !kinds->context->result; f++) {
-        int h = sdv_face_start(level, f), regular = sdv_face_end(level, f) - h == size;
-        if (!level->rough[f]) continue;
-        of->kind = -1;
-        if (regular && sdv_find_key(kinds, h, size, &key)) {
-            of->turn = sdv_key_turn(&key, size);
-            of->kind = sdv_kind_number(kinds, key.words + key.starts[of->turn], key.starts[size],
-                                       key.points);
-            sdv_known_kind *items = (sdv_known_kind *)sdv_items(&kinds->items);
-            if (of->kind >= 0) items[of->kind].faces++;
-        }
-        of++;
-    }
-}
-
-// Makes the matrices of those that pay, and room for their nets.
-static void sdv_choose_kinds(sdv_kinds *kinds, sdv_arena *arena, sdv_nets *nets)
-{
-    sdv_known_kind *items = (sdv_known_kind *)sdv_items(&kinds->items);
-    size_t count = 0, points = 0;
-    int size = kinds->rules->loop ? 3 : 4, n = 1 << nets->depth, chosen = 0;
-    for (size_t i = 0; i < kinds->items.count; i++) {
-        if (items[i].faces < SDV_NET_FACES) continue;
-        items[i].matrix = chosen++;
-        count += (size_t)items[i].faces;
-        points += (size_t)items[i].faces * (size_t)items[i].points;
-    }
-    nets->items = SDV_NEW(kinds->context, arena, sdv_net, count);
-    nets->points = SDV_NEW(kinds->context, arena, int, points);
-    nets->matrices = SDV_NEW(kinds->context, arena, sdv_net_matrix, chosen);
-    nets->blocks = sdv_net_blocks(size, n);
-    nets->spots = SDV_NEW(kinds->context, arena, sdv_spot, 2 * size * 4 * nets->blocks);
-    for (int i = 0; i < 2 * size && !kinds->context->result; i++)
-        sdv_make_spots(size, n, i % size, i < size ? 1 : -1, nets->spots + 4 * i * nets->blocks);
-    for (size_t i = 0; i < kinds->items.count && !kinds->context->result; i++)
-        if (items[i].matrix >= 0)
-            sdv_make_matrix(kinds, arena, &items[i], nets);
-}
-
-static void sdv_make_nets(const sdv_kinds *kinds, sdv_level *level, int size,
-                          const sdv_kind_of *of, sdv_nets *nets)
-{
-    const sdv_known_kind *items = (const sdv_known_kind *)sdv_items(&kinds->items);
-    int *points = nets->points;
-    for (int f = 0; f < level->face_count; f++) {
-        if (!level->rough[f]) continue;
-        sdv_kind_of at = *of++;
-        if (at.kind < 0 || items[at.kind].matrix < 0) continue;
-        int h = sdv_face_start(level, f);
-        sdv_net *net = &nets->items[nets->count++];
-        memset(net, 0, sizeof *net);
-        sdv_set_place(level, f, kinds->levels, &net->patch);
-        sdv_claim(level, h, size, &net->patch);
-        net->turn = at.turn;
-        net->kind = items[at.kind].matrix;
-        net->first = (size_t)(points - nets->points);
-        points = sdv_gather_net(kinds, h, at.turn, size, points);
-        level->rough[f] = 0;
-    }
-}
-
-// Finds the nets of a level among the rough faces, which are that no more.
-static void sdv_find_nets(sdv_context *context, sdv_arena *arena, sdv_level *level,
-                          const sdv_rules *rules, int levels, sdv_nets *nets)
-{
-    int size = rules->loop ? 3 : 4, rough = 0;
-    if (rules->linear || rules->net) return;
-    if (levels < SDV_LEAST_NET_DEPTH || levels > SDV_MOST_NET_DEPTH) return;
-    for (int f = 0; f < level->face_count; f++) rough += level->rough[f];
-    if (rough < SDV_NET_FACES) return;
-    sdv_arena scratch = sdv_scratch();
-    sdv_kinds kinds;
-    memset(&kinds, 0, sizeof kinds);
-    kinds.context = context;
-    kinds.level = level;
-    kinds.rules = rules;
-    kinds.levels = nets->depth = levels;
-    nets->parts = rules->limit ? 3 : 1;
-    kinds.hashes = rough;
-    kinds.heads = SDV_NEW(context, &scratch, int, rough);
-    kinds.valence = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    sdv_kind_of *of = SDV_NEW(context, &scratch, sdv_kind_of, rough);
-    if (!context->result) sdv_count_kinds(&kinds, size, of);
-    if (!context->result) sdv_choose_kinds(&kinds, arena, nets);
-    if (!context->result) sdv_make_nets(&kinds, level, size, of, nets);
-    sdv_array_free(&kinds.items);
-    sdv_array_free(&kinds.words);
-    sdv_arena_free(&scratch);
-}
-
 // ------------------------------------------------------------------------------- >>prepare
 
 // From a level to the next: face points first, as the others are made from them.
@@ -4837,7 +4347,6 @@ struct subdiv_surface {
     sdv_rules rules;
     sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
     sdv_patches *patches;               // [levels]
-    sdv_nets    *nets;                  // [levels]
     sdv_strips  *strips;                // of semi-sharp patches, counted from 1
     sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
@@ -5480,9 +4989,6 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
     sdv_split split;
     sdv_find_patches(writer, depth ? &surface->points : &surface->around, level, rules,
                      surface->levels - depth, &surface->patches[depth]);
-    if (!context->result)
-        sdv_find_nets(context, &surface->points, level, rules, surface->levels - depth,
-                      &surface->nets[depth]);
     next->face_count = 0;
     surface->work_count = level->first_point + level->vertex_count;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
@@ -5533,8 +5039,7 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     sdv_writer writer;
     sdv_writer_new(context, &writer);
     if (!context->result) {
-        memset(level.core, !surface->rules.net, (size_t)level.face_count);
-        if (level.face_count) level.core[0] = 1;
+        memset(level.core, 1, (size_t)level.face_count);
         memset(level.edge_done, 0, (size_t)level.face_vertex_count);
         sdv_level_fade(&level);
         sdv_find_copies(surface, &level, &writer);
@@ -5661,11 +5166,9 @@ static void sdv_new_levels(sdv_context *context, subdiv_surface *surface)
     size_t levels = (size_t)surface->levels;
     surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
     surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
-    surface->nets = SDV_NEW(context, &surface->arena, sdv_nets, levels);
     if (context->result) return;
     memset(surface->steps, 0, levels * sizeof *surface->steps);
     memset(surface->patches, 0, levels * sizeof *surface->patches);
-    memset(surface->nets, 0, levels * sizeof *surface->nets);
 }
 
 // The rules that all values share with the positions, and the faces that they are seen on.
@@ -5919,65 +5422,6 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
-}
-
-// The weights of a net's points in those that its face 0 makes, part by part: their values if each
-// has a channel of its own in which it is 1 and all others are 0. In the limit also those of their
-// tangents, which come three channels at a time.
-static void sdv_evaluate_net(sdv_context *context, const subdiv_surface *surface, int parts,
-                             float *out)
-{
-    sdv_arena scratch = sdv_scratch();
-    subdiv_options opt;
-    size_t points = (size_t)surface->cage_vertex_count, made = (size_t)surface->fine.vertex_count;
-    float *in = SDV_NEW(context, &scratch, float, points * (points + 3));
-    float *tangents = SDV_NEW(context, &scratch, float, parts > 1 ? 6 * made : 0);
-    subdiv_limit limit = { NULL, NULL, tangents, 0 };
-    memset(&opt, 0, sizeof opt);
-    opt.user = context->user;
-    opt.error = context->error;
-    for (size_t i = 0; i < points * points && !context->result; i++) in[i] = i % (points + 1) == 0;
-    if (!context->result)
-        context->result = subdiv_evaluate(surface, (int)points, in, 0, out, 0, NULL, &opt);
-    for (size_t c = 0; c < points && parts > 1 && !context->result; c += 3) {
-        float *three = in + points * points;
-        for (size_t i = 0; i < 3 * points; i++) three[i] = i / 3 == c + i % 3;
-        context->result = subdiv_evaluate_limit(surface, three, 0, &limit, NULL, &opt);
-        for (size_t i = 0; i < 6 * made; i++)
-            if (c + i % 3 < points)
-                out[((1 + i / 3 % 2) * made + i / 6) * points + c + i % 3] = tangents[i];
-    }
-    sdv_arena_free(&scratch);
-}
-
-// Makes the weights of a kind, from its net.
-static void sdv_refine_net(sdv_context *context, const subdiv_mesh *net, const sdv_nets *nets,
-                           float *weights)
-{
-    sdv_arena scratch = sdv_scratch();
-    subdiv_surface *surface = sdv_new_surface(context, nets->depth, NULL);
-    sdv_values none = { 0, NULL, SUBDIV_UV_CORNERS_ONLY };
-    sdv_patch all = { 0, 0, 0, 1, 0, 255, {0, 0, 0}, 0, 0 };
-    size_t points = (size_t)net->vertex_count, parts = (size_t)nets->parts;
-    if (surface) surface->rules.net = 1;
-    if (surface) surface->rules.limit = parts > 1;
-    if (surface) sdv_prepare(context, surface, net, NULL, none, 0, NULL);
-    size_t made = context->result ? 0 : (size_t)surface->fine.vertex_count;
-    float *out = SDV_NEW(context, &scratch, float, points * made * parts);
-    if (!context->result) sdv_evaluate_net(context, surface, nets->parts, out);
-    for (int i = 0; i < nets->blocks && !context->result; i++) {
-        sdv_grid grid;
-        sdv_grid_at(&surface->order, 0, &grid);
-        int first = sdv_inside_index(&grid, 0, 0), index[4];
-        sdv_spot_indices(&grid, &all, first, sdv_row_length(&grid, 0), nets->spots + 4 * i, index);
-        for (size_t part = 0; part < parts; part++)
-            for (size_t j = 1; j <= points / 2 * 2; j++)
-                for (int k = 0; k < 4; k++)
-                    *weights++ = j < points ? out[points * (part * made + (size_t)index[k]) + j]
-                                            : 0;
-    }
-    subdiv_surface_free(surface);
-    sdv_arena_free(&scratch);
 }
 
 // What the fine faces do not need.
@@ -6432,18 +5876,6 @@ static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
     }
 }
 
-// One level of the cubic B-spline: the point at p1 of the control points p0 p1 p2, and the one
-// between p1 and p2. bend is 1/8, or bilinear 0.
-SDV_INLINE sdv_four sdv_spline_vertex(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four bend)
-{
-    return sdv_plus(p1, sdv_times(bend, sdv_plus(sdv_minus(p0, p1), sdv_minus(p2, p1))));
-}
-
-SDV_INLINE sdv_four sdv_middle(sdv_four a, sdv_four b)
-{
-    return sdv_plus(a, sdv_times(sdv_all(0.5f), sdv_minus(b, a)));
-}
-
 // The control points of patch i, in room [16] if they have to be gathered. closed: see
 // sdv_gather_quad.
 SDV_INLINE const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
@@ -6454,81 +5886,6 @@ SDV_INLINE const int *sdv_patch_points(const subdiv_surface *surface, const sdv_
     sdv_gather(&surface->order.cage, &surface->rules, &patches->items[i], patches->items[i].h,
                closed, room);
     return room;
-}
-
-// Where the point of vertex i of a quad with one level to go stands, and that of edge i. If there
-// is one level in all, its grid is the whole cage face.
-SDV_INLINE int sdv_near_vertex(const sdv_order *order, const sdv_grid *grid,
-                                  const sdv_patch *patch, int i)
-{
-    const int *at = sdv_corner_quad[i];
-    if (order->n == 2) return order->cage.face_vertices[patch->h + i];
-    return sdv_quad_index(grid, patch->row + at[0], patch->column + at[1]);
-}
-
-SDV_INLINE int sdv_near_edge(const sdv_order *order, const sdv_grid *grid,
-                                const sdv_patch *patch, int i)
-{
-    const int *a = sdv_corner_quad[i], *b = sdv_corner_quad[i + 1];
-    if (order->n == 2) return order->first_edge_point + order->cage.face_edges[patch->h + i];
-    return sdv_quad_index(grid, patch->row + (a[0] + b[0]) / 2, patch->column + (a[1] + b[1]) / 2);
-}
-
-// The points of the bottom or top row that a patch owns, from rows of control points; a and b are
-// its vertices on that row.
-SDV_INLINE void sdv_put_three(const sdv_window *out, const sdv_order *order,
-                                 const sdv_grid *grid, const sdv_patch *patch, const sdv_four *p,
-                                 sdv_four bend, int a, int b)
-{
-    int owned = patch->owned, edge = a ? 2 : 0;
-    sdv_four left = sdv_spline_vertex(p[1], p[5], p[9], bend);
-    sdv_four right = sdv_spline_vertex(p[2], p[6], p[10], bend);
-    if (owned >> edge & 1)
-        sdv_put_point(out, sdv_near_edge(order, grid, patch, edge), sdv_middle(left, right));
-    if (owned >> (4 + a) & 1) {
-        sdv_four beside = sdv_spline_vertex(p[0], p[4], p[8], bend);
-        sdv_put_point(out, sdv_near_vertex(order, grid, patch, a),
-                      sdv_spline_vertex(beside, left, right, bend));
-    }
-    if (owned >> (4 + b) & 1) {
-        sdv_four beside = sdv_spline_vertex(p[3], p[7], p[11], bend);
-        sdv_put_point(out, sdv_near_vertex(order, grid, patch, b),
-                      sdv_spline_vertex(left, right, beside, bend));
-    }
-}
-
-// Of a quad the edges that bound a point that it owns.
-static int sdv_needed_sides(const sdv_patch *patch)
-{
-    int vertices = patch->owned >> 4;
-    return (patch->owned | vertices | vertices >> 1 | vertices << 3) & 15;
-}
-
-// A quad with one level to go: nine points at most, for which a polynomial is too much work.
-static void sdv_put_nine(const sdv_window *out, const subdiv_surface *surface,
-                         const sdv_patches *patches, int i, const sdv_grid *grid, const float *work)
-{
-    const sdv_order *order = &surface->order;
-    const sdv_patch *patch = &patches->items[i];
-    int sides = sdv_needed_sides(patch), sharp = patch->sharp, room[16];
-    const int *points = sdv_patch_points(surface, patches, i, sharp | (sides ^ 15), room);
-    sdv_four p[16], u[4], bend = sdv_all(surface->rules.linear ? 0 : 0.125f);
-    sdv_load_points(points + 4, 8, work, p + 4);
-    if ((sides & 1) || sharp) sdv_load_points(points, 4, work, p);
-    if ((sides & 4) || sharp) sdv_load_points(points + 12, 4, work, p + 12);
-    if (sharp) sdv_mirror_quad(patch, p);
-    for (int k = 0; k < 4; k++) u[k] = sdv_middle(p[4 + k], p[8 + k]);
-    sdv_put_point(out, order->n == 2 ? sdv_first_inside(order, sdv_face_of(&order->cage, patch->h))
-                                     : sdv_inside_index(grid, patch->row + 1, patch->column + 1),
-                  sdv_middle(u[1], u[2]));
-    if (patch->owned & SDV_LEFT)
-        sdv_put_point(out, sdv_near_edge(order, grid, patch, 3),
-                      sdv_spline_vertex(u[0], u[1], u[2], bend));
-    if (patch->owned & SDV_RIGHT)
-        sdv_put_point(out, sdv_near_edge(order, grid, patch, 1),
-                      sdv_spline_vertex(u[1], u[2], u[3], bend));
-    if (sides & 1) sdv_put_three(out, order, grid, patch, p, bend, 0, 1);
-    if (sides & 4) sdv_put_three(out, order, grid, patch, p + 4, bend, 3, 2);
 }
 
 // The control points of a quad, relative to its vertex 0, which is their origin.
@@ -6700,53 +6057,6 @@ static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, 
     return (unsigned char)made;
 }
 
-// The limit curve of the control points p[0], p[step], ...: its point and derivative at t = i / 2.
-SDV_INLINE void sdv_limit_curve(const sdv_four *p, int step, int i, sdv_four *point,
-                                   sdv_four *slope)
-{
-    if (i == 2) p += step;
-    sdv_four d0 = sdv_minus(p[step], p[0]), d1 = sdv_minus(p[2 * step], p[step]);
-    if (i == 1) {
-        sdv_four d2 = sdv_minus(p[3 * step], p[2 * step]);
-        sdv_four middle = sdv_plus(p[step], sdv_times(sdv_all(0.5f), d1));
-        *point = sdv_plus(middle, sdv_times(sdv_all(1.0f / 48), sdv_minus(d2, d0)));
-        *slope = sdv_plus(sdv_times(sdv_all(0.125f), sdv_plus(d0, d2)),
-                          sdv_times(sdv_all(0.75f), d1));
-    } else {
-        *point = sdv_plus(p[step], sdv_times(sdv_all(1.0f / 6), sdv_minus(d1, d0)));
-        *slope = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
-    }
-}
-
-// The same in the limit.
-static void sdv_put_limit_nine(const sdv_window *out, const subdiv_surface *surface,
-                               const sdv_patches *patches, int number, const sdv_grid *grid,
-                               const float *work)
-{
-    static const unsigned char owners[3][3] = { { SDV_BOTTOM_LEFT, SDV_BOTTOM, SDV_BOTTOM_RIGHT },
-                                                { SDV_LEFT, 0, SDV_RIGHT },
-                                                { SDV_TOP_LEFT, SDV_TOP, SDV_TOP_RIGHT } };
-    const sdv_patch *patch = &patches->items[number];
-    int owned = patch->owned, room[16];
-    sdv_four p[16], x[4], rise[4];
-    sdv_load_points(sdv_patch_points(surface, patches, number, patch->sharp, room), 16, work, p);
-    if (patch->sharp) sdv_mirror_quad(patch, p);
-    for (int r = 0; r < 3; r++) {
-        if (r != 1 && !(owned & (owners[r][0] | owners[r][1] | owners[r][2]))) continue;
-        for (int i = 0; i < 4; i++) sdv_limit_curve(p + i, 4, r, &x[i], &rise[i]);
-        for (int c = 0; c < 3; c++) {
-            sdv_four point, along, across, mixed;
-            if (owners[r][c] && !(owned & owners[r][c])) continue;
-            int index = sdv_quad_index(grid, patch->row + r, patch->column + c);
-            sdv_limit_curve(x, 1, c, &point, &along);
-            sdv_put_point(out, index, point);
-            if (!out->tangents) continue;
-            sdv_limit_curve(rise, 1, c, &across, &mixed);
-            sdv_put_tangents(out, index, along, across);
-        }
-    }
-}
-
 // The parts of a patch, in the limit or, with h > 0, on the last level.
 typedef struct sdv_parts {
     const subdiv_surface *surface;
@@ -6818,22 +6128,14 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
                              const float *work, int face, int end, const sdv_window *out)
 {
     const sdv_order *order = &surface->order;
-    int n = 1 << patches->depth, h = -1, limit = surface->rules.limit;
-    int nine = !order->loop && n == 2 && !(limit && surface->rules.linear);
+    int h = -1;
     int last = sdv_first_patch(order, patches, end);
     sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
     sdv_parts parts;
     sdv_part part;
     for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
         const sdv_patch *patch = &patches->items[i];
-        int small_grid = nine && !patch->up;
-        if (patch->h != h && (!small_grid || limit || order->n > 2))
-            sdv_grid_at(order, h = patch->h, &grid);
-        if (small_grid) {
-            if (limit) sdv_put_limit_nine(out, surface, patches, i, &grid, work);
-            else sdv_put_nine(out, surface, patches, i, &grid, work);
-            continue;
-        }
+        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
         sdv_begin_parts(surface, patches, i, work, &parts, &part);
         for (int j = 0; j < parts.count; j++) {
             sdv_make_part(&parts, j, &part);
@@ -6842,49 +6144,6 @@ static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *p
             sdv_put_outer_row(out, &grid, &part, 1);
         }
     }
-}
-
-// A net's points, relative to the first one: each channel of each in all four places.
-typedef struct sdv_net_values {
-    sdv_four first[4], d[SDV_NET_POINTS][4];
-    int count;                          // of d, even: the last may be 0
-} sdv_net_values;
-
-static void sdv_spread(sdv_four a, sdv_four *channels)
-{
-    float x[4];
-    sdv_store(x, a);
-    for (int i = 0; i < 4; i++) channels[i] = sdv_all(x[i]);
-}
-
-static void sdv_load_net(const int *points, int count, const float *work, sdv_net_values *net)
-{
-    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
-    sdv_spread(p0, net->first);
-    for (int i = 1; i < count; i++)
-        sdv_spread(sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0), net->d[i - 1]);
-    if (count % 2 == 0) sdv_spread(sdv_all(0), net->d[count - 1]);
-    net->count = count / 2 * 2;
-}
-
-// Four sums, channel by channel: lane i of x[k] is channel k of sum i.
-SDV_INLINE void sdv_net_sums(const sdv_net_values *net, const float *weights, int lanes,
-                                sdv_four *x)
-{
-    sdv_four x0 = sdv_all(0), x1 = x0, x2 = x0, x3 = x0;
-    const sdv_four (*d)[4] = net->d, (*end)[4] = net->d + net->count;
-    for (; d < end; d += 2, weights += 8) {
-        sdv_four w = sdv_load(weights), w1 = sdv_load(weights + 4);
-        x0 = sdv_plus(sdv_plus(x0, sdv_times(w, d[0][0])), sdv_times(w1, d[1][0]));
-        x1 = sdv_plus(sdv_plus(x1, sdv_times(w, d[0][1])), sdv_times(w1, d[1][1]));
-        x2 = sdv_plus(sdv_plus(x2, sdv_times(w, d[0][2])), sdv_times(w1, d[1][2]));
-        if (lanes == 4)
-            x3 = sdv_plus(sdv_plus(x3, sdv_times(w, d[0][3])), sdv_times(w1, d[1][3]));
-    }
-    x[0] = x0;
-    x[1] = x1;
-    x[2] = x2;
-    x[3] = x3;
 }
 
 // Writes four points, channel by channel as above, to where they stand in the window, if they do.
@@ -6897,64 +6156,6 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
             sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
 }
 
-static void sdv_put_block(const sdv_window *out, const sdv_net_values *net, const float *weights,
-                          const int *at)
-{
-    sdv_four x[4], across[4];
-    if (out->values) {
-        if (out->lanes < 4) sdv_net_sums(net, weights, 3, x);
-        else sdv_net_sums(net, weights, 4, x);
-        for (int k = 0; k < 4; k++) x[k] = sdv_plus(net->first[k], x[k]);
-        sdv_put_four(out->values, out->stride, out->lanes, x, at, out->count);
-    }
-    if (!out->tangents) return;
-    sdv_net_sums(net, weights + 4 * net->count, 3, x);
-    sdv_net_sums(net, weights + 8 * net->count, 3, across);
-    sdv_put_four_tangents(out->tangents, at, out->count, x, across);
-}
-
-// The first net of a cage face or one behind it.
-static int sdv_first_net(const sdv_order *order, const sdv_nets *nets, int face)
-{
-    int low = 0, high = nets->count, h = high ? sdv_face_start(&order->cage, face) : 0;
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (nets->items[middle].patch.h < h) low = middle + 1;
-        else high = middle;
-    }
-    return low;
-}
-
-static void sdv_put_net(const sdv_window *out, const sdv_grid *grid, const sdv_nets *nets,
-                        const sdv_net *net, const sdv_net_values *values)
-{
-    const sdv_patch *patch = &net->patch;
-    int first = sdv_inside_index(grid, patch->row, patch->column), index[4];
-    int length = sdv_row_length(grid, patch->row), step = 4 * nets->parts * values->count;
-    const sdv_spot *spot = sdv_net_spots(nets, net), *end = spot + 4 * nets->blocks;
-    const float *weights = nets->matrices[net->kind].weights;
-    for (; spot < end; spot += 4, weights += step) {
-        if (!sdv_spot_indices(grid, patch, first, length, spot, index)) continue;
-        for (int i = 0; i < 4; i++) index[i] -= out->first;
-        sdv_put_block(out, values, weights, index);
-    }
-}
-
-// The points that the nets of a level make for cage faces face to end - 1.
-static void sdv_put_nets(const sdv_order *order, const sdv_nets *nets, const float *work, int face,
-                         int end, const sdv_window *out)
-{
-    int h = -1, last = sdv_first_net(order, nets, end);
-    sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
-    sdv_net_values values;
-    for (int i = sdv_first_net(order, nets, face); i < last; i++) {
-        const sdv_net *net = &nets->items[i];
-        if (net->patch.h != h) sdv_grid_at(order, h = net->patch.h, &grid);
-        sdv_load_net(nets->points + net->first, nets->matrices[net->kind].points, work, &values);
-        sdv_put_net(out, &grid, nets, net, &values);
-    }
-}
-
 // Cage faces face to end - 1: the points of the result that belong to them.
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
@@ -6962,8 +6163,6 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_apply_result(&surface->masks, &surface->copies, work, face, end, out);
     for (int i = 0; i < surface->levels; i++)
         sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
-    for (int i = 0; i < surface->levels; i++)
-        sdv_put_nets(&surface->order, &surface->nets[i], work, face, end, out);
     sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
     sdv_apply_limit(surface, work, face, end, out);
 }
@@ -10346,42 +9545,12 @@ static int sdv_face_has(const sdv_order *order, int f, int first, int end)
     return has;
 }
 
-// The points of a face's nets. Their records: minus the level + 1, the net, which of its points.
-static void sdv_note_nets(sdv_makers *makers, int face)
-{
-    const subdiv_surface *surface = makers->surface;
-    for (int level = 0; level < surface->levels; level++) {
-        const sdv_nets *nets = &surface->nets[level];
-        int last = sdv_first_net(&surface->order, nets, face + 1), index[4];
-        for (int i = sdv_first_net(&surface->order, nets, face); i < last; i++) {
-            const sdv_patch *patch = &nets->items[i].patch;
-            sdv_grid grid;
-            sdv_grid_at(&surface->order, patch->h, &grid);
-            const sdv_spot *spots = sdv_net_spots(nets, &nets->items[i]);
-            int first = sdv_inside_index(&grid, patch->row, patch->column);
-            for (int j = 0; j < 4 * nets->blocks; j++) {
-                if (j % 4 == 0)
-                    sdv_spot_indices(&grid, patch, first, sdv_row_length(&grid, patch->row),
-                                     spots + j, index);
-                if (index[j % 4] < makers->first || index[j % 4] >= makers->end) continue;
-                float *record = makers->records +
-                                makers->record * (size_t)(index[j % 4] - makers->first);
-                record[0] = (float)-(level + 1);
-                record[1] = (float)(i >> 16);
-                record[2] = (float)(i & 65535);
-                record[3] = (float)j;
-            }
-        }
-    }
-}
-
 static void sdv_find_makers(sdv_makers *makers)
 {
     const subdiv_surface *surface = makers->surface;
     for (int f = 0; f < surface->cage_face_count && surface->levels > 0; f++) {
         if (!sdv_face_has(&surface->order, f, makers->first, makers->end)) continue;
         sdv_push_patches(makers, f);
-        sdv_note_nets(makers, f);
         sdv_note_rows(makers, f);
     }
 }
@@ -10429,26 +9598,6 @@ static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, con
     sdv_add_rounded(make, points, makers->width, weights);
 }
 
-// Adds the points of a net. The weight of the first is what is left.
-static void sdv_add_net(sdv_stencil_maker *make, const float *record)
-{
-    const sdv_nets *nets = &make->surface->nets[-(int)record[0] - 1];
-    const sdv_net *net = &nets->items[(size_t)record[1] * 65536 + (size_t)record[2]];
-    const sdv_net_matrix *matrix = &nets->matrices[net->kind];
-    size_t spot = (size_t)record[3], size = (size_t)(matrix->points / 2 * 2);
-    double weights[3 * SDV_NET_POINTS];
-    for (int i = 0; i < 3 * matrix->points; i++) weights[i] = 0;
-    weights[0] = 1;
-    for (int k = 0; k < nets->parts; k++) {
-        size_t row = (spot / 4 * (size_t)nets->parts + (size_t)k) * size;
-        for (int i = 1; i < matrix->points; i++) {
-            weights[3 * i + k] = (double)matrix->weights[4 * (row + (size_t)i - 1) + spot % 4];
-            weights[k] -= weights[3 * i + k];
-        }
-    }
-    sdv_add_rounded(make, nets->points + net->first, matrix->points, weights);
-}
-
 static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
 {
     const subdiv_surface *surface = make->surface;
@@ -10461,8 +9610,6 @@ static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *
         const sdv_weights *mask = &surface->masks.items[row[0]];
         sdv_compose_all(make, row + 2, mask->count);
         if (!make->context->result) sdv_add_row(make, mask, row + 2, one);
-    } else if (record[0] < 0) {
-        sdv_add_net(make, record);
     } else if (record[0] > 0) {
         sdv_add_patch(make, makers, record);
     } else {
@@ -15115,12 +14262,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_LOOP_PATCH_DEPTH
 #undef SDV_FOREVER
 #undef SDV_STRIP_LEVELS
-#undef SDV_NET_FACES
-#undef SDV_LEAST_NET_DEPTH
-#undef SDV_MOST_NET_DEPTH
-#undef SDV_NET_VALENCE
-#undef SDV_NET_POINTS
-#undef SDV_KIND_WORDS
 #undef SDV_WAITING
 #undef SDV_MOST_JOBS
 #undef SDV_EXACT_LEVELS

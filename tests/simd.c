@@ -1,5 +1,5 @@
 // Prints a sum of the bits of many results, for tests/simd.sh to compare between ways to compile.
-#define SDV_NET_FACES 1                // nets of every kind, however rare
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "random_cage.h"

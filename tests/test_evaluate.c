@@ -15,7 +15,7 @@ static void *count_malloc(size_t size)
 
 #define SUBDIV_MALLOC(size, user)  ((void)(user), count_malloc(size))
 #define SUBDIV_FREE(pointer, user) ((void)(user), free(pointer))
-#define SDV_NET_FACES 1                // nets of every kind, however rare
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "cages.h"

@@ -5,7 +5,7 @@
 //     cc -I. tests/test_limit.c -o build/test_limit -lm -pthread && build/test_limit
 #include <stdlib.h>
 
-#define SDV_NET_FACES 1                // nets of every kind, however rare
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "cages.h"

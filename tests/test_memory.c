@@ -10,7 +10,7 @@ static void  heap_free(void *pointer, void *user);
 
 #define SUBDIV_MALLOC(size, user)  heap_malloc(size, user)
 #define SUBDIV_FREE(pointer, user) heap_free(pointer, user)
-#define SDV_NET_FACES 1                // nets of every kind, however rare
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "test.h"

@@ -3,7 +3,7 @@
 // written here a second time, in doubles.
 //
 //     cc -I. tests/test_patches.c -o build/test_patches -lm && build/test_patches
-#define SDV_NET_FACES 1                // nets of every kind, however rare
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "cages.h"

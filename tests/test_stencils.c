@@ -4,7 +4,7 @@
 //     cc -I. tests/test_stencils.c -o build/test_stencils -lm && build/test_stencils
 #include <stdlib.h>
 
-#define SDV_NET_FACES 1                // nets of every kind, however rare
+
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "cages.h"
