@@ -1260,6 +1260,24 @@ static void sdv_array_free(sdv_array *array)
     array->block = NULL;
 }
 
+// Appends count cleared items.
+static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, size_t item)
+{
+    void *room = sdv_array_room(context, array, count, item);
+    if (!room) return NULL;
+    memset(room, 0, count * item);
+    array->count += count;
+    return room;
+}
+
+static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *array, size_t item)
+{
+    void *kept = sdv_new(context, arena, array->count, item);
+    if (kept) sdv_copy(kept, sdv_items(array), array->count, item);
+    sdv_array_free(array);
+    return kept;
+}
+
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
 {
     if (!mesh) return;
@@ -1718,6 +1736,7 @@ typedef struct sdv_level {
     float *sums;                        // [2 * origin_count]   not needed (see >>face-varying)
 
     int    first_point;                 // vertex v is work point first_point + v
+    const struct sdv_order *order;      // the cage on a later level: where its points stand; or NULL
     int   *face_point;                  // [face_count]         work points of the face points
     sdv_place *places;                  // [face_count]         NULL on level 0
     unsigned char *core;                // [face_count]         makes points of the result; the
@@ -2252,6 +2271,18 @@ static void sdv_level_fade(sdv_level *level)
         if (level->creased[v]) sdv_fade_halves(level, v);
 }
 
+static int sdv_is_semi_sharp(float sharpness)
+{
+    return sharpness > 0 && sharpness < SUBDIV_INFINITE;
+}
+
+// The sharpness of the edge that leads to a vertex from the one before, where it ends.
+static float sdv_sharpness_before(const sdv_level *level, int before)
+{
+    int q = level->across[before];
+    return level->across[q] == before ? level->sharpness[q] : level->sharpness[before];
+}
+
 // One level down: the half, here, of the edge that leads on from h; and of the one that leads to
 // the vertex of h from the one before.
 static float sdv_half(const sdv_level *level, int h)
@@ -2261,9 +2292,8 @@ static float sdv_half(const sdv_level *level, int h)
 
 static float sdv_half_before(const sdv_level *level, int before)
 {
-    float s = level->sharpness[before];
-    if (s <= 0 || s >= SUBDIV_INFINITE) return s;
-    return sdv_half(level, level->across[before]);
+    float s = sdv_sharpness_before(level, before);
+    return sdv_is_semi_sharp(s) ? sdv_half(level, level->across[before]) : s;
 }
 
 // The rule for a vertex is the number of its sharp edges: 0 smooth, 1 dart, 2 crease, 3 or more
@@ -2293,6 +2323,36 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
+// The sharp edges at a vertex: how many now and on the next level, and of those that fade away until
+// then how many and the sum of their sharpness.
+typedef struct sdv_sharp_edges {
+    int   now, next, ending;
+    float sum;
+} sdv_sharp_edges;
+
+// half: what is left of an edge one level down.
+static void sdv_meet_edge(sdv_sharp_edges *edges, float sharpness, float half)
+{
+    if (sharpness <= 0) return;
+    edges->now++;
+    edges->next += half > 0;
+    if (half > 0) return;
+    edges->ending++;
+    edges->sum += sharpness;
+}
+
+// Of a vertex of some sharpness, of which so much is left one level down.
+static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
+{
+    int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
+    float mean = count ? (ends ? sharpness + edges->sum : edges->sum) / (float)count : 0;
+    sdv_fading fading;
+    fading.rule = sdv_vertex_rule(sharpness, edges->now);
+    fading.next = sdv_vertex_rule(left, edges->next);
+    fading.weight = (double)(mean < 1 ? mean : 1);
+    return fading;
+}
+
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
     sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
@@ -2301,30 +2361,19 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
         waits = sdv_seam_left(level, v) > 0;        // a level longer than its partner [OSD]
         v = level->partner[v];
     }
-    float sharpness = level->vertex_sharpness[v], left = sdv_fade(sharpness), sum = 0;
-    int now = 0, next = 0, count = 0;
+    float sharpness = level->vertex_sharpness[v];
+    sdv_sharp_edges edges = { 0, 0, 0, 0 };
     if (!level->creased[v] && sharpness <= 0) return fading;
-    if (sharpness > 0 && left <= 0) {
-        sum = sharpness;
-        count = 1;
-    }
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++) {
-            float s = level->sharpness[two[i]];
-            if (s <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
-            float half = i == 0 ? sdv_half(level, h) : sdv_half_before(level, two[i]);
-            now++;
-            next += half > 0;
-            if (half > 0) continue;
-            sum += s;                               // fades away here
-            count++;
-        }
+        int before = sdv_previous(level, h);
+        if (sdv_is_edge_at(level, h, 1))
+            sdv_meet_edge(&edges, level->sharpness[h], sdv_half(level, h));
+        if (sdv_is_edge_at(level, before, 0))
+            sdv_meet_edge(&edges, sdv_sharpness_before(level, before),
+                            sdv_half_before(level, before));
     }
-    float mean = count ? sum / (float)count : 0;
-    fading.rule = sdv_vertex_rule(sharpness, now);
-    fading.next = waits ? fading.rule : sdv_vertex_rule(left, next);
-    fading.weight = (double)(mean < 1 ? mean : 1);
+    fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+    if (waits) fading.next = fading.rule;
     return fading;
 }
 
@@ -2613,6 +2662,7 @@ typedef struct sdv_order {
     sdv_level cage;                     // faces and edges alone
     int loop, n, m;
     int first_edge_point, first_face_point;
+    int count;                          // of points
 } sdv_order;
 
 // A side of size segments whose points stand from first on, seen from its one end or the other.
@@ -2911,6 +2961,7 @@ typedef struct sdv_weights {            // the mask of a row
 } sdv_weights;
 
 typedef struct sdv_masks {              // of all rows of a surface
+    size_t       count;
     sdv_weights *items;
     float       *weights;
 } sdv_masks;
@@ -2926,11 +2977,240 @@ typedef struct sdv_rows {
     int    *items;                      // the stream
 } sdv_rows;
 
-// Three weights are enough: of the first points, the neighbours along a crease, all others.
+// Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
+#define SDV_RUNS 4
+
 typedef struct sdv_runs {
-    float weight[3];
-    int   count[3];
+    float weight[SDV_RUNS];
+    int   count[SDV_RUNS];
+    int   blend;                        // of two rules, by weights that hardly any other row has
 } sdv_runs;
+
+static int sdv_run_points(const sdv_runs *runs)
+{
+    return runs->count[0] + runs->count[1] + runs->count[2] + runs->count[3];
+}
+
+// Batches.
+// The same rows for a whole level at once, side by side with those that look alike: a batch has
+// rows of one shape, whose loop needs no branch for a point and keeps its weights in registers.
+// Batches stand in blocks, each of the rows of so many cage faces, so that any range of faces can
+// be made alone.
+
+#define SDV_BLOCK_FACES 128
+
+typedef struct sdv_shape {
+    int   count[3];                     // behind the first point so many points of each weight
+    float weight[3];
+    int   own;                          // each row has weights of its own behind its points
+} sdv_shape;
+
+typedef struct sdv_batch {
+    sdv_shape shape;
+    int       rows;
+    const int *items;                   // of each row the target, the points, three floats if own
+    const unsigned char *faces;         // [rows] which face of the block a row belongs to, rising
+    const float *limit;                 // [3][points] of a limit: weights of the point and of two
+                                        // tangents; else NULL
+    int       polygon;                  // rows of the cage's face points
+} sdv_batch;
+
+typedef struct sdv_batches {
+    int        rows, blocks;
+    int       *starts;                  // [blocks + 1] the first batch of each block
+    sdv_batch *items;
+} sdv_batches;
+
+// A batch that rows are added to, emptied at the end of each block.
+typedef struct sdv_open_batch {
+    sdv_shape shape;
+    const float *limit;
+    int   stride;                       // ints of a row
+    int   rows, room;                   // and how many there is room for
+    int  *items;
+    unsigned char *faces;
+} sdv_open_batch;
+
+typedef struct sdv_batcher {
+    sdv_context *context;
+    sdv_arena   *arena;                 // what is written goes there
+    sdv_arena    scratch;               // of open batches
+    sdv_array    open;                  // sdv_open_batch: one of each shape that there was
+    int          known[256];            // numbers of these by the hash of their shape, or -1
+    sdv_array    batches, starts;       // sdv_batch, int
+    int          rows, face;            // face: the rows that follow belong to it
+    int         *points;                // room for those of a row
+    int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
+    int         *polygon;               // with so many faces, and for face points; or -1
+    int          most, edge;            // the number of that for smooth edges, or -1
+    int          polygons;              // the rows are of the cage's face points
+} sdv_batcher;
+
+static void sdv_begin_batches(sdv_context *context, sdv_arena *arena, sdv_batcher *batcher)
+{
+    memset(batcher, 0, sizeof *batcher);
+    batcher->context = context;
+    batcher->arena = arena;
+    batcher->scratch = sdv_scratch();
+    batcher->edge = -1;
+    for (int i = 0; i < 256; i++) batcher->known[i] = -1;
+}
+
+static int sdv_row_points(const sdv_shape *shape)
+{
+    return 1 + shape->count[0] + shape->count[1] + shape->count[2];
+}
+
+static int sdv_same_shape(const sdv_shape *a, const sdv_shape *b)
+{
+    return memcmp(a->count, b->count, sizeof a->count) == 0 && a->own == b->own &&
+           (a->own || memcmp(a->weight, b->weight, sizeof a->weight) == 0);
+}
+
+// The number of the open batch for rows of a shape or, with limit, of these weights. A shape whose
+// place is taken takes it over. -1: out of memory.
+static int sdv_find_open(sdv_batcher *batcher, const sdv_shape *shape, const float *limit)
+{
+    uint32_t bits[3] = { 0, 0, 0 }, hash = (uint32_t)(uintptr_t)limit;
+    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open);
+    if (!shape->own) memcpy(bits, shape->weight, sizeof bits);
+    for (int i = 0; i < 3; i++) hash = (hash ^ bits[i] ^ (uint32_t)shape->count[i]) * 2654435761u;
+    int *known = &batcher->known[hash >> 24];
+    if (*known >= 0 && open[*known].limit == limit && sdv_same_shape(&open[*known].shape, shape))
+        return *known;
+    open = (sdv_open_batch *)sdv_append(batcher->context, &batcher->open, 1, sizeof *open);
+    if (!open) return -1;
+    open->shape = *shape;
+    open->limit = limit;
+    open->stride = 1 + sdv_row_points(shape) + 3 * shape->own;
+    return *known = (int)batcher->open.count - 1;
+}
+
+static void sdv_grow_open(sdv_batcher *batcher, sdv_open_batch *open)
+{
+    size_t room = open->room ? 2 * (size_t)open->room : 64, stride = (size_t)open->stride;
+    int *items = SDV_NEW(batcher->context, &batcher->scratch, int, room * stride);
+    unsigned char *faces = SDV_NEW(batcher->context, &batcher->scratch, unsigned char, room);
+    if (batcher->context->result) return;
+    sdv_copy(items, open->items, (size_t)open->rows * stride, sizeof *items);
+    sdv_copy(faces, open->faces, (size_t)open->rows, 1);
+    open->items = items;
+    open->faces = faces;
+    open->room = (int)room;
+}
+
+// Adds a row to an open batch: where it goes; and returns the place for its points.
+SDV_INLINE int *sdv_put_row(sdv_batcher *batcher, int number, int target)
+{
+    if (number < 0) return batcher->points;
+    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open) + number;
+    if (open->rows == open->room) sdv_grow_open(batcher, open);
+    if (open->rows == open->room) return batcher->points;       // out of memory
+    int *row = open->items + (size_t)open->stride * (size_t)open->rows;
+    open->faces[open->rows++] = (unsigned char)(batcher->face % SDV_BLOCK_FACES);
+    row[0] = target;
+    return row + 1;
+}
+
+// Adds a row whose points are in batcher->points; returns the number of its batch.
+static int sdv_add_shape(sdv_batcher *batcher, const sdv_shape *shape, const float *limit,
+                         int target)
+{
+    int number = sdv_find_open(batcher, shape, limit), points = sdv_row_points(shape);
+    int *row = sdv_put_row(batcher, number, target);
+    if (row == batcher->points) return -1;
+    memcpy(row, batcher->points, (size_t)points * sizeof *row);
+    if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
+    return number;
+}
+
+// From a row's runs to its shape: the first point apart, runs of the same weight together.
+static sdv_shape sdv_shape_of(const sdv_runs *runs)
+{
+    sdv_shape shape;
+    int first = 1, n = -1;
+    memset(&shape, 0, sizeof shape);
+    for (int i = 0; i < SDV_RUNS; i++) {
+        int count = runs->count[i];
+        if (count == 0) continue;
+        count -= first;
+        first = 0;
+        if (count == 0) continue;
+        uint32_t a, b;
+        if (n >= 0) {
+            memcpy(&a, &shape.weight[n], sizeof a);
+            memcpy(&b, &runs->weight[i], sizeof b);
+        }
+        if (n < 0 || a != b) n++;
+        shape.count[n] += count;
+        shape.weight[n] = runs->weight[i];
+    }
+    shape.own = runs->blend && n >= 0;
+    return shape;
+}
+
+static int sdv_add_runs(sdv_batcher *batcher, const sdv_runs *runs, int target)
+{
+    sdv_shape shape = sdv_shape_of(runs);
+    return sdv_add_shape(batcher, &shape, NULL, target);
+}
+
+// Writes the batches of a block.
+static void sdv_end_block(sdv_batcher *batcher)
+{
+    sdv_context *context = batcher->context;
+    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open);
+    int *start = (int *)sdv_array_room(context, &batcher->starts, 1, sizeof *start);
+    if (!start) return;
+    *start = (int)batcher->batches.count;
+    batcher->starts.count++;
+    for (size_t i = 0; i < batcher->open.count && !context->result; i++) {
+        size_t rows = (size_t)open[i].rows, size = rows * (size_t)open[i].stride;
+        if (rows == 0) continue;
+        int *items = SDV_NEW(context, batcher->arena, int, size);
+        unsigned char *faces = SDV_NEW(context, batcher->arena, unsigned char, rows);
+        sdv_batch *batch = (sdv_batch *)sdv_append(context, &batcher->batches, 1, sizeof *batch);
+        if (!batch || context->result) return;
+        sdv_copy(items, open[i].items, size, sizeof *items);
+        sdv_copy(faces, open[i].faces, rows, 1);
+        batch->shape = open[i].shape;
+        batch->limit = open[i].limit;
+        batch->polygon = batcher->polygons;
+        batch->rows = open[i].rows;
+        batch->items = items;
+        batch->faces = faces;
+        batcher->rows += open[i].rows;
+        open[i].rows = 0;
+    }
+}
+
+// The rows that follow belong to this cage face.
+static void sdv_batch_face(sdv_batcher *batcher, int face)
+{
+    if (face / SDV_BLOCK_FACES != batcher->face / SDV_BLOCK_FACES) sdv_end_block(batcher);
+    batcher->face = face;
+}
+
+static void sdv_end_batches(sdv_batcher *batcher, sdv_batches *made)
+{
+    sdv_context *context = batcher->context;
+    sdv_end_block(batcher);
+    made->blocks = (int)batcher->starts.count;
+    made->rows = batcher->rows;
+    sdv_end_block(batcher);                                     // an empty one: where the last ends
+    made->starts = (int *)sdv_keep_array(context, batcher->arena, &batcher->starts, sizeof(int));
+    made->items = (sdv_batch *)sdv_keep_array(context, batcher->arena, &batcher->batches,
+                                              sizeof(sdv_batch));
+    memset(&batcher->starts, 0, sizeof batcher->starts);
+    memset(&batcher->batches, 0, sizeof batcher->batches);
+    batcher->rows = batcher->face = 0;
+}
+
+static void sdv_batcher_free(sdv_batcher *batcher)
+{
+    sdv_array_free(&batcher->open);
+    sdv_arena_free(&batcher->scratch);
+}
 
 typedef struct sdv_known_mask {
     sdv_runs runs;
@@ -2950,6 +3230,7 @@ typedef struct sdv_writer {
     sdv_rows    *rows;                  // being written
     int         *row;                   // the next one
     int          target, face;          // and what it makes, if it has a target
+    struct sdv_batcher *batcher;        // where the rows go, or NULL
 } sdv_writer;
 
 static void sdv_writer_free(sdv_writer *writer)
@@ -2971,13 +3252,13 @@ static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
 
 static int sdv_new_mask(sdv_writer *writer, const sdv_runs *runs)
 {
-    int count = runs->count[0] + runs->count[1] + runs->count[2], even = 1, n = 0;
+    int count = sdv_run_points(runs), even = 1, n = 0;
     sdv_weights *mask = (sdv_weights *)sdv_array_room(writer->context, &writer->masks, 1,
                                                       sizeof *mask);
     float *weights = (float *)sdv_array_room(writer->context, &writer->weights, (size_t)count,
                                              sizeof(float));
     if (!mask || !weights) return 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < SDV_RUNS; i++)
         for (int j = 0; j < runs->count[i]; j++) weights[n++] = runs->weight[i];
     for (int i = 2; i < n; i++) even &= weights[i] == weights[1];
     mask->count = n;
@@ -2995,10 +3276,11 @@ static int sdv_same_runs(const sdv_runs *a, const sdv_runs *b)
 // The number of a mask. Most have been there before.
 static int sdv_mask_number(sdv_writer *writer, const sdv_runs *runs)
 {
-    uint32_t bits[3], hash = 0;
+    uint32_t bits[SDV_RUNS], hash = 0;
     if (writer->last.mask >= 0 && sdv_same_runs(&writer->last.runs, runs)) return writer->last.mask;
     memcpy(bits, runs->weight, sizeof bits);
-    for (int i = 0; i < 3; i++) hash = (hash ^ bits[i] ^ (uint32_t)runs->count[i]) * 2654435761u;
+    for (int i = 0; i < SDV_RUNS; i++)
+        hash = (hash ^ bits[i] ^ (uint32_t)runs->count[i]) * 2654435761u;
     sdv_known_mask *known = &writer->known[hash >> 24];
     if (known->mask < 0 || !sdv_same_runs(&known->runs, runs)) {
         known->mask = sdv_new_mask(writer, runs);
@@ -3040,19 +3322,22 @@ static void sdv_go_to_face(sdv_writer *writer, int face)
 // Where the points of the next row go.
 static int *sdv_begin_row(sdv_writer *writer)
 {
-    return writer->row + 1 + writer->rows->targets;
+    return writer->batcher ? writer->batcher->points : writer->row + 1 + writer->rows->targets;
 }
 
-static void sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
+// Returns the number of its batch, or -1.
+static int sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
 {
+    if (writer->batcher) return sdv_add_runs(writer->batcher, runs, writer->target);
     sdv_rows *rows = writer->rows;
-    int *row = writer->row, points = runs->count[0] + runs->count[1] + runs->count[2];
+    int *row = writer->row, points = sdv_run_points(runs);
     if (rows->targets) row[1] = writer->target;
     else if (rows->count % SDV_ROW_BLOCK == 0)
         rows->starts[rows->count / SDV_ROW_BLOCK] = (size_t)(row - rows->items);
     row[0] = sdv_mask_number(writer, runs);
     writer->row = row + 1 + rows->targets + points;
     rows->count++;
+    return -1;
 }
 
 // The most ints of a vertex's row: itself, its neighbours, its faces. Without a crease, there are
@@ -3071,9 +3356,65 @@ static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
     int *point = sdv_begin_row(writer);
-    sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0 }, { end - start, 0, 0 } };
+    sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0, 0 }, { end - start, 0, 0, 0 }, 0 };
+    int *known = writer->batcher ? &writer->batcher->polygon[end - start] : NULL;
+    if (known && *known >= 0) point = sdv_put_row(writer->batcher, *known, writer->target);
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
-    sdv_end_row(writer, &runs);
+    if (known && *known >= 0) return;
+    int number = sdv_end_row(writer, &runs);
+    if (known) *known = number;
+}
+
+// From weights of face points to weights of what they are the mean of.
+static sdv_mask sdv_spread_vertex(sdv_mask mask, int faces)
+{
+    mask.self += faces * mask.face / 4;
+    mask.edge += 2 * mask.face / 4;
+    mask.face /= 4;
+    return mask;
+}
+
+static sdv_mask sdv_spread_edge(sdv_mask mask, int faces)
+{
+    mask.self += faces * mask.face / 4;
+    mask.face /= 4;
+    return mask;
+}
+
+// The point inside the face of h that is next to its vertex; in a face without, the centre.
+static int sdv_inside_corner(const sdv_order *order, int h)
+{
+    const sdv_level *cage = &order->cage;
+    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), n = order->n, m = order->m;
+    int inside = sdv_first_inside(order, f), i = h - start;
+    if (m == 1) return inside;
+    if (sdv_is_ngon(order, f))
+        return sdv_inside_ngon(inside, sdv_face_end(cage, f) - start, m, i);
+    return inside + (i >= 2 ? (n - 2) * (n - 1) : 0) + (i == 1 || i == 2 ? n - 2 : 0);
+}
+
+// The points next to the vertex of h: along the edge that leads on, along the one before, and across
+// the face.
+static int sdv_point_ahead(const sdv_level *level, int h)
+{
+    if (!level->order) return level->first_point + level->face_vertices[sdv_next(level, h)];
+    sdv_side side = sdv_edge_side(level->order, h, 0);
+    return level->first_point + side.first + side.step;
+}
+
+static int sdv_point_behind(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h);
+    if (!level->order) return level->first_point + level->face_vertices[before];
+    sdv_side side = sdv_edge_side(level->order, before, 1);
+    return level->first_point + side.first + side.step;
+}
+
+static int sdv_point_across(const sdv_level *level, int h)
+{
+    int across = sdv_next(level, sdv_next(level, h));
+    return level->first_point + (level->order ? sdv_inside_corner(level->order, h)
+                                              : level->face_vertices[across]);
 }
 
 // Adds the neighbours of v along the edges that are sharp: now, or on the next level where a
@@ -3083,61 +3424,327 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
         int before = sdv_previous(level, h);
         float s = rule == SDV_CREASE ? level->sharpness[h] : sdv_half(level, h);
-        if (sdv_is_edge_at(level, h, 1) && (s > 0) == sharp)
-            *point++ = level->first_point + level->face_vertices[sdv_next(level, h)];
-        s = rule == SDV_CREASE ? level->sharpness[before] : sdv_half_before(level, before);
+        if (sdv_is_edge_at(level, h, 1) && (s > 0) == sharp) *point++ = sdv_point_ahead(level, h);
+        s = rule == SDV_CREASE ? sdv_sharpness_before(level, before)
+                               : sdv_half_before(level, before);
         if (sdv_is_edge_at(level, before, 0) && (s > 0) == sharp)
-            *point++ = level->first_point + level->face_vertices[before];
+            *point++ = sdv_point_behind(level, h);
     }
     return point;
 }
 
-// Without a crease each edge at v lies between two faces. Catmull-Clark weighs neighbours and
-// face points alike, so they are one run.
+// Without a crease each edge at v lies between two faces. The cage on a later level has no face
+// points: see >>lines.
+static int *sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
+{
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        *point++ = sdv_point_ahead(level, h);
+    for (int h = level->vertex_first[v]; h >= 0 && !loop; h = level->vertex_next[h])
+        *point++ = level->order ? sdv_point_across(level, h)
+                                : level->face_point[sdv_face_of(level, h)];
+    return point;
+}
+
 static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v,
                            sdv_writer *writer)
 {
-    int faces = level->vertex_faces[v];
+    int faces = level->vertex_faces[v], spread = level->order && !rules->loop;
     sdv_fading fading = sdv_vertex_fading(level, v);
+    int *known = writer->batcher && fading.rule < SDV_CREASE ? &writer->batcher->smooth[faces] : NULL;
+    if (known && *known >= 0) {
+        int *row = sdv_put_row(writer->batcher, *known, writer->target);
+        row[0] = level->first_point + v;
+        sdv_add_ring(level, v, rules->loop, row + 1);
+        return;
+    }
     sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
-    int *start = sdv_begin_row(writer), *point = start;
-    sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge },
-                      { 0, 0, 0 } };
+    if (spread) mask = sdv_spread_vertex(mask, faces);
+    int *start = sdv_begin_row(writer), *point = start, *run = start;
+    sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
+                        (float)mask.face },
+                      { 0, 0, 0, 0 }, fading.rule != fading.next && fading.rule >= SDV_CREASE };
     if (mask.self != 0) *point++ = level->first_point + v;
-    runs.count[0] = (int)(point - start);
+    runs.count[0] = (int)(point - run);
+    run = point;
     if (mask.crease != 0) point = sdv_add_neighbours(level, v, fading.rule, 1, point);
-    runs.count[1] = (int)(point - start) - runs.count[0];
+    runs.count[1] = (int)(point - run);
+    run = point;
     if (mask.crease != 0 && mask.edge != 0)
         point = sdv_add_neighbours(level, v, fading.rule, 0, point);
     if (mask.crease == 0 && mask.edge != 0)
         for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-            *point++ = level->first_point + level->face_vertices[sdv_next(level, h)];
+            *point++ = sdv_point_ahead(level, h);
+    runs.count[2] = (int)(point - run);
+    run = point;
     if (mask.face != 0)
         for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-            *point++ = level->face_point[sdv_face_of(level, h)];
-    runs.count[2] = (int)(point - start) - runs.count[0] - runs.count[1];
-    sdv_end_row(writer, &runs);
+            *point++ = spread ? sdv_point_across(level, h)
+                              : level->face_point[sdv_face_of(level, h)];
+    runs.count[3] = (int)(point - run);
+    int number = sdv_end_row(writer, &runs);
+    if (known && mask.self != 0 && mask.edge != 0) *known = number;
 }
 
 // The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
 {
-    int faces = sdv_edge_faces(level, h), triangles = 0, k = h;
-    int stays_sharp = level->sharpness[h] > 0 && sdv_half(level, h) > 0 &&
-                      sdv_half_before(level, h) > 0;
+    int faces = sdv_edge_faces(level, h), triangles = 0, k = h, *known = NULL;
+    float sharpness = level->sharpness[h];
+    int stays_sharp = sharpness > 0 && sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
-    sdv_mask mask = sdv_edge_mask(rules, level->sharpness[h], stays_sharp, faces, triangles);
+    if (writer->batcher && sharpness <= 0 && triangles == 0) known = &writer->batcher->edge;
+    sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
     int *point = sdv_begin_row(writer);
-    sdv_runs runs = { { (float)mask.self, 0, (float)mask.face },
-                      { 2, 0, mask.face != 0 ? faces : 0 } };
+    sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face },
+                      { 2, 0, 0, mask.face != 0 ? faces : 0 }, sharpness > 0 && !stays_sharp };
+    if (known && *known >= 0) point = sdv_put_row(writer->batcher, *known, writer->target);
     point[0] = level->first_point + level->face_vertices[h];
     point[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
-    for (int i = 0; i < runs.count[2]; i++, k = level->across[k])
+    for (int i = 0; i < runs.count[3]; i++, k = level->across[k])
         point[2 + i] = rules->loop ?
             level->first_point + level->face_vertices[sdv_previous(level, k)] :
             level->face_point[sdv_face_of(level, k)];
-    sdv_end_row(writer, &runs);
+    if (known && *known >= 0) return;
+    int number = sdv_end_row(writer, &runs);
+    if (known) *known = number;
+}
+
+// --------------------------------------------------------------------------------- >>lines
+// From level 1 on nothing has to be found any more. The points of a level stand in THE ORDER OF THE
+// RESULT, and what lies around each follows from where it stands:
+//
+//     inside a face      on its grid, where all is regular and smooth: see >>grids
+//     on an edge         a line of points, between the rows of points beside it
+//     at a vertex        the first point along each edge, the first one inside each face
+//
+//     . . . . .   left   (of an edge's first face)        Loop     . . . .     left
+//     v-o-o-o-v   line                                            v-o-o-o-v
+//     . . . . .   right                                            . . . .     right
+//
+// Such rows need no face points: a face point is the mean of four points, a corner of the face each,
+// so that a mask is as well one of the points at the edges' ends and of those across the faces.
+
+// The rows from one level to the next.
+typedef struct sdv_filler {
+    sdv_batcher  batcher;
+    sdv_level   *level;                 // the cage, with the sharpness that is left on this level
+    const sdv_rules *rules;
+    sdv_order    from, to;
+    int          base;                  // where the points of this level start, and those of the
+    int          target;                // next
+    int         *line, *left, *right;   // [n + 1]
+    int          odd, even;             // batches of the points on smooth edges
+    struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
+} sdv_filler;
+
+// The sharpness of edges piece by piece, of this level and the next.
+typedef struct sdv_pieces {
+    int   *number;                      // [edges] among those that are semi-sharp, or -1
+    int    count;
+    float *now, *next;                  // [n * count], [2 n * count]
+} sdv_pieces;
+
+// An edge and its pieces.
+typedef struct sdv_edge_line {
+    int h, n;
+    float sharpness;                    // of all pieces, if it is 0 or forever;
+    const float *now, *next;            // else that of each, and of its halves; or NULL
+} sdv_edge_line;
+
+static sdv_edge_line sdv_line_at(const sdv_filler *fill, int h)
+{
+    const sdv_level *level = fill->level;
+    sdv_edge_line line = { h, fill->from.n, level->sharpness[h], NULL, NULL };
+    int number = fill->pieces ? fill->pieces->number[level->face_edges[h]] : -1;
+    if (number < 0) return line;
+    line.now = fill->pieces->now + (size_t)number * (size_t)line.n;
+    line.next = fill->pieces->next + 2 * (size_t)number * (size_t)line.n;
+    return line;
+}
+
+// The points in the row beside the edge of h inside its face, as seen from there or backwards.
+static void sdv_points_beside(const sdv_filler *fill, int h, int backwards, int *out)
+{
+    const sdv_order *order = &fill->from;
+    const sdv_level *cage = &order->cage;
+    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), i = h - start;
+    int n = order->n, m = order->m, sides = sdv_face_end(cage, f) - start;
+    int inside = sdv_first_inside(order, f), last = order->loop ? n - 1 : n;
+    sdv_side a = sdv_edge_side(order, sdv_previous(cage, h), 1);
+    sdv_side b = sdv_edge_side(order, sdv_next(cage, h), 0);
+    int step = backwards ? -1 : 1, *at = backwards ? out + last : out;
+    at[0] = fill->base + a.first + a.step;
+    at[step * last] = fill->base + b.first + b.step;
+    at += step;
+    inside += fill->base;
+    if (order->loop) {
+        for (int t = 1; t < last; t++, at += step)
+            *at = sdv_inside_point(inside, n, 1, i == 0 ? 1 : i == 1 ? t : last - t,
+                                   i == 0 ? t : i == 1 ? last - t : 1);
+    } else if (sides == 4) {
+        int first = inside + (i == 1 ? n - 2 : i == 2 ? (n - 1) * (n - 1) - 1 :
+                              i == 3 ? (n - 2) * (n - 1) : 0);
+        int along = i == 0 ? 1 : i == 1 ? n - 1 : i == 2 ? -1 : 1 - n;
+        for (int t = 1; t < n; t++, at += step, first += along) *at = first;
+    } else {
+        int quad = sdv_inside_ngon(inside, sides, m, i);
+        int next = sdv_inside_ngon(inside, sides, m, i + 1 < sides ? i + 1 : 0);
+        for (int t = 1; t < m; t++, at += step) *at = quad + t - 1;
+        *at = m == 1 ? inside : inside + 1 + i * (m - 1) + m - 2;       // on the spoke
+        at += step;
+        for (int t = m + 1; t < n; t++, at += step) *at = next + (n - t - 1) * (m - 1);
+    }
+}
+
+static void sdv_points_on_edge(const sdv_filler *fill, int h, int *out)
+{
+    const sdv_level *cage = &fill->from.cage;
+    sdv_side side = sdv_edge_side(&fill->from, h, 0);
+    int n = fill->from.n;
+    out[0] = fill->base + cage->face_vertices[h];
+    for (int t = 1; t < n; t++) out[t] = fill->base + side.first + side.step * t;
+    out[n] = fill->base + cage->face_vertices[sdv_next(cage, h)];
+}
+
+// Piece j of a line and what is beside it.
+SDV_INLINE void sdv_points_at_piece(const sdv_filler *fill, int loop, int j, int *points)
+{
+    const int *p = fill->line, *left = fill->left, *right = fill->right;
+    points[0] = p[j];
+    points[1] = p[j + 1];
+    points[2] = left[j];
+    points[3] = loop ? right[j] : left[j + 1];
+    if (loop) return;
+    points[4] = right[j];
+    points[5] = right[j + 1];
+}
+
+// Point t of a line and those around it: along it, beside it, and across the faces there.
+SDV_INLINE void sdv_points_around(const sdv_filler *fill, int loop, int t, int *points)
+{
+    const int *p = fill->line, *left = fill->left, *right = fill->right;
+    points[0] = p[t];
+    points[1] = p[t - 1];
+    points[2] = p[t + 1];
+    points[3] = left[loop ? t - 1 : t];
+    points[4] = right[loop ? t - 1 : t];
+    points[5] = left[loop ? t : t - 1];
+    points[6] = right[loop ? t : t - 1];
+    if (loop) return;
+    points[7] = left[t + 1];
+    points[8] = right[t + 1];
+}
+
+// The odd and even points of a smooth line: those of its pieces and those that it has.
+SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side target)
+{
+    int at = target.first + target.step;
+    for (int j = 0; j < n; j++, at += 2 * target.step)
+        sdv_points_at_piece(fill, loop, j, sdv_put_row(&fill->batcher, fill->odd, at));
+    at = target.first + 2 * target.step;
+    for (int t = 1; t < n; t++, at += 2 * target.step)
+        sdv_points_around(fill, loop, t, sdv_put_row(&fill->batcher, fill->even, at));
+}
+
+// The odd points of a line that is sharp, or was.
+static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
+{
+    int loop = fill->rules->loop, at = target.first + target.step;
+    for (int j = 0; j < line->n; j++, at += 2 * target.step) {
+        float s = line->now ? line->now[j] : line->sharpness;
+        int stays = line->next ? line->next[2 * j] > 0 && line->next[2 * j + 1] > 0 : s > 0;
+        sdv_mask mask = sdv_edge_mask(fill->rules, s, stays, 2, 0);
+        if (!loop) mask = sdv_spread_edge(mask, 2);
+        int beside = mask.face != 0 ? loop ? 2 : 4 : 0;
+        sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face }, { 2, 0, 0, beside },
+                          beside > 0 };
+        sdv_points_at_piece(fill, loop, j, fill->batcher.points);
+        sdv_add_runs(&fill->batcher, &runs, at);
+    }
+}
+
+static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
+{
+    const sdv_rules *rules = fill->rules;
+    int loop = rules->loop, regular = loop ? 6 : 4, at = target.first + 2 * target.step;
+    int straight = rules->straight && fill->level->across[line->h] == line->h;
+    float corner = straight ? SDV_IMPLIED : 0;
+    for (int t = 1; t < line->n; t++, at += 2 * target.step) {
+        sdv_sharp_edges sharp = { 0, 0, 0, 0 };
+        for (int k = 0; k < 2; k++)
+            sdv_meet_edge(&sharp, line->now ? line->now[t - 1 + k] : line->sharpness,
+                          line->next ? line->next[2 * t - 1 + k] : line->sharpness);
+        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(corner, corner, &sharp), regular);
+        if (!loop) mask = sdv_spread_vertex(mask, regular);
+        int around = mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
+        sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
+                            (float)mask.face },
+                          { 1, along ? 2 : 0, around ? regular - 2 : 0, around && !loop ? 4 : 0 },
+                          around };
+        sdv_points_around(fill, loop, t, fill->batcher.points);
+        sdv_add_runs(&fill->batcher, &runs, at);
+    }
+}
+
+// The rows of the points inside the edge of h, which is its first face-vertex.
+static void sdv_line_rows(sdv_filler *fill, int h)
+{
+    sdv_edge_line line = sdv_line_at(fill, h);
+    sdv_side target = sdv_edge_side(&fill->to, h, 0);
+    int beside = (line.sharpness <= 0 || line.now) && !fill->rules->linear;
+    sdv_points_on_edge(fill, h, fill->line);
+    if (beside) sdv_points_beside(fill, h, 0, fill->left);
+    if (beside) sdv_points_beside(fill, fill->level->across[h], 1, fill->right);
+    target.first += fill->target;
+    if (beside && !line.now && fill->rules->loop) {
+        sdv_smooth_rows(fill, 1, line.n, target);
+    } else if (beside && !line.now) {
+        sdv_smooth_rows(fill, 0, line.n, target);
+    } else {
+        sdv_odd_rows(fill, &line, target);
+        sdv_even_rows(fill, &line, target);
+    }
+}
+
+// A polygon that is no quad: the lines of points from the middles of its edges to its centre, the
+// spokes, and the centre. Spoke i is between the quads at vertices i and i + 1.
+static void sdv_spoke_points(sdv_filler *fill, int f, int i)
+{
+    const sdv_order *order = &fill->from;
+    const sdv_level *cage = &order->cage;
+    int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = order->m;
+    sdv_grid left, right;
+    sdv_grid_at(order, start + i, &left);
+    sdv_grid_at(order, start + (i + 1 < sides ? i + 1 : 0), &right);
+    for (int t = 0; t <= m; t++) {
+        fill->line[t] = fill->base + sdv_grid_index(&left, t, m);
+        fill->left[t] = fill->base + sdv_grid_index(&left, t, m - 1);
+        fill->right[t] = fill->base + sdv_grid_index(&right, m - 1, t);
+    }
+}
+
+static void sdv_spoke_rows(sdv_filler *fill, int f)
+{
+    const sdv_level *cage = &fill->from.cage;
+    int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
+    int centre = fill->target + sdv_first_inside(&fill->to, f), *points = fill->batcher.points;
+    for (int i = 0; i < sides; i++) {
+        sdv_spoke_points(fill, f, i);
+        sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
+    }
+    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    sdv_mask mask = sdv_spread_vertex(sdv_vertex_mask(fill->rules, smooth, sides), sides);
+    int around = mask.edge != 0 ? sides : 0;
+    sdv_runs runs = { { (float)mask.self, 0, (float)mask.edge, (float)mask.face },
+                      { 1, 0, around, around }, 0 };
+    for (int i = 0; i < sides; i++) {
+        sdv_spoke_points(fill, f, i);
+        points[0] = fill->line[m];
+        points[1 + i] = fill->line[m - 1];
+        points[1 + sides + i] = fill->left[m - 1];
+    }
+    sdv_add_runs(&fill->batcher, &runs, centre);
 }
 
 // --------------------------------------------------------------------------------- >>split
@@ -3744,7 +4351,8 @@ static int sdv_clockwise(const sdv_level *level, int h)
 
 static int sdv_counter_clockwise(const sdv_level *level, int h)
 {
-    return sdv_across(level, sdv_previous(level, h));
+    int before = sdv_previous(level, h), q = level->across[before];
+    return q == before || sdv_sharpness_before(level, before) > 0 ? -1 : q;
 }
 
 // Where a face stands among the faces between two sharp edges at its vertex, or without any: in a
@@ -4314,13 +4922,12 @@ typedef struct sdv_step {
 // Rows that make points of the limit and their tangents from the last level: see sdv_limit_row.
 typedef struct sdv_limit_weights {
     int    count;                       // points
-    size_t first;                       // where their weights start: for the position, then for
-} sdv_limit_weights;                       // either tangent
+    float *weights;                     // [3][count] for the position, then for either tangent
+} sdv_limit_weights;
 
 typedef struct sdv_limit_rows {
     sdv_rows        rows;
     sdv_limit_weights *masks;
-    float          *weights;
 } sdv_limit_rows;
 
 // What makes a surface for SUBDIV_EXACT and begins its evaluation. A program that does not ask for
@@ -4351,6 +4958,12 @@ struct subdiv_surface {
     sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
     sdv_limit_rows limit;               // of a limit, instead of last
+
+    sdv_batches *refine;                // [levels] the rows to each next level; NULL: as above
+    sdv_batches first_faces;            // those of level 0's face points
+    sdv_batches limit_rows;             // of a limit: from the last level to it
+    int      *bases;                    // [levels + 2] where each level starts among work points
+
     subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     const struct sdv_exact_calls *exact_calls;
@@ -4615,7 +5228,7 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
 
 static void sdv_copy_row(sdv_writer *writer, int v)
 {
-    sdv_runs runs = { { 1, 0, 0 }, { 1, 0, 0 } };
+    sdv_runs runs = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
     *sdv_begin_row(writer) = v;
     writer->target = v;
     sdv_end_row(writer, &runs);
@@ -4747,7 +5360,7 @@ static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f
     sdv_go_to_face(writer, level->places ? sdv_face_of(&surface->order.cage, level->places[f].h)
                                          : f);
     if (!rules->loop) {
-        sdv_runs runs = { { 1, 0, 0 }, { 1, 0, 0 } };
+        sdv_runs runs = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
         *sdv_begin_row(writer) = level->face_point[f];
         writer->target = sdv_face_target(targets, f);
         sdv_end_row(writer, &runs);
@@ -4801,7 +5414,9 @@ typedef struct sdv_limit_writer {
     sdv_writer *writer;
     const sdv_level *level;             // the last
     const sdv_rules *rules;
-    sdv_array   masks, weights;         // sdv_limit_weights, floats
+    sdv_arena  *arena;                  // of weights
+    sdv_array   masks;                  // sdv_limit_weights
+    struct sdv_batcher *batcher;        // where the rows go, or NULL
     int         most;                   // faces at a vertex
     int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
     double     *tangents;               // [2 * (2 most + 2)]
@@ -4815,11 +5430,11 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces + (kind == SDV_SPAN);
     int across = loop || kind == SDV_TIP || kind == SDV_LOOSE_CREASE ? 0 : faces;
     sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
-    sdv_limit_weights made = { first + edges + across, limit->weights.count };
+    sdv_limit_weights made = { first + edges + across, NULL };
     double *t0 = limit->tangents, *t1 = t0 + made.count;
-    float *weights = (float *)sdv_array_room(limit->writer->context, &limit->weights,
-                                       3 * (size_t)made.count, sizeof(float));
+    float *weights = SDV_NEW(limit->writer->context, limit->arena, float, 3 * (size_t)made.count);
     if (!weights) return made;
+    made.weights = weights;
     for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
     if (kind == SDV_RING) sdv_smooth_tangents(faces, loop, t0, t1);
     if (kind == SDV_SPAN) sdv_crease_tangents(faces, loop, t0, t1);
@@ -4831,7 +5446,6 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
                                                               : mask.edge);
     for (int i = 0; i < across; i++) weights[first + edges + i] = (float)mask.face;
     for (int i = 0; i < 2 * made.count; i++) weights[made.count + i] = (float)t0[i];
-    limit->weights.count += 3 * (size_t)made.count;
     return made;
 }
 
@@ -4854,10 +5468,9 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
 {
     int *across = point + count + crease;
     for (int i = 0; i < count; i++) {
-        int next = sdv_next(level, h);
-        *point++ = sdv_point_at(level, next);
-        if (!loop) *across++ = sdv_point_at(level, sdv_next(level, next));
-        if (crease && i + 1 == count) *point = sdv_point_at(level, sdv_previous(level, h));
+        *point++ = sdv_point_ahead(level, h);
+        if (!loop) *across++ = sdv_point_across(level, h);
+        if (crease && i + 1 == count) *point = sdv_point_behind(level, h);
         h = sdv_around(level, h);
     }
     return across;
@@ -4880,15 +5493,27 @@ static int sdv_find_span(const sdv_level *level, int h, int *first)
 static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
 {
     int v = level->face_vertices[h];
-    *point++ = sdv_point_at(level, sdv_next(level, h));
-    *point++ = sdv_point_at(level, sdv_previous(level, h));
+    *point++ = sdv_point_ahead(level, h);
+    *point++ = sdv_point_behind(level, h);
     if (kind == SDV_LOOSE_CREASE) return sdv_add_neighbours(level, v, SDV_CREASE, 1, point);
     if (kind == SDV_TIP) return point;
     for (int i = level->vertex_first[v]; i >= 0; i = level->vertex_next[i])
-        *point++ = sdv_point_at(level, sdv_next(level, i));
+        *point++ = sdv_point_ahead(level, i);
     for (int i = level->vertex_first[v]; i >= 0 && !loop; i = level->vertex_next[i])
-        *point++ = sdv_point_at(level, sdv_next(level, sdv_next(level, i)));
+        *point++ = sdv_point_across(level, i);
     return point;
+}
+
+// A row of the limit whose points are there already.
+static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, int faces, int target)
+{
+    int number = sdv_find_limit_mask(limit, kind, faces);
+    const sdv_limit_weights *mask = (const sdv_limit_weights *)sdv_items(&limit->masks) + number;
+    sdv_shape shape;
+    if (limit->writer->context->result) return;
+    memset(&shape, 0, sizeof shape);
+    shape.count[0] = mask->count - 1;
+    sdv_add_shape(limit->batcher, &shape, mask->weights, target);
 }
 
 // The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
@@ -4899,7 +5524,8 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     const sdv_level *level = limit->level;
     sdv_writer *writer = limit->writer;
     int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
-    int faces = level->vertex_faces[v], span = 0, *point = writer->row + 2;
+    int faces = level->vertex_faces[v], span = 0;
+    int *point = limit->batcher ? limit->batcher->points : writer->row + 2;
     sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     sdv_limit_kind kind = SDV_TIP;
     if (rule == SDV_CREASE) {
@@ -4913,6 +5539,10 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     else if (kind == SDV_SPAN) point = sdv_add_fan(level, first, span, 1, loop, point);
     else point = sdv_add_tip(level, h, kind, loop, point);
     if (rule >= SDV_CREASE) faces = span;
+    if (limit->batcher) {
+        sdv_limit_batch_row(limit, kind, faces, target);
+        return;
+    }
     writer->row[0] = sdv_find_limit_mask(limit, kind, faces);
     writer->row[1] = target;
     writer->row = point;
@@ -4941,38 +5571,42 @@ static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
     if (!limit->writer->context->result) sdv_go_to_face(limit->writer, surface->cage_face_count);
 }
 
+static void sdv_begin_limit(sdv_context *context, sdv_arena *scratch, sdv_limit_writer *limit,
+                            sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
+                            int most, sdv_arena *arena)
+{
+    memset(limit, 0, sizeof *limit);
+    limit->writer = writer;
+    limit->level = level;
+    limit->rules = rules;
+    limit->most = most;
+    limit->arena = arena;
+    size_t known = SDV_LIMIT_KINDS * ((size_t)most + 1);
+    limit->known = SDV_NEW(context, scratch, int, known);
+    limit->tangents = SDV_NEW(context, scratch, double, 4 * (size_t)most + 8);
+    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
+}
+
 static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const sdv_level *level)
 {
     sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
     sdv_limit_writer limit;
-    size_t size = 0, known;
-    memset(&limit, 0, sizeof limit);
-    limit.writer = writer;
-    limit.level = level;
-    limit.rules = &surface->rules;
+    size_t size = 0;
+    int most = 0;
     for (int v = 0; v < level->vertex_count; v++) {
         int faces = level->vertex_faces[v];
         if (!level->vertex_done[v]) size += 5 + 2 * (size_t)faces;
-        if (faces > limit.most) limit.most = faces;
+        if (faces > most) most = faces;
     }
-    known = SDV_LIMIT_KINDS * ((size_t)limit.most + 1);
-    limit.known = SDV_NEW(context, &scratch, int, known);
-    limit.tangents = SDV_NEW(context, &scratch, double, 4 * (size_t)limit.most + 8);
-    for (size_t i = 0; i < known && !context->result; i++) limit.known[i] = -1;
+    sdv_begin_limit(context, &scratch, &limit, writer, &surface->rules, level, most,
+                    &surface->points);
     sdv_begin_result(writer, &surface->points, &surface->limit.rows, size,
                      surface->cage_face_count);
     sdv_write_limit(&limit, surface);
-    surface->limit.masks = SDV_NEW(context, &surface->points, sdv_limit_weights, limit.masks.count);
-    surface->limit.weights = SDV_NEW(context, &surface->points, float, limit.weights.count);
-    if (!context->result) {
-        sdv_copy(surface->limit.masks, sdv_items(&limit.masks), limit.masks.count,
-                 sizeof(sdv_limit_weights));
-        sdv_copy(surface->limit.weights, sdv_items(&limit.weights), limit.weights.count,
-                 sizeof(float));
-    }
-    sdv_array_free(&limit.masks);
-    sdv_array_free(&limit.weights);
+    surface->limit.masks = (sdv_limit_weights *)sdv_keep_array(context, &surface->points,
+                                                               &limit.masks,
+                                                               sizeof(sdv_limit_weights));
     sdv_arena_free(&scratch);
 }
 
@@ -5014,6 +5648,7 @@ static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int d
 static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
 {
     size_t masks = writer->masks.count, weights = writer->weights.count;
+    surface->masks.count = masks;
     surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, masks);
     surface->masks.weights = SDV_NEW(context, &surface->points, float, weights);
     if (context->result) return;
@@ -5064,18 +5699,334 @@ static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sd
     sdv_arena_free(arena);
 }
 
-// Where the points stand, for a cage that is known.
+// Where the points of a level stand, for a cage that is known.
+static sdv_order sdv_order_at(const subdiv_surface *surface, int level)
+{
+    sdv_order order = surface->order;
+    int n = 1 << level, vertices = surface->cage_vertex_count;
+    order.loop = surface->rules.loop;
+    order.n = n;
+    order.m = n / 2;
+    order.first_edge_point = vertices;
+    order.first_face_point = vertices + order.cage.edge_count * (n - 1);
+    order.count = order.cage.face_count && level ? sdv_first_inside(&order, order.cage.face_count)
+                                                 : vertices;
+    return order;
+}
+
 static void sdv_set_order(subdiv_surface *surface)
 {
-    sdv_order *order = &surface->order;
-    int n = surface->exact ? 1 : 1 << surface->levels, vertices = surface->cage_vertex_count;
-    order->loop = surface->rules.loop;
-    order->n = n;
-    order->m = n / 2;
-    order->first_edge_point = vertices;
-    order->first_face_point = vertices + order->cage.edge_count * (n - 1);
-    surface->fine.vertex_count =
-        order->cage.face_count ? sdv_first_inside(order, order->cage.face_count) : vertices;
+    surface->order = sdv_order_at(surface, surface->exact ? 0 : surface->levels);
+    surface->fine.vertex_count = surface->order.count;
+}
+
+// The rows of all levels: the cage's face, edge and vertex points, then lines and vertices level by
+// level.
+
+static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_level *cage, int n,
+                           sdv_pieces *pieces)
+{
+    memset(pieces, 0, sizeof *pieces);
+    for (int e = 0; e < cage->edge_count; e++)
+        pieces->count += sdv_is_semi_sharp(cage->sharpness[cage->edge_first[e]]);
+    if (pieces->count == 0) return;
+    size_t count = (size_t)pieces->count;
+    pieces->number = SDV_NEW(context, arena, int, cage->edge_count);
+    pieces->now = SDV_NEW(context, arena, float, count * (size_t)n);
+    pieces->next = SDV_NEW(context, arena, float, count * (size_t)n);
+    for (int e = 0, i = 0; e < cage->edge_count && !context->result; e++) {
+        float s = cage->sharpness[cage->edge_first[e]];
+        pieces->number[e] = sdv_is_semi_sharp(s) ? i : -1;
+        if (sdv_is_semi_sharp(s)) pieces->next[i++] = s;
+    }
+}
+
+// From a level to the next: the halves of the pieces are its pieces. Those at an edge's ends fade as
+// the vertex there says, others by their neighbours.
+static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
+{
+    float *swap = pieces->now;
+    pieces->now = pieces->next;
+    pieces->next = swap;
+    for (int e = 0; e < level->edge_count; e++) {
+        int i = pieces->number[e], h = level->edge_first[e];
+        if (i < 0) continue;
+        const float *now = pieces->now + (size_t)i * (size_t)n;
+        float *next = pieces->next + 2 * (size_t)i * (size_t)n;
+        for (int j = 0; j < 2 * n; j++) {
+            int beside = j & 1 ? j / 2 + 1 : j / 2 - 1;     // the piece that this half meets
+            float s = now[j / 2], other = beside < 0 || beside == n ? 0 : now[beside];
+            if (!level->half_sharpness) next[j] = sdv_fade(s);
+            else if (beside < 0) next[j] = sdv_half(level, h);
+            else if (beside == n) next[j] = sdv_half_before(level, h);
+            else next[j] = sdv_fade_chaikin(s, s + other, 1 + (other > 0));
+        }
+    }
+}
+
+// The cage with the sharpness that is left on the next level, at the ends of its edges.
+static void sdv_fade_cage(sdv_level *level)
+{
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (level->partner && level->partner[v] >= 0) level->seam[v] = sdv_seam_left(level, v);
+        level->vertex_sharpness[v] = sdv_fade(level->vertex_sharpness[v]);
+        for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
+            level->sharpness[h] = sdv_half(level, h);
+    }
+    if (level->sums) level->sums += 2 * (size_t)level->origin_count;
+}
+
+static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int level, int last)
+{
+    int loop = surface->rules.loop;
+    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    sdv_mask edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
+    sdv_mask vertex = sdv_vertex_mask(fill->rules, smooth, loop ? 6 : 4);
+    if (!loop) edge = sdv_spread_edge(edge, 2);
+    if (!loop) vertex = sdv_spread_vertex(vertex, 4);
+    sdv_runs odd = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, loop ? 2 : 4 }, 0 };
+    sdv_runs even = { { (float)vertex.self, 0, (float)vertex.edge, (float)vertex.face },
+                      { 1, 0, loop ? 6 : 4, loop ? 0 : 4 }, 0 };
+    sdv_shape shape = sdv_shape_of(&odd);
+    fill->odd = sdv_find_open(&fill->batcher, &shape, NULL);
+    shape = sdv_shape_of(&even);
+    fill->even = sdv_find_open(&fill->batcher, &shape, NULL);
+    fill->from = sdv_order_at(surface, level);
+    fill->to = sdv_order_at(surface, level + 1);
+    fill->base = fill->level->first_point = surface->bases[level];
+    fill->target = last ? 0 : surface->bases[level + 1];
+    fill->level->order = level ? &fill->from : NULL;
+    for (int i = 0; i <= fill->batcher.most && level <= 1; i++) fill->batcher.smooth[i] = -1;
+}
+
+static void sdv_fill_vertex(sdv_filler *fill, sdv_writer *writer, int v)
+{
+    writer->target = fill->target + v;
+    sdv_vertex_row(fill->level, fill->rules, v, writer);
+}
+
+// The rows that belong to face f: of the vertices and edges that no face before it has, and those
+// inside it that are not on a grid.
+static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f, int last)
+{
+    const sdv_level *level = fill->level;
+    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), cage = !level->order;
+    sdv_batch_face(&fill->batcher, f);
+    if (cage && last && !fill->rules->loop) {
+        sdv_runs copy = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
+        fill->batcher.points[0] = level->face_point[f];
+        sdv_add_runs(&fill->batcher, &copy, fill->target + sdv_first_inside(&fill->to, f));
+    }
+    for (int h = start; h < end; h++) {
+        int v = level->face_vertices[h], e = level->face_edges[h];
+        if (level->vertex_first[v] == h) sdv_fill_vertex(fill, writer, v);
+        if (level->edge_first[e] != h) continue;
+        writer->target = fill->target + fill->to.first_edge_point + e;
+        if (cage) sdv_edge_row(level, fill->rules, h, writer);
+        else sdv_line_rows(fill, h);
+    }
+    if (!cage && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
+}
+
+static void sdv_fill_level(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface, int level)
+{
+    int last = level + 1 == surface->levels && !surface->rules.limit;
+    sdv_begin_fill(fill, surface, level, last);
+    for (int v = 0; v < fill->level->vertex_count; v++)
+        if (fill->level->vertex_first[v] < 0) sdv_fill_vertex(fill, writer, v);
+    for (int f = 0; f < fill->level->face_count && !writer->context->result; f++)
+        sdv_fill_face(fill, writer, f, last);
+    sdv_end_batches(&fill->batcher, &surface->refine[level]);
+}
+
+// The face points of the cage: work points, as all others are made from them.
+static void sdv_fill_face_points(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface)
+{
+    sdv_level *level = fill->level;
+    sdv_order next = sdv_order_at(surface, 1);
+    int last = surface->levels == 1 && !surface->rules.limit;
+    fill->batcher.polygons = 1;
+    for (int f = 0; f < level->face_count && !fill->rules->loop; f++) {
+        level->face_point[f] = surface->bases[1] + (last ? f : sdv_first_inside(&next, f));
+        writer->target = level->face_point[f];
+        sdv_batch_face(&fill->batcher, f);
+        sdv_face_row(level, f, writer);
+    }
+    sdv_end_batches(&fill->batcher, &surface->first_faces);
+    fill->batcher.polygons = 0;
+}
+
+// The limit of point t of a line: on a crease that of the surface on its left; linear, where the
+// tangents are two edges.
+static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, int t, int sharp,
+                               int target)
+{
+    const int *p = fill->line, *left = fill->left, *right = fill->right;
+    int loop = fill->rules->loop, *points = limit->batcher->points, n = 0;
+    sdv_limit_kind kind = fill->rules->linear ? SDV_TIP : sharp == 2 ? SDV_SPAN : SDV_RING;
+    points[n++] = p[t];
+    points[n++] = p[t + 1];
+    if (kind == SDV_TIP) {
+        points[n++] = left[t];
+        sdv_limit_batch_row(limit, kind, 0, target);
+        return;
+    }
+    points[n++] = left[t];
+    if (loop) points[n++] = left[t - 1];
+    points[n++] = p[t - 1];
+    if (kind == SDV_RING) points[n++] = right[loop ? t - 1 : t];
+    if (kind == SDV_RING && loop) points[n++] = right[t];
+    if (!loop) points[n++] = left[t + 1];
+    if (!loop) points[n++] = left[t - 1];
+    if (!loop && kind == SDV_RING) points[n++] = right[t - 1];
+    if (!loop && kind == SDV_RING) points[n++] = right[t + 1];
+    sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
+}
+
+static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
+{
+    const sdv_level *level = fill->level;
+    sdv_edge_line line = sdv_line_at(fill, h);
+    sdv_side target = sdv_edge_side(&fill->to, h, 0);
+    sdv_points_on_edge(fill, h, fill->line);
+    sdv_points_beside(fill, h, 0, fill->left);
+    if (line.sharpness <= 0 || line.now) sdv_points_beside(fill, level->across[h], 1, fill->right);
+    for (int t = 1; t < line.n; t++) {
+        int sharp = line.now ? (line.now[t - 1] > 0) + (line.now[t] > 0) : 2 * (line.sharpness > 0);
+        sdv_limit_line_row(limit, fill, t, sharp, target.first + target.step * t);
+    }
+}
+
+static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
+{
+    const sdv_level *cage = &fill->from.cage;
+    int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
+    int centre = sdv_first_inside(&fill->to, f), *points = limit->batcher->points;
+    for (int i = 0; i < sides; i++) {
+        sdv_side target = sdv_seen_side(centre + 1 + i * (m - 1), m, 1);
+        sdv_spoke_points(fill, f, i);
+        for (int t = 1; t < m; t++)
+            sdv_limit_line_row(limit, fill, t, 0, target.first + target.step * t);
+    }
+    for (int i = 0; i < sides; i++) {
+        sdv_spoke_points(fill, f, i);
+        points[0] = fill->line[m];
+        points[1 + i] = fill->line[m - 1];
+        points[1 + sides + i] = fill->right[m - 1];
+    }
+    if (fill->rules->linear) points[2] = fill->left[m - 1];
+    sdv_limit_batch_row(limit, fill->rules->linear ? SDV_TIP : SDV_RING, fill->rules->linear ? 0 : sides,
+                      centre);
+}
+
+static void sdv_fill_limit(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface, int most,
+                           sdv_arena *scratch)
+{
+    static const float stay[3] = { 1, 0, 0 };
+    sdv_context *context = writer->context;
+    sdv_level *level = fill->level;
+    sdv_limit_writer limit;
+    sdv_shape alone;
+    memset(&alone, 0, sizeof alone);
+    sdv_begin_limit(context, scratch, &limit, writer, &surface->rules, level, most,
+                    &surface->points);
+    limit.batcher = &fill->batcher;
+    fill->from = fill->to = surface->order;
+    fill->base = level->first_point = surface->bases[surface->levels];
+    fill->target = 0;
+    level->order = &fill->from;
+    for (int v = 0; v < level->vertex_count && !context->result; v++) {
+        if (level->vertex_first[v] >= 0) continue;
+        fill->batcher.points[0] = fill->base + v;
+        sdv_add_shape(&fill->batcher, &alone, stay, v);
+    }
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int end = sdv_face_end(level, f);
+        sdv_batch_face(&fill->batcher, f);
+        for (int h = sdv_face_start(level, f); h < end && !context->result; h++) {
+            int v = level->face_vertices[h];
+            if (level->vertex_first[v] == h) sdv_limit_row(&limit, h, v);
+            if (level->edge_first[level->face_edges[h]] == h) sdv_limit_line(&limit, fill, h);
+        }
+        if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
+    }
+    sdv_end_batches(&fill->batcher, &surface->limit_rows);
+    sdv_array_free(&limit.masks);
+}
+
+static int sdv_is_semi(const sdv_level *cage)
+{
+    int semi = 0;
+    for (int v = 0; v < cage->vertex_count; v++) {
+        semi |= sdv_is_semi_sharp(cage->vertex_sharpness[v]);
+        for (int h = cage->vertex_first[v]; h >= 0 && cage->creased[v]; h = cage->vertex_next[h])
+            semi |= sdv_is_semi_sharp(cage->sharpness[h]);
+    }
+    return semi;
+}
+
+// The most points of a row: of a face, of a vertex with its neighbours and faces.
+static size_t sdv_longest_row(const sdv_level *cage, int *most)
+{
+    *most = 6;                                              // on edges under Loop
+    for (int v = 0; v < cage->vertex_count; v++)
+        if (cage->vertex_faces[v] > *most) *most = cage->vertex_faces[v];
+    for (int f = 0; f < cage->face_count && !cage->face_size; f++) {
+        int size = sdv_face_end(cage, f) - sdv_face_start(cage, f);
+        if (size > *most) *most = size;
+    }
+    return 16 + 4 * (size_t)*most;
+}
+
+static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                             sdv_arena *scratch)
+{
+    int levels = surface->levels, limit = surface->rules.limit, most;
+    size_t n = (size_t)1 << levels;
+    sdv_pieces pieces;
+    sdv_filler fill;
+    sdv_writer writer;
+    memset(&fill, 0, sizeof fill);
+    sdv_begin_batches(context, &surface->points, &fill.batcher);
+    fill.batcher.points = SDV_NEW(context, scratch, int, sdv_longest_row(cage, &most));
+    fill.batcher.most = most;
+    fill.batcher.smooth = SDV_NEW(context, scratch, int, 2 * (size_t)most + 2);
+    fill.line = SDV_NEW(context, scratch, int, n + 1);
+    fill.left = SDV_NEW(context, scratch, int, n + 1);
+    fill.right = SDV_NEW(context, scratch, int, n + 1);
+    surface->bases = SDV_NEW(context, &surface->points, int, levels + 2);
+    surface->refine = SDV_NEW(context, &surface->points, sdv_batches, levels);
+    sdv_new_pieces(context, scratch, cage, (int)n, &pieces);
+    if (context->result) return;
+    fill.batcher.polygon = fill.batcher.smooth + most + 1;
+    memset(&writer, 0, sizeof writer);
+    writer.context = context;
+    writer.batcher = &fill.batcher;
+    fill.level = cage;
+    fill.rules = &surface->rules;
+    fill.pieces = pieces.count ? &pieces : NULL;
+    surface->bases[0] = 0;
+    for (int i = 0; i <= levels; i++) {
+        double count = i < levels || limit ? (double)sdv_order_at(surface, i).count :
+                       i == 1 && !surface->rules.loop ? (double)cage->face_count : 0;
+        if (surface->bases[i] + count > INT_MAX)
+            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh have too many points");
+        else surface->bases[i + 1] = surface->bases[i] + (int)count;
+        if (context->result) return;
+    }
+    surface->work_count = surface->bases[levels + 1];
+    int semi = sdv_is_semi(cage);
+    for (int i = 0; i < 2 * most + 2; i++) fill.batcher.smooth[i] = -1;
+    sdv_fill_face_points(&fill, &writer, surface);
+    for (int i = 0; i < levels && !context->result; i++) {
+        if (semi) sdv_level_fade(cage);
+        if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
+        sdv_fill_level(&fill, &writer, surface, i);
+        if (semi) sdv_fade_cage(cage);
+    }
+    pieces.now = pieces.next;
+    if (limit && !context->result) sdv_fill_limit(&fill, &writer, surface, most, scratch);
+    sdv_batcher_free(&fill.batcher);
 }
 
 // The first fine face of face f, or how many there are before any.
@@ -5187,6 +6138,18 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
 }
 
 // A surface of values over a surface that is being prepared from a cage.
+// Up to so many levels everything is made by the masks.
+#ifndef SDV_MOST_ROW_LEVELS
+#define SDV_MOST_ROW_LEVELS 4
+#endif
+
+static void sdv_prepare_refinement(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                                   sdv_arena *arena)
+{
+    if (surface->levels <= SDV_MOST_ROW_LEVELS) sdv_prepare_rows(context, surface, cage, arena);
+    else sdv_prepare_levels(context, surface, cage, arena);
+}
+
 static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
                                const subdiv_surface *surface, const subdiv_mesh *work,
                                const sdv_cage *cage, const sdv_values *values)
@@ -5225,7 +6188,8 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
         made->exact_calls->prepare(context, made, &seams.level, cage->hole, &scratch);
         return;
     }
-    sdv_prepare_levels(context, made, &seams.level, &scratch);
+    sdv_prepare_refinement(context, made, &seams.level, &scratch);
+    sdv_arena_free(&scratch);
 }
 
 // Level 0 of values: as they are.
@@ -5350,7 +6314,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     } else if (!context->result && !alone) {
         if (work.crease_count || work.corner_count)
             sdv_surviving_sharpness(context, surface, &built.level);
-        sdv_prepare_levels(context, surface, &built.level, &scratch);
+        sdv_prepare_refinement(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
 }
@@ -5451,7 +6415,8 @@ typedef struct sdv_window {             // a part of the result, four channels o
     float *values;                      // of point first; NULL: not wanted
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-    int    first, count;                // so many points are written
+    int    first, count;                // so many points are written; clip: and others are not
+    int    clip;
     struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
 } sdv_window;
 
@@ -5577,7 +6542,7 @@ static void sdv_limit_sums(const sdv_limit_rows *limit, const int *row, const fl
                            sdv_four *position, sdv_four *tangents)
 {
     const sdv_limit_weights *mask = &limit->masks[row[0]];
-    const float *w = limit->weights + mask->first, *w0 = w + mask->count, *w1 = w0 + mask->count;
+    const float *w = mask->weights, *w0 = w + mask->count, *w1 = w0 + mask->count;
     const int *points = row + 2;
     sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
     sdv_four sum = sdv_all(0), t0 = sum, t1 = sum;
@@ -6156,17 +7121,6 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
             sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
 }
 
-// Cage faces face to end - 1: the points of the result that belong to them.
-static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
-                           const sdv_window *out)
-{
-    sdv_apply_result(&surface->masks, &surface->copies, work, face, end, out);
-    for (int i = 0; i < surface->levels; i++)
-        sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
-    sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
-    sdv_apply_limit(surface, work, face, end, out);
-}
-
 // ------------------------------------------------------------------------- >>limit-surface
 // What a limit's points have besides their place: tangents and normals. Where a patch is, its
 // polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
@@ -6317,11 +7271,40 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
                          sdv_horner3(row->across, t));
 }
 
+static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
+                             int end, int target, const sdv_window *out);
+static void sdv_make_batches(const sdv_batches *batches, const float *work, int face, int end,
+                             const sdv_window *out);
+static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, const float *points,
+                            int face, int end, const sdv_window *out);
+
+// Cage faces face to end - 1: the points of the result that belong to them.
+static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
+                           const sdv_window *out)
+{
+    if (surface->refine && surface->rules.limit) {
+        sdv_make_batches(&surface->limit_rows, work, face, end, out);
+        sdv_limit_grids(&surface->rules, &surface->order,
+                        work + 4 * (size_t)surface->bases[surface->levels], face,
+                        end < surface->cage_face_count ? end : surface->cage_face_count, out);
+        return;
+    }
+    if (surface->refine) {
+        sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
+        return;
+    }
+    sdv_apply_result(&surface->masks, &surface->copies, work, face, end, out);
+    for (int i = 0; i < surface->levels; i++)
+        sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
+    sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
+    sdv_apply_limit(surface, work, face, end, out);
+}
+
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
                                  int end, const subdiv_limit *limit, int first, int count)
 {
     sdv_tangents tangents;
-    sdv_window out = { limit->positions, 3, 3, first, count, NULL };
+    sdv_window out = { limit->positions, 3, 3, first, count, count < surface->fine.vertex_count, NULL };
     memset(&tangents, 0, sizeof tangents);
     tangents.normals = limit->normals;
     tangents.tangents = limit->tangents;
@@ -6332,6 +7315,517 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
     if (limit->normals || limit->tangents) out.tangents = &tangents;
     sdv_make_faces(surface, work, face, end, &out);
     sdv_flush_tangents(&tangents);
+}
+
+// --------------------------------------------------------------------------------- >>grids
+// The general step: the points of a level from those of the level before, by nothing but masks.
+
+// The sum of p - p0 for n points. n is a constant where it is called for rows that occur often.
+SDV_INLINE sdv_four sdv_run_sum(const int *points, int n, sdv_four p0, const float *work)
+{
+    sdv_four sum = sdv_all(0);
+    for (; n >= 4; n -= 4, points += 4) {
+        sdv_four a = sdv_minus(sdv_load(work + 4 * (size_t)points[0]), p0);
+        sdv_four b = sdv_minus(sdv_load(work + 4 * (size_t)points[1]), p0);
+        sdv_four c = sdv_minus(sdv_load(work + 4 * (size_t)points[2]), p0);
+        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[3]), p0);
+        sum = sdv_plus(sum, sdv_plus(sdv_plus(a, b), sdv_plus(c, d)));
+    }
+    if (n & 2) {
+        sdv_four a = sdv_minus(sdv_load(work + 4 * (size_t)points[0]), p0);
+        sum = sdv_plus(sum, sdv_plus(a, sdv_minus(sdv_load(work + 4 * (size_t)points[1]), p0)));
+        points += 2;
+    }
+    if (n & 1) sum = sdv_plus(sum, sdv_minus(sdv_load(work + 4 * (size_t)points[0]), p0));
+    return sum;
+}
+
+// The sum of a row: p0 + w0 (sum of p - p0) + ..., whose rounding errors are those of the
+// differences.
+SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, const float *w,
+                                  const float *work)
+{
+    const sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
+    sdv_four made = p0;
+    points++;
+    if (n0) made = sdv_plus(made, sdv_times(sdv_all(w[0]), sdv_run_sum(points, n0, p0, work)));
+    points += n0;
+    if (n1) made = sdv_plus(made, sdv_times(sdv_all(w[1]), sdv_run_sum(points, n1, p0, work)));
+    points += n1;
+    if (n2) made = sdv_plus(made, sdv_times(sdv_all(w[2]), sdv_run_sum(points, n2, p0, work)));
+    return made;
+}
+
+// The rows of a batch from one up to another. own: each has its weights behind its points; clip: see
+// sdv_window.
+SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, int n1, int n2,
+                            int own, int clip, const float *work, const sdv_window *out)
+{
+    const int width = 1 + n0 + n1 + n2, stride = 1 + width + 3 * own, lanes = out->lanes;
+    const int *row = batch->items + (size_t)stride * (size_t)first;
+    const size_t step = out->stride;
+    float *values = out->values;
+    float w[3] = { batch->shape.weight[0], batch->shape.weight[1], batch->shape.weight[2] };
+    for (int i = first; i < end; i++, row += stride) {
+        if (own) memcpy(w, row + 1 + width, sizeof w);
+        sdv_four p = sdv_batch_sum(row + 1, n0, n1, n2, w, work);
+        if (clip) sdv_put_point(out, row[0], p);
+        else sdv_store_some(values + step * (size_t)row[0], p, lanes);
+    }
+}
+
+// Shapes that occur often have loops of their own.
+static void sdv_make_rows(const sdv_batch *batch, int first, int end, const float *work,
+                          const sdv_window *out)
+{
+    const int *n = batch->shape.count;
+    if (out->clip) sdv_rows_of(batch, first, end, n[0], n[1], n[2], batch->shape.own, 1, work, out);
+    else if (batch->shape.own || n[2])
+        sdv_rows_of(batch, first, end, n[0], n[1], n[2], batch->shape.own, 0, work, out);
+    else if (n[0] == 3 && n[1] == 0) sdv_rows_of(batch, first, end, 3, 0, 0, 0, 0, work, out);
+    else if (n[0] == 8 && n[1] == 0) sdv_rows_of(batch, first, end, 8, 0, 0, 0, 0, work, out);
+    else if (n[0] == 4 && n[1] == 4) sdv_rows_of(batch, first, end, 4, 4, 0, 0, 0, work, out);
+    else if (n[0] == 1 && n[1] == 4) sdv_rows_of(batch, first, end, 1, 4, 0, 0, 0, work, out);
+    else if (n[0] == 6 && n[1] == 0) sdv_rows_of(batch, first, end, 6, 0, 0, 0, 0, work, out);
+    else if (n[0] == 1 && n[1] == 2) sdv_rows_of(batch, first, end, 1, 2, 0, 0, 0, work, out);
+    else if (n[0] == 2 && n[1] == 0) sdv_rows_of(batch, first, end, 2, 0, 0, 0, 0, work, out);
+    else if (n[0] == 1 && n[1] == 0) sdv_rows_of(batch, first, end, 1, 0, 0, 0, 0, work, out);
+    else if (n[0] == 0 && n[1] == 0) sdv_rows_of(batch, first, end, 0, 0, 0, 0, 0, work, out);
+    else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
+}
+
+// The rows of a batch of a limit: its points and, if they are wanted, two tangents.
+SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
+                                  const float *work, const sdv_window *out)
+{
+    const float *w = batch->limit, *w0 = w + width, *w1 = w0 + width;
+    const int *row = batch->items + (size_t)(1 + width) * (size_t)first;
+    for (int i = first; i < end; i++, row += 1 + width) {
+        const sdv_four p0 = sdv_load(work + 4 * (size_t)row[1]);
+        sdv_four sum = sdv_all(0), t0 = sum, t1 = sum;
+        for (int k = 1; k < width; k++) {
+            sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)row[1 + k]), p0);
+            sum = sdv_plus(sum, sdv_times(sdv_all(w[k]), d));
+            t0 = sdv_plus(t0, sdv_times(sdv_all(w0[k]), d));
+            t1 = sdv_plus(t1, sdv_times(sdv_all(w1[k]), d));
+        }
+        sdv_put_point(out, row[0], sdv_plus(p0, sum));
+        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1);
+    }
+}
+
+static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, const float *work,
+                                const sdv_window *out)
+{
+    int width = 1 + batch->shape.count[0];
+    if (width == 9) sdv_limit_rows_of(batch, first, end, 9, work, out);
+    else if (width == 7) sdv_limit_rows_of(batch, first, end, 7, work, out);
+    else sdv_limit_rows_of(batch, first, end, width, work, out);
+}
+
+// The first row of a batch that belongs to this face of its block or one behind it.
+static int sdv_first_row(const sdv_batch *batch, int face)
+{
+    int low = 0, high = batch->rows;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (batch->faces[middle] < face) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+// The rows that belong to cage faces face to end - 1.
+static void sdv_make_batches(const sdv_batches *batches, const float *work, int face, int end,
+                             const sdv_window *out)
+{
+    for (int b = face / SDV_BLOCK_FACES; b < batches->blocks && b * SDV_BLOCK_FACES < end; b++) {
+        int before = face - b * SDV_BLOCK_FACES, behind = end - b * SDV_BLOCK_FACES;
+        for (int i = batches->starts[b]; i < batches->starts[b + 1]; i++) {
+            const sdv_batch *batch = &batches->items[i];
+            int first = before > 0 ? sdv_first_row(batch, before) : 0;
+            int last = behind < SDV_BLOCK_FACES ? sdv_first_row(batch, behind) : batch->rows;
+            if (batch->limit) sdv_make_limit_rows(batch, first, last, work, out);
+            else sdv_make_rows(batch, first, last, work, out);
+        }
+    }
+}
+
+// Inside a face everything is regular: the points between those of a grid are made row by row,
+// columns in pieces. Here points are seen from one of the grid, so that sums lose nothing by where
+// the mesh stands.
+#define SDV_PIECE 16
+
+typedef struct sdv_grid_step {
+    sdv_mask vertex, edge;              // of what is regular and smooth
+    float    face;                      // the weight of a face point
+    int      loop;
+} sdv_grid_step;
+
+static sdv_grid_step sdv_regular_masks(const sdv_rules *rules)
+{
+    const sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    sdv_grid_step step;
+    step.loop = rules->loop;
+    step.vertex = sdv_vertex_mask(rules, smooth, rules->loop ? 6 : 4);
+    step.edge = sdv_edge_mask(rules, 0, 0, 2, 0);
+    step.face = (float)sdv_face_weight(4);
+    return step;
+}
+
+// Points of a row from one column up to another, less origin.
+SDV_INLINE void sdv_load_row(const sdv_grid *grid, int row, int first, int last, const float *work,
+                             sdv_four origin, sdv_four *p)
+{
+    int columns = grid->columns - (grid->triangle ? row : 0), c = first;
+    if (c == 0) {
+        *p++ = sdv_minus(sdv_load(work + 4 * (size_t)sdv_grid_index(grid, row, 0)), origin);
+        c = 1;
+    }
+    if (c <= last && c < columns) {
+        sdv_side line = sdv_grid_line(grid, row);
+        const float *from = work + 4 * ((ptrdiff_t)line.first + (ptrdiff_t)line.step * c);
+        int end = last < columns ? last : columns - 1;
+        for (; c <= end; c++, from += 4 * line.step) *p++ = sdv_minus(sdv_load(from), origin);
+    }
+    if (c <= last) *p = sdv_minus(sdv_load(work + 4 * (size_t)sdv_grid_index(grid, row, c)), origin);
+}
+
+// Writes count points that stand one behind the other.
+SDV_INLINE void sdv_put_points(const sdv_window *out, int index, int count, const sdv_four *p)
+{
+    int i = index - out->first, skip = i < 0 ? -i : 0;
+    size_t stride = out->stride;
+    if (count > out->count - i) count = out->count - i;
+    if (skip >= count) return;
+    float *to = out->values + (ptrdiff_t)stride * (i + skip);
+    if (out->lanes == 4) {
+        for (int k = skip; k < count; k++, to += stride) sdv_store(to, p[k]);
+    } else if (out->lanes == 3 && stride == 3) {
+        for (int k = skip; k < count - 1; k++, to += 3) sdv_store(to, p[k]);
+        sdv_store_three(to, p[count - 1]);
+    } else {
+        for (int k = skip; k < count; k++, to += stride) sdv_store_some(to, p[k], out->lanes);
+    }
+}
+
+// The inside of a grid of quads, whose points will stand from target on in rows of so many: first
+// the row of edge points on lines between rows a and b and of face points, then that of vertex
+// points of b and edge points along it, which need the face points on both sides, f and g:
+//
+//     c   v---e---v           e = self (v + v) + face (f + f)
+//       g |   g   |
+//     b   v---e---v           v = self v + edge (sum of v around) + face (sum of f around)
+//       f e   f   e
+//     a   v---e---v           here a, b, c are at the left, and columns run from first to last
+SDV_INLINE void sdv_quad_row(const sdv_four *a, const sdv_four *b, int cells, float weight,
+                             sdv_four *f)
+{
+    sdv_four w = sdv_all(weight), left = sdv_plus(a[0], b[0]);
+    for (int c = 0; c < cells; c++) {
+        sdv_four right = sdv_plus(a[c + 1], b[c + 1]);
+        f[c] = sdv_times(w, sdv_plus(left, right));
+        left = right;
+    }
+}
+
+static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, int target, int first,
+                             int last, const float *work, const sdv_window *out)
+{
+    sdv_four rows[3][SDV_PIECE + 2], faces[2][SDV_PIECE + 1], made[2 * SDV_PIECE];
+    sdv_four *a = rows[0], *b = rows[1], *c = rows[2], *f = faces[0], *g = faces[1];
+    const sdv_four edge = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
+    const sdv_four self = sdv_all((float)step->vertex.self);
+    const sdv_four beside = sdv_all((float)step->vertex.edge);
+    const sdv_four corner = sdv_all((float)step->vertex.face);
+    const sdv_four origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
+    int low = first ? first - 1 : 0, skip = first ? 1 : 0, cells = last - low, n = last - first;
+    int length = 2 * grid->columns - 1, at = target + (first ? 2 * first - 1 : 0);
+    int count = first ? 2 * n : 2 * n - 1;
+    sdv_load_row(grid, 0, low, last, work, origin, b);
+    for (int r = 0; r < grid->rows; r++) {
+        sdv_load_row(grid, r + 1, low, last, work, origin, c);
+        sdv_quad_row(b, c, cells, step->face, g);
+        for (int i = 0, k = skip; r > 0 && i < n; i++, k++) {           // row b
+            sdv_four along = sdv_plus(b[k], b[k + 1]);
+            if (k > 0) {
+                sdv_four around = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(a[k], c[k]));
+                sdv_four fours = sdv_plus(sdv_plus(f[k - 1], f[k]), sdv_plus(g[k - 1], g[k]));
+                sdv_four v = sdv_plus(sdv_times(self, b[k]), sdv_times(beside, around));
+                made[2 * i - 1 + skip] = sdv_plus(origin, sdv_plus(v, sdv_times(corner, fours)));
+            }
+            made[2 * i + skip] =
+                sdv_plus(origin, sdv_plus(sdv_times(edge, along),
+                                          sdv_times(across, sdv_plus(f[k], g[k]))));
+        }
+        if (r > 0) sdv_put_points(out, at + (2 * r - 1) * length, count, made);
+        for (int i = 0, k = skip; i < n; i++, k++) {                    // between b and c
+            if (k > 0)
+                made[2 * i - 1 + skip] =
+                    sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k], c[k])),
+                                              sdv_times(across, sdv_plus(g[k - 1], g[k]))));
+            made[2 * i + skip] = sdv_plus(origin, g[k]);
+        }
+        sdv_put_points(out, at + 2 * r * length, count, made);
+        sdv_four *swap = a;
+        a = b;
+        b = c;
+        c = swap;
+        swap = f;
+        f = g;
+        g = swap;
+    }
+}
+
+// The inside of a triangle, in columns from first to last: on a row of points b vertex points and
+// edge points, between it and the row above, c, the edge points of the two other directions.
+//
+//     c   v---e---v
+//          \  |\  |          e = self (v + v) + face (the two v opposite)
+//           e e e e
+//            \|  \|          v = self v + edge (sum of the six v around)
+//     b   v---e---v
+static void sdv_refine_triangles(const sdv_grid *grid, const sdv_grid_step *step, int target,
+                                 int first, int last, const float *work, const sdv_window *out)
+{
+    sdv_four rows[3][SDV_PIECE + 2], made[2 * SDV_PIECE];
+    sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
+    const sdv_four edge = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
+    const sdv_four self = sdv_all((float)step->vertex.self);
+    const sdv_four beside = sdv_all((float)step->vertex.edge);
+    const sdv_four origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
+    int n = grid->columns, low = first ? first - 1 : 0, skip = first ? 1 : 0, start = 2 * first;
+    sdv_load_row(grid, 0, low, last, work, origin, b);
+    for (int r = 0; r < n - first; r++) {
+        int cells = (last < n - r ? last : n - r) - first, count = 0, above = n - r - 1;
+        if (low <= above) sdv_load_row(grid, r + 1, low, last < above ? last : above, work, origin, c);
+        for (int k = skip; r > 0 && k < skip + cells; k++) {
+            if (k > 0) {
+                sdv_four around = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]),
+                                                    sdv_plus(c[k - 1], c[k])),
+                                           sdv_plus(a[k], a[k + 1]));
+                made[count++] = sdv_plus(origin, sdv_plus(sdv_times(self, b[k]),
+                                                          sdv_times(beside, around)));
+            }
+            made[count++] =
+                sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k], b[k + 1])),
+                                          sdv_times(across, sdv_plus(a[k + 1], c[k]))));
+        }
+        if (count)
+            sdv_put_points(out, sdv_inside_point(target, 2 * n, 1, 2 * r, start ? start : 1), count,
+                           made);
+        count = 0;
+        for (int k = skip; k < skip + cells; k++) {
+            if (k > 0)
+                made[count++] =
+                    sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k], c[k])),
+                                              sdv_times(across, sdv_plus(b[k + 1], c[k - 1]))));
+            if (low + k < above)
+                made[count++] =
+                    sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k + 1], c[k])),
+                                              sdv_times(across, sdv_plus(b[k], c[k + 1]))));
+        }
+        if (count)
+            sdv_put_points(out, sdv_inside_point(target, 2 * n, 1, 2 * r + 1, start ? start : 1),
+                           count, made);
+        sdv_four *swap = a;
+        a = b;
+        b = c;
+        c = swap;
+    }
+}
+
+// The inside of a quad of 2 x 2 cells, which is all of a face on level 1:
+//
+//     p3---e2---p2      from corners p, edge points e and the face point, 9 points: face points,
+//     |  f3| f2 |       edge points on the four lines between them and the vertex point
+//     e3---F---e1
+//     |  f0| f1 |
+//     p0---e0---p1
+SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_step *step,
+                                int target, const float *work, const sdv_window *out)
+{
+    const int start = sdv_face_start(&order->cage, f);
+    const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
+    const float *on_edges = work + 4 * (size_t)order->first_edge_point;
+    const sdv_four origin = sdv_load(work + 4 * (size_t)sdv_first_inside(order, f));
+    const sdv_four half = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
+    const sdv_four quarter = sdv_all(step->face);
+    sdv_four p[4], e[4], face[4], edge[4], made[9], sum = sdv_all(0), fours = sum;
+    for (int i = 0; i < 4; i++) {
+        p[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
+        e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
+    }
+    for (int i = 0; i < 4; i++)         // seen from F, which is 0
+        face[i] = sdv_times(quarter, sdv_plus(p[i], sdv_plus(e[i], e[(i + 3) & 3])));
+    for (int i = 0; i < 4; i++) {
+        edge[i] = sdv_plus(sdv_times(half, e[i]),
+                           sdv_times(across, sdv_plus(face[i], face[(i + 1) & 3])));
+        sum = sdv_plus(sum, e[i]);
+        fours = sdv_plus(fours, face[i]);
+    }
+    made[0] = face[0];
+    made[1] = edge[0];
+    made[2] = face[1];
+    made[3] = edge[3];
+    made[4] = sdv_plus(sdv_times(sdv_all((float)step->vertex.edge), sum),
+                       sdv_times(sdv_all((float)step->vertex.face), fours));
+    made[5] = edge[1];
+    made[6] = face[3];
+    made[7] = edge[2];
+    made[8] = face[2];
+    for (int i = 0; i < 9; i++) made[i] = sdv_plus(origin, made[i]);
+    sdv_put_points(out, target, 9, made);
+}
+
+// Where the points inside a grid start in an order.
+static int sdv_inside_grid(const sdv_order *order, int f, int i)
+{
+    const sdv_level *cage = &order->cage;
+    int inside = sdv_first_inside(order, f), sides = sdv_face_end(cage, f) - sdv_face_start(cage, f);
+    return sdv_is_ngon(order, f) ? sdv_inside_ngon(inside, sides, order->m, i) : inside;
+}
+
+static int sdv_grids_of(const sdv_order *order, int f)
+{
+    return sdv_is_ngon(order, f) ? sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f)
+                                 : 1;
+}
+
+// The points inside the grids of cage faces face to end - 1, from a level, whose points are here, to
+// the next one, whose points stand from target on.
+static void sdv_refine_grids(const sdv_rules *rules, const sdv_order *from, const sdv_order *to,
+                             const float *points, int face, int end, int target,
+                             const sdv_window *out)
+{
+    sdv_grid_step step = sdv_regular_masks(rules);
+    for (int f = face; f < end; f++) {
+        int start = sdv_face_start(&from->cage, f), count = sdv_grids_of(from, f);
+        if (from->n == 2 && !rules->loop && count == 1) {
+            sdv_refine_four(from, f, &step, target + sdv_first_inside(to, f), points, out);
+            continue;
+        }
+        for (int i = 0; i < count; i++) {
+            sdv_grid grid;
+            int at = target + sdv_inside_grid(to, f, i);
+            sdv_grid_at(from, start + i, &grid);
+            for (int c = 0; c < grid.columns; c += SDV_PIECE) {
+                int last = grid.columns - c < SDV_PIECE ? grid.columns : c + SDV_PIECE;
+                if (rules->loop) sdv_refine_triangles(&grid, &step, at, c, last, points, out);
+                else sdv_refine_quads(&grid, &step, at, c, last, points, out);
+            }
+        }
+    }
+}
+
+// The limit masks of what is regular and smooth: weights of the vertex, of those around it, and of
+// those across the faces; of tangents along the rows and a quarter turn away.
+typedef struct sdv_grid_limit {
+    sdv_mask mask;
+    double along[13], across[13];
+    int    linear;
+} sdv_grid_limit;
+
+static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
+{
+    sdv_grid_limit limit;
+    int n = rules->loop ? 6 : 4;
+    limit.mask = sdv_limit_mask(rules, SDV_SMOOTH, n);
+    limit.linear = rules->linear;
+    sdv_smooth_tangents(n, rules->loop, limit.along, limit.across);
+    return limit;
+}
+
+// Point k of row b, whose neighbours are in rows a below and c above.
+SDV_INLINE void sdv_limit_quad(const sdv_grid_limit *l, const sdv_four *a, const sdv_four *b,
+                               const sdv_four *c, int k, sdv_four *p)
+{
+    sdv_four right = sdv_plus(a[k + 1], c[k + 1]), left = sdv_plus(a[k - 1], c[k - 1]);
+    sdv_four up = sdv_plus(c[k - 1], c[k + 1]), down = sdv_plus(a[k - 1], a[k + 1]);
+    sdv_four edges = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(a[k], c[k]));
+    sdv_four near = sdv_all((float)l->along[1]), far = sdv_all((float)l->along[5]);
+    p[0] = sdv_plus(sdv_plus(sdv_times(sdv_all((float)l->mask.self), b[k]),
+                             sdv_times(sdv_all((float)l->mask.edge), edges)),
+                    sdv_times(sdv_all((float)l->mask.face), sdv_plus(left, right)));
+    p[1] = sdv_plus(sdv_times(near, sdv_minus(b[k + 1], b[k - 1])),
+                    sdv_times(far, sdv_minus(right, left)));
+    p[2] = sdv_plus(sdv_times(near, sdv_minus(c[k], a[k])), sdv_times(far, sdv_minus(up, down)));
+}
+
+// Around a vertex, counter-clockwise from the right: b[k+1] c[k] c[k-1] b[k-1] a[k] a[k+1].
+SDV_INLINE void sdv_limit_triangle(const sdv_grid_limit *l, const sdv_four *a, const sdv_four *b,
+                                   const sdv_four *c, int k, sdv_four *p)
+{
+    sdv_four d0 = sdv_minus(b[k + 1], b[k - 1]), d1 = sdv_minus(c[k], a[k]);
+    sdv_four d2 = sdv_minus(c[k - 1], a[k + 1]);
+    sdv_four edges = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(c[k - 1], c[k])),
+                              sdv_plus(a[k], a[k + 1]));
+    p[0] = sdv_plus(sdv_times(sdv_all((float)l->mask.self), b[k]),
+                    sdv_times(sdv_all((float)l->mask.edge), edges));
+    p[1] = sdv_plus(sdv_times(sdv_all((float)l->along[1]), d0),
+                    sdv_times(sdv_all((float)l->along[2]), sdv_minus(d1, d2)));
+    p[2] = sdv_times(sdv_all((float)l->across[2]), sdv_plus(d1, d2));
+}
+
+// The limit points inside a grid, in columns from first to last - 1, at least 1, and their tangents.
+static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, int first, int last,
+                           const float *points, const sdv_window *out)
+{
+    sdv_four rows[3][SDV_PIECE + 2], p[3];
+    sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
+    const sdv_four origin = sdv_load(points + 4 * (size_t)grid->corner[0]);
+    int triangle = grid->triangle, n = grid->columns;
+    sdv_load_row(grid, 0, first - 1, last, points, origin, a);
+    sdv_load_row(grid, 1, first - 1, last < n - triangle ? last : n - triangle, points, origin, b);
+    for (int r = 1; r < grid->rows - first * triangle; r++) {
+        int end = triangle && n - r < last ? n - r : last, above = n - (r + 1) * triangle;
+        sdv_load_row(grid, r + 1, first - 1, last < above ? last : above, points, origin, c);
+        for (int k = 1; k <= end - first; k++) {
+            int index = sdv_inside_index(grid, r, first + k - 1);
+            if (triangle) sdv_limit_triangle(limit, a, b, c, k, p);
+            else sdv_limit_quad(limit, a, b, c, k, p);
+            if (limit->linear) {
+                p[0] = b[k];
+                p[1] = sdv_minus(b[k + 1], b[k]);
+                p[2] = sdv_minus(c[k], b[k]);
+            }
+            sdv_put_point(out, index, sdv_plus(origin, p[0]));
+            if (out->tangents) sdv_put_tangents(out, index, p[1], p[2]);
+        }
+        sdv_four *swap = a;
+        a = b;
+        b = c;
+        c = swap;
+    }
+}
+
+static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, const float *points,
+                            int face, int end, const sdv_window *out)
+{
+    sdv_grid_limit limit = sdv_regular_limit(rules);
+    for (int f = face; f < end; f++) {
+        int start = sdv_face_start(&order->cage, f), count = sdv_grids_of(order, f);
+        for (int i = 0; i < count; i++) {
+            sdv_grid grid;
+            sdv_grid_at(order, start + i, &grid);
+            for (int c = 1; c < grid.columns; c += SDV_PIECE)
+                sdv_limit_grid(&grid, &limit, c,
+                               grid.columns - c < SDV_PIECE ? grid.columns : c + SDV_PIECE, points,
+                               out);
+        }
+    }
+}
+
+// A level from the one before, for the points that belong to cage faces face to end - 1.
+static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
+                             int end, int target, const sdv_window *out)
+{
+    sdv_make_batches(&surface->refine[level], work, face, end, out);
+    if (level == 0) return;
+    sdv_order from = sdv_order_at(surface, level), to = sdv_order_at(surface, level + 1);
+    if (end > surface->cage_face_count) end = surface->cage_face_count;
+    sdv_refine_grids(&surface->rules, &from, &to, work + 4 * (size_t)surface->bases[level], face,
+                     end, target, out);
 }
 
 // Jobs of an evaluation: each makes a share of its points.
@@ -6371,6 +7865,15 @@ static int sdv_jobs(int64_t work, int64_t least)
     return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
+// Job i's share of cage faces first to end - 1, in whole blocks if there are enough, starts here.
+static int sdv_share_faces(int first, int end, int i, int jobs)
+{
+    int block = first / SDV_BLOCK_FACES, blocks = (end - 1) / SDV_BLOCK_FACES + 1 - block;
+    int face = (block + sdv_share(blocks, i, jobs)) * SDV_BLOCK_FACES;
+    if (blocks < jobs) return first + sdv_share(end - first, i, jobs);
+    return face < first ? first : face < end ? face : end;
+}
+
 static void sdv_input_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6382,6 +7885,10 @@ static void sdv_input_job(void *context, int job)
         for (int i = v; i < end; i++, at += 4) {
             int from = e->surface->source ? e->surface->source[i] : i;
             const float *in = e->in + e->in_stride * (size_t)from + c;
+            if (lanes >= 3 && !e->doubles) {
+                sdv_store(e->work + at, sdv_of(in[0], in[1], in[2], lanes > 3 ? in[3] : 0));
+                continue;
+            }
             for (int k = 0; k < 4 && !e->doubles; k++)
                 e->work[at + (size_t)k] = k < lanes ? in[k] : 0;
             for (int k = 0; k < 4 && e->doubles; k++)
@@ -6414,12 +7921,43 @@ static void sdv_point_job(void *context, int job)
     sdv_apply_share(e, &e->surface->steps[e->step].edges, job);
 }
 
+// Steps of the general step, in shares of cage faces.
+static void sdv_level_job(void *context, int job)
+{
+    const sdv_evaluation *e = (const sdv_evaluation *)context;
+    const subdiv_surface *surface = e->surface;
+    int faces = surface->cage_face_count ? surface->cage_face_count : 1;
+    int face = sdv_share_faces(0, faces, job, e->jobs);
+    int end = sdv_share_faces(0, faces, job + 1, e->jobs);
+    for (int c = 0; c < e->channels; c += 4) {
+        float *work = e->work + (size_t)c * (size_t)surface->work_count;
+        sdv_window out = { work, 4, 4, 0, surface->work_count, 0, NULL };
+        if (e->step < 0) sdv_make_batches(&surface->first_faces, work, face, end, &out);
+        else sdv_refine_faces(surface, e->step, work, face, end, surface->bases[e->step + 1], &out);
+    }
+}
+
+static void sdv_make_level_points(sdv_evaluation *e, const subdiv_options *opt)
+{
+    const subdiv_surface *surface = e->surface;
+    int last = surface->rules.limit ? surface->levels : surface->levels - 1;
+    for (e->step = -1; e->step < last; e->step++) {
+        int level = e->step < 0 ? 0 : e->step + 1;
+        e->jobs = sdv_jobs(surface->bases[level + 1] - surface->bases[level], 4096);
+        sdv_run(opt, sdv_level_job, e, e->jobs);
+    }
+}
+
 // The work points: those of level 0 from the input, the others step by step.
 static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
     e->jobs = sdv_jobs(surface->cage_vertex_count, 4096);
     sdv_run(opt, sdv_input_job, e, e->jobs);
+    if (surface->refine) {
+        sdv_make_level_points(e, opt);
+        return;
+    }
     for (e->step = 0; e->step < surface->levels; e->step++) {
         const sdv_step *step = &surface->steps[e->step];
         e->jobs = sdv_jobs(step->faces.count, 4096);
@@ -6433,9 +7971,8 @@ static void sdv_face_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
     const subdiv_surface *surface = e->surface;
-    int faces = e->end_face - e->first_face;
-    int face = e->first_face + sdv_share(faces, job, e->jobs);
-    int end = e->first_face + sdv_share(faces, job + 1, e->jobs);
+    int face = sdv_share_faces(e->first_face, e->end_face, job, e->jobs);
+    int end = sdv_share_faces(e->first_face, e->end_face, job + 1, e->jobs);
     if (e->limit) {
         sdv_make_limit_faces(surface, e->work, face, end, e->limit, e->first_point,
                              e->end_point - e->first_point);
@@ -6443,8 +7980,9 @@ static void sdv_face_job(void *context, int job)
     }
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point,
-                           e->end_point - e->first_point, NULL };
+        int count = e->end_point - e->first_point;
+        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, count,
+                           count < surface->fine.vertex_count, NULL };
         sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
     }
 }
@@ -6468,7 +8006,8 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
         return;
     }
     if (surface->cage_face_count == 0) e->end_face = 1;    // vertices without faces go with face 0
-    e->jobs = sdv_jobs(e->end_face - e->first_face, 1);
+    if (e->end_face == e->first_face) return;
+    e->jobs = sdv_jobs(surface->fine.vertex_count, 4096);
     sdv_run(opt, sdv_face_job, e, e->jobs);
 }
 
@@ -7073,16 +8612,6 @@ SDV_INLINE int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
     return sdv_face_start(cage, f) + corner;
 }
 
-// Appends count cleared items.
-static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, size_t item)
-{
-    void *room = sdv_array_room(context, array, count, item);
-    if (!room) return NULL;
-    memset(room, 0, count * item);
-    array->count += count;
-    return room;
-}
-
 // In the order of sdv_powers, for the channels of the polynomial.
 static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
 {
@@ -7566,14 +9095,6 @@ static void sdv_find_absent(sdv_context *context, subdiv_surface *surface,
     surface->exact->absent = absent;
     for (int f = 0; f < faces && absent; f++)
         absent[f] = hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
-}
-
-static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *array, size_t item)
-{
-    void *kept = sdv_new(context, arena, array->count, item);
-    if (kept) sdv_copy(kept, sdv_items(array), array->count, item);
-    sdv_array_free(array);
-    return kept;
 }
 
 static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
@@ -8649,7 +10170,7 @@ SDV_INLINE void sdv_triangle_rows(const sdv_four *c, sdv_four x, sdv_four (*rows
 }
 
 // Four coefficients in a row, of up to four channels.
-SDV_INLINE void sdv_load_row(const float *data, int lanes, sdv_four *c)
+SDV_INLINE void sdv_load_four(const float *data, int lanes, sdv_four *c)
 {
     c[0] = sdv_load(data);
     c[1] = sdv_load(data + lanes);
@@ -8662,10 +10183,10 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
                                       int order, sdv_four *out)
 {
     sdv_four c[SDV_SLOTS], rows[5][3], x = sdv_all(at->x);
-    sdv_load_row(data, lanes, c);
-    sdv_load_row(data + 4 * lanes, lanes, c + 4);
-    sdv_load_row(data + 8 * lanes, lanes, c + 8);
-    sdv_load_row(data + 12 * lanes, lanes, c + 12);
+    sdv_load_four(data, lanes, c);
+    sdv_load_four(data + 4 * lanes, lanes, c + 4);
+    sdv_load_four(data + 8 * lanes, lanes, c + 8);
+    sdv_load_four(data + 12 * lanes, lanes, c + 12);
     if (loop) sdv_triangle_rows(c, x, rows);
     else sdv_quad_rows(c, x, rows);
     sdv_put_columns(rows, loop, at, order, out);
@@ -8952,13 +10473,13 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
 }
 
 // Locations, looked up, and where their polynomials are, unless the tree is to be asked.
-typedef struct sdv_batch {
+typedef struct sdv_sample_batch {
     sdv_lookup at;
     const float *data[SDV_LOOKUP];
-} sdv_batch;
+} sdv_sample_batch;
 
 SDV_INLINE int sdv_find_some(sdv_exact_evaluation *e, int job, int loop, size_t i, int count,
-                             sdv_batch *batch)
+                             sdv_sample_batch *batch)
 {
     size_t width = SDV_SLOTS * (size_t)e->channels;
     if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) {
@@ -8971,7 +10492,7 @@ SDV_INLINE int sdv_find_some(sdv_exact_evaluation *e, int job, int loop, size_t 
 }
 
 // Whole batches, so that the loops have a constant count.
-static int sdv_find_batch(sdv_exact_evaluation *e, int job, size_t i, sdv_batch *batch)
+static int sdv_find_batch(sdv_exact_evaluation *e, int job, size_t i, sdv_sample_batch *batch)
 {
     return e->surface->rules.loop ? sdv_find_some(e, job, 1, i, SDV_LOOKUP, batch)
                                   : sdv_find_some(e, job, 0, i, SDV_LOOKUP, batch);
@@ -8979,7 +10500,7 @@ static int sdv_find_batch(sdv_exact_evaluation *e, int job, size_t i, sdv_batch 
 
 // lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
 SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
-                              const sdv_batch *batch, int k, size_t i)
+                              const sdv_sample_batch *batch, int k, size_t i)
 {
     const sdv_lookup *l = &batch->at;
     sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
@@ -8991,7 +10512,7 @@ SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int la
 // Fewer than a whole batch, at the end of a job.
 static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, int count)
 {
-    sdv_batch batch;
+    sdv_sample_batch batch;
     int found = sdv_find_some(e, job, loop, i, count, &batch);
     for (int k = 0; k < count && found; k++)
         sdv_put_found(e, job, loop, 0, 0, &batch, k, i + (size_t)k);
@@ -9002,7 +10523,7 @@ SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, in
 {
     size_t i = (size_t)sdv_share(e->count, job, e->jobs), third;
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    sdv_batch batches[2], *batch = batches, *next = batches + 1, *last;
+    sdv_sample_batch batches[2], *batch = batches, *next = batches + 1, *last;
     if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, i, next)) return;
     third = SDV_SLOTS * (size_t)e->channels / 3;
     while (end - i >= SDV_LOOKUP) {
@@ -9127,6 +10648,12 @@ typedef struct sdv_entry {
 
 enum { SDV_LONGEST_KNOWN = 64, SDV_LONG = -1 };
 
+typedef struct sdv_stencil_row {        // a row: points and their weights
+    int     count;
+    int    *points;
+    double *weights;
+} sdv_stencil_row;
+
 typedef struct sdv_stencil_maker {
     sdv_context *context;
     const subdiv_surface *surface;
@@ -9143,9 +10670,43 @@ typedef struct sdv_stencil_maker {
     double    *sums;                    // [work_count * parts] weights, and where
     int       *places;                  // [work_count] each stands, or -1
 
+    const sdv_batch **batches;          // [work_count] of a surface of batches: where the row of
+    const int **rows;                   // each work point is; NULL: on a grid
+    int        longest;                 // points of a row at most
+    sdv_stencil_row *room;              // [levels + 2] rows: one for each level
+
     size_t    *offsets;                 // [points + 1] what is made
     sdv_array  indices, weights;        // ints, floats [parts] each
 } sdv_stencil_maker;
+
+// Notes where the rows are: of work points, or of the last level's behind them.
+static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int base)
+{
+    for (int b = 0; b < batches->starts[batches->blocks]; b++) {
+        const sdv_batch *batch = &batches->items[b];
+        const int *row = batch->items, points = sdv_row_points(&batch->shape);
+        if (points > make->longest) make->longest = points;
+        for (int i = 0; i < batch->rows; i++, row += 1 + points + 3 * batch->shape.own) {
+            make->batches[base + row[0]] = batch;
+            make->rows[base + row[0]] = row;
+        }
+    }
+}
+
+static void sdv_note_rows_of(sdv_stencil_maker *make)
+{
+    const subdiv_surface *surface = make->surface;
+    size_t count = (size_t)surface->work_count + (size_t)surface->fine.vertex_count;
+    int last = surface->levels - 1, limit = surface->rules.limit;
+    make->batches = SDV_NEW(make->context, &make->arena, const sdv_batch *, count);
+    make->rows = SDV_NEW(make->context, &make->arena, const int *, count);
+    if (make->context->result) return;
+    for (size_t i = 0; i < count; i++) make->rows[i] = NULL;
+    sdv_note_batches(make, &surface->first_faces, 0);
+    for (int i = 0; i <= last; i++)
+        sdv_note_batches(make, &surface->refine[i], i == last && !limit ? surface->work_count : 0);
+    if (limit) sdv_note_batches(make, &surface->limit_rows, surface->work_count);
+}
 
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
                                   const subdiv_surface *surface, int points, int parts)
@@ -9166,6 +10727,16 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     memset(make->sizes, 0, work * sizeof(int));
     for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
+    make->longest = 9;
+    if (surface->refine) sdv_note_rows_of(make);
+    for (size_t i = 0; i < (size_t)(surface->refine ? 0 : surface->masks.count); i++)
+        if (surface->masks.items[i].count > make->longest)
+            make->longest = surface->masks.items[i].count;
+    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, surface->levels + 2);
+    for (int i = 0; i < surface->levels + 2 && !context->result; i++) {
+        make->room[i].points = SDV_NEW(context, &make->arena, int, make->longest);
+        make->room[i].weights = SDV_NEW(context, &make->arena, double, make->longest);
+    }
 }
 
 static void sdv_stencil_maker_free(sdv_stencil_maker *make)
@@ -9207,7 +10778,34 @@ static void sdv_end_sum(sdv_stencil_maker *make)
     make->size = 0;
 }
 
-// The row that makes a work point.
+// The weight of point i of a row with this mask. They are asked for from the last one to the first,
+// which has what the others left of 1.
+static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i, double *left)
+{
+    if (i == 0) return *left;
+    double weight = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
+    *left -= weight;
+    return weight;
+}
+
+static void sdv_mask_row(const sdv_masks *masks, const sdv_weights *mask, const int *points,
+                         sdv_stencil_row *out)
+{
+    double left = 1;
+    out->count = mask->count;
+    for (int i = mask->count - 1; i >= 0; i--) {
+        out->points[i] = points[i];
+        out->weights[i] = sdv_row_weight(masks->weights, mask, i, &left);
+    }
+}
+
+// The weights of a row whose mask has these. The first point has what the others leave of 1.
+static void sdv_fill_weights(sdv_stencil_row *row)
+{
+    row->weights[0] = 1;
+    for (int i = row->count - 1; i > 0; i--) row->weights[0] -= row->weights[i];
+}
+
 static const int *sdv_find_row(const subdiv_surface *surface, int point)
 {
     const int *row = NULL;
@@ -9224,6 +10822,141 @@ static const int *sdv_find_row(const subdiv_surface *surface, int point)
     return row;
 }
 
+static void sdv_batch_row(const sdv_batch *batch, const int *row, sdv_stencil_row *out)
+{
+    const sdv_shape *shape = &batch->shape;
+    float w[3] = { shape->weight[0], shape->weight[1], shape->weight[2] };
+    out->count = sdv_row_points(shape);
+    if (shape->own) memcpy(w, row + 1 + out->count, sizeof w);
+    for (int i = 0; i < out->count; i++) out->points[i] = row[1 + i];
+    for (int k = 0, i = 1; k < 3; k++)
+        for (int j = 0; j < shape->count[k]; j++) out->weights[i++] = (double)w[k];
+    sdv_fill_weights(out);
+}
+
+// Where point index of an order is that stands on a grid: returns the grid's face-vertex.
+static int sdv_find_on_grid(const sdv_order *order, int index, int *row, int *column)
+{
+    const sdv_level *cage = &order->cage;
+    int low = 0, high = cage->face_count - 1;
+    while (low < high) {
+        int middle = high - (high - low) / 2;
+        if (sdv_first_inside(order, middle) <= index) low = middle;
+        else high = middle - 1;
+    }
+    int start = sdv_face_start(cage, low), sides = sdv_face_end(cage, low) - start, grid = 0;
+    int ngon = sdv_is_ngon(order, low), m = ngon ? order->m : order->n, length = m - 1;
+    index -= sdv_first_inside(order, low);
+    if (ngon) {
+        index -= 1 + sides * (m - 1);
+        grid = index / (length * length);
+        index -= grid * length * length;
+    }
+    *row = 1;
+    if (order->loop) for (length--; index >= length; index -= length--) ++*row;
+    else *row += index / length;
+    *column = 1 + (order->loop ? index : index % length);
+    return start + grid;
+}
+
+static void sdv_add_grid_point(const sdv_grid *grid, int base, int row, int column, double weight,
+                               sdv_stencil_row *out)
+{
+    out->points[out->count] = base + sdv_grid_index(grid, row, column);
+    out->weights[out->count++] = weight;
+}
+
+// The masks of >>grids, for a point that is not on a point of the level before: r, c is before it,
+// and up, right say in which direction it is between two or four points.
+static void sdv_grid_edge(const sdv_grid *grid, int base, const sdv_grid_step *step, int r, int c,
+                          int up, int right, sdv_stencil_row *out)
+{
+    sdv_mask mask = step->loop ? step->edge : sdv_spread_edge(step->edge, 2);
+    int turned = step->loop && up && right;             // the long side of a square
+    sdv_add_grid_point(grid, base, r, turned ? c + 1 : c, mask.self, out);
+    sdv_add_grid_point(grid, base, r + up, turned ? c : c + right, mask.self, out);
+    if (step->loop) {
+        sdv_add_grid_point(grid, base, turned ? r : r + right, turned ? c : up ? c + 1 : c, mask.face,
+                           out);
+        sdv_add_grid_point(grid, base, turned ? r + 1 : up ? r + 1 : r - 1,
+                           turned ? c + 1 : up ? c - 1 : c + 1, mask.face, out);
+        return;
+    }
+    for (int side = -1; side <= 1; side += 2) {
+        sdv_add_grid_point(grid, base, r + side * right, c + side * up, mask.face, out);
+        sdv_add_grid_point(grid, base, r + side * right + up, c + side * up + right, mask.face, out);
+    }
+}
+
+// Around point r, c: its neighbours and those across the faces.
+static const signed char sdv_around_quad[8][2] = { { 0, 1 }, { 1, 0 }, { 0, -1 }, { -1, 0 },
+                                                   { 1, 1 }, { 1, -1 }, { -1, -1 }, { -1, 1 } };
+static const signed char sdv_around_triangle[6][2] = { { 0, 1 }, { 1, 0 }, { 1, -1 }, { 0, -1 },
+                                                       { -1, 0 }, { -1, 1 } };
+
+static void sdv_grid_ring(const sdv_grid *grid, int base, int r, int c, sdv_mask mask,
+                          sdv_stencil_row *out)
+{
+    const signed char (*around)[2] = grid->triangle ? sdv_around_triangle : sdv_around_quad;
+    int count = grid->triangle ? 6 : 8, edges = grid->triangle ? 6 : 4;
+    sdv_add_grid_point(grid, base, r, c, mask.self, out);
+    for (int i = 0; i < count; i++)
+        sdv_add_grid_point(grid, base, r + around[i][0], c + around[i][1],
+                           i < edges ? mask.edge : mask.face, out);
+}
+
+// The row of a point of a level, from 2 on, that is on a grid.
+static void sdv_grid_row_of(const subdiv_surface *surface, int level, int index,
+                            sdv_stencil_row *out)
+{
+    sdv_order to = sdv_order_at(surface, level), from = sdv_order_at(surface, level - 1);
+    sdv_grid_step step = sdv_regular_masks(&surface->rules);
+    int row, column, h = sdv_find_on_grid(&to, index, &row, &column), base = surface->bases[level - 1];
+    int r = row / 2, c = column / 2, up = row % 2, right = column % 2;
+    sdv_grid grid;
+    sdv_grid_at(&from, h, &grid);
+    out->count = 0;
+    if (!up && !right) {
+        sdv_mask mask = step.loop ? step.vertex : sdv_spread_vertex(step.vertex, 4);
+        sdv_grid_ring(&grid, base, r, c, mask, out);
+    } else if (up && right && !step.loop) {
+        for (int i = 0; i < 4; i++)
+            sdv_add_grid_point(&grid, base, r + i / 2, c + i % 2, (double)step.face, out);
+    } else {
+        sdv_grid_edge(&grid, base, &step, r, c, up, right, out);
+    }
+    sdv_fill_weights(out);
+}
+
+// The row of point index of a level; the last level's has no work points.
+static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, sdv_stencil_row *out)
+{
+    const subdiv_surface *surface = make->surface;
+    int last = level == surface->levels && !surface->rules.limit;
+    int at = last ? surface->work_count + index : surface->bases[level] + index;
+    if (make->rows[at]) sdv_batch_row(make->batches[at], make->rows[at], out);
+    else sdv_grid_row_of(surface, level, index, out);
+}
+
+// The row of a work point, in the room of its level. The face points of the cage have one of their
+// own, as other points of level 1 are made of them.
+static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    int level = 1;
+    if (!surface->refine) {
+        const int *row = sdv_find_row(surface, point);
+        sdv_mask_row(&surface->masks, &surface->masks.items[row[0]], row + 1, make->room);
+        return make->room;
+    }
+    while (point >= surface->bases[level + 1]) level++;
+    int face = make->rows[point] && make->batches[point]->polygon;
+    sdv_stencil_row *room = &make->room[face ? 0 : level];
+    if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
+    else sdv_grid_row_of(surface, level, point - surface->bases[level], room);
+    return room;
+}
+
 // Makes a work point known, after those that it is made from.
 static void sdv_compose(sdv_stencil_maker *make, int point);
 
@@ -9232,25 +10965,13 @@ static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int coun
     for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
-// The weight of point i of a row with this mask. They are asked for from the last one to the first,
-// which has what the others left of 1.
-static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i, double *left)
-{
-    if (i == 0) return *left;
-    double weight = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
-    *left -= weight;
-    return weight;
-}
-
 // Adds the points of a row, w times.
-static void sdv_add_row(sdv_stencil_maker *make, const sdv_weights *mask, const int *points,
-                        const double *w)
+static void sdv_add_row(sdv_stencil_maker *make, const sdv_stencil_row *row, const double *w)
 {
-    double product[3], left = 1;
-    for (int i = mask->count - 1; i >= 0; i--) {
-        double weight = sdv_row_weight(make->surface->masks.weights, mask, i, &left);
-        for (int k = 0; k < make->parts; k++) product[k] = weight * w[k];
-        sdv_add_work_point(make, points[i], product);
+    double product[3];
+    for (int i = row->count - 1; i >= 0; i--) {
+        for (int k = 0; k < make->parts; k++) product[k] = row->weights[i] * w[k];
+        sdv_add_work_point(make, row->points[i], product);
     }
 }
 
@@ -9272,14 +10993,20 @@ static void sdv_compose(sdv_stencil_maker *make, int point)
 {
     const subdiv_surface *surface = make->surface;
     if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
-    const int *row = sdv_find_row(surface, point);
-    const sdv_weights *mask = &surface->masks.items[row[0]];
+    const sdv_stencil_row *row = NULL;
     const double one[3] = { 1, 0, 0 };
     int any_long = 0;
-    sdv_compose_all(make, row + 1, mask->count);
+    if (surface->refine) {
+        row = sdv_work_row(make, point);
+        sdv_compose_all(make, row->points, row->count);
+    } else {
+        const int *stream = sdv_find_row(surface, point);
+        sdv_compose_all(make, stream + 1, surface->masks.items[stream[0]].count);
+        row = sdv_work_row(make, point);        // after those, as there is room for one
+    }
     if (make->context->result) return;
-    for (int i = 1; i <= mask->count; i++) any_long |= make->sizes[row[i]] == SDV_LONG;
-    if (!any_long) sdv_add_row(make, mask, row + 1, one);
+    for (int i = 0; i < row->count; i++) any_long |= make->sizes[row->points[i]] == SDV_LONG;
+    if (!any_long) sdv_add_row(make, row, one);
     if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
     else sdv_keep_sum(make, point);
     sdv_end_sum(make);
@@ -9299,20 +11026,19 @@ static void sdv_take_from_sum(sdv_stencil_maker *make, int i, double *w)
     make->vertices[i] = make->vertices[last];
 }
 
-// Long points that these rows make become those that they are made of.
-static void sdv_expand_rows(sdv_stencil_maker *make, const sdv_rows *rows)
+// Long points from first to end - 1 become those that they are made of.
+static void sdv_expand_rows(sdv_stencil_maker *make, int first, int end)
 {
-    const subdiv_surface *surface = make->surface;
-    for (int i = 0; i < make->size && rows->count > 0; ) {
+    for (int i = 0; i < make->size; ) {
         int point = make->vertices[i];
         double w[3];
-        if (point < rows->first || point >= rows->first + rows->count) {
+        if (point < first || point >= end) {
             i++;
             continue;
         }
-        const int *row = sdv_find_row(surface, point);
+        const sdv_stencil_row *row = sdv_work_row(make, point);
         sdv_take_from_sum(make, i, w);
-        sdv_add_row(make, &surface->masks.items[row[0]], row + 1, w);
+        sdv_add_row(make, row, w);
     }
 }
 
@@ -9323,10 +11049,18 @@ static void sdv_expand_sum(sdv_stencil_maker *make)
     int any_long = 0;
     for (int i = 0; i < make->size; i++)
         any_long |= make->vertices[i] >= surface->cage_vertex_count;
-    for (int i = any_long ? surface->levels : 0; i-- > 0; ) {
-        sdv_expand_rows(make, &surface->steps[i].edges);
-        sdv_expand_rows(make, &surface->steps[i].vertices);
-        sdv_expand_rows(make, &surface->steps[i].faces);
+    for (int i = any_long && surface->refine ? surface->levels : 0; i > 0; i--) {
+        int first = surface->bases[i], end = surface->bases[i + 1];
+        if (i == 1 && !surface->rules.loop)             // face points come last
+            sdv_expand_rows(make, first, end - surface->cage_face_count);
+        sdv_expand_rows(make, first, end);
+    }
+    for (int i = any_long && !surface->refine ? surface->levels : 0; i-- > 0; ) {
+        const sdv_step *step = &surface->steps[i];
+        const sdv_rows *rows[3] = { &step->edges, &step->vertices, &step->faces };
+        for (int k = 0; k < 3; k++)
+            if (rows[k]->count)
+                sdv_expand_rows(make, rows[k]->first, rows[k]->first + rows[k]->count);
     }
 }
 
@@ -9481,7 +11215,7 @@ static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, i
     float *out = makers->records + at;
     sdv_tangents tangents;
     sdv_window window = { out, makers->record, makers->lanes, makers->first,
-                          makers->end - makers->first, NULL };
+                          makers->end - makers->first, 1, NULL };
     memset(&tangents, 0, sizeof tangents);
     tangents.tangents = out + 3;
     tangents.tangent_stride = makers->record;
@@ -9555,21 +11289,63 @@ static void sdv_find_makers(sdv_makers *makers)
     }
 }
 
-// Adds the points of a limit row, as sdv_limit_sums does: the first one's weight is what is left.
-static void sdv_add_limit_row(sdv_stencil_maker *make, const int *row)
+// Adds the points of a limit row of these weights [3][count], as sdv_limit_sums does: the first one's
+// weight is what is left.
+static void sdv_add_limit_weights(sdv_stencil_maker *make, const float *weights, int count,
+                                  const int *points)
 {
-    const sdv_limit_rows *limit = &make->surface->limit;
-    const sdv_limit_weights *mask = &limit->masks[row[0]];
     double left[3] = { 1, 0, 0 }, w[3];
-    sdv_compose_all(make, row + 2, mask->count);
-    for (int i = mask->count - 1; i >= 0 && !make->context->result; i--) {
+    sdv_compose_all(make, points, count);
+    for (int i = count - 1; i >= 0 && !make->context->result; i--) {
         for (int k = 0; k < 3; k++) {
-            w[k] = i ? (double)limit->weights[mask->first + (size_t)(k * mask->count + i)]
-                     : left[k];
+            w[k] = i ? (double)weights[k * count + i] : left[k];
             left[k] -= w[k];
         }
-        sdv_add_work_point(make, row[2 + i], w);
+        sdv_add_work_point(make, points[i], w);
     }
+}
+
+// Adds point i of a limit.
+static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
+{
+    const subdiv_surface *surface = make->surface;
+    const sdv_batch *batch = make->batches[surface->work_count + i];
+    const int *row = make->rows[surface->work_count + i];
+    sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
+    sdv_stencil_row *room = &make->room[0];
+    float weights[3 * 9];
+    if (row) {
+        sdv_add_limit_weights(make, batch->limit, sdv_row_points(&batch->shape), row + 1);
+        return;
+    }
+    int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
+    sdv_grid grid;
+    sdv_grid_at(&surface->order, h, &grid);
+    room->count = 0;
+    sdv_grid_ring(&grid, surface->bases[surface->levels], r, c, limit.mask, room);
+    for (int k = 0; k < room->count; k++) {
+        weights[k] = (float)room->weights[k];
+        weights[room->count + k] = limit.linear ? (float)(k == 1) : (float)limit.along[k];
+        weights[2 * room->count + k] = limit.linear ? (float)(k == 2) : (float)limit.across[k];
+    }
+    int points[9], count = room->count;
+    memcpy(points, room->points, (size_t)count * sizeof *points);
+    sdv_add_limit_weights(make, weights, count, points);
+}
+
+// Point i of the result.
+static void sdv_add_point(sdv_stencil_maker *make, int i)
+{
+    const subdiv_surface *surface = make->surface;
+    const double one[3] = { 1, 0, 0 };
+    sdv_stencil_row *row = &make->room[surface->levels + 1];
+    if (surface->rules.limit) {
+        sdv_add_limit_point(make, i);
+        return;
+    }
+    sdv_level_row(make, surface->levels, i, row);
+    sdv_compose_all(make, row->points, row->count);
+    if (!make->context->result) sdv_add_row(make, row, one);
 }
 
 // Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
@@ -9605,11 +11381,13 @@ static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *
     const float *record = makers->records + makers->record * (size_t)i;
     const double one[3] = { 1, 0, 0 };
     if (row && surface->rules.limit) {
-        sdv_add_limit_row(make, row);
+        const sdv_limit_weights *mask = &surface->limit.masks[row[0]];
+        sdv_add_limit_weights(make, mask->weights, mask->count, row + 2);
     } else if (row) {
         const sdv_weights *mask = &surface->masks.items[row[0]];
         sdv_compose_all(make, row + 2, mask->count);
-        if (!make->context->result) sdv_add_row(make, mask, row + 2, one);
+        sdv_mask_row(&surface->masks, mask, row + 2, &make->room[1]);
+        if (!make->context->result) sdv_add_row(make, &make->room[1], one);
     } else if (record[0] > 0) {
         sdv_add_patch(make, makers, record);
     } else {
@@ -9624,6 +11402,15 @@ static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils
     sdv_stencil_maker make;
     sdv_makers makers;
     sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
+    if (surface->refine) {
+        for (int i = 0; i < count && !context->result; i++) {
+            sdv_add_point(&make, first + i);
+            if (!context->result) sdv_write_stencil(&make, i);
+        }
+        sdv_copy_stencils(&make, count, stencils);
+        sdv_stencil_maker_free(&make);
+        return;
+    }
     sdv_makers_new(context, &make.arena, surface, first, count, &makers);
     if (!context->result) sdv_find_makers(&makers);
     for (int i = 0; i < count && !context->result; i++) sdv_make_refined_stencil(&make, &makers, i);
@@ -10658,7 +12445,7 @@ static void sdv_tile_points_job(void *context, int job)
     double stack[4 * SDV_NEST_STACK], *large = NULL;
     int lanes = s->source->channels;
     sdv_tangents tangents;
-    sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, NULL };
+    sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, 0, NULL };
     memset(&tangents, 0, sizeof tangents);
     tangents.normals = s->normals;
     tangents.stride = 3;
@@ -14257,6 +16044,10 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_IMPLIED
 #undef SDV_DROPPED
 #undef SDV_ROW_BLOCK
+#undef SDV_BLOCK_FACES
+#undef SDV_RUNS
+#undef SDV_PIECE
+#undef SDV_MOST_ROW_LEVELS
 #undef SDV_KNOWN_MASKS
 #undef SDV_QUAD_PATCH_DEPTH
 #undef SDV_LOOP_PATCH_DEPTH
