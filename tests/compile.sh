@@ -8,7 +8,7 @@ out=build/compile
 from=tests/compile
 mkdir -p $out
 
-. tests/step.sh
+. tests/lib/step.sh
 
 # c NAME FILES...: a C program of so many files, compiled, linked and run.
 c() {

@@ -7,7 +7,7 @@ out=build/docs
 rm -rf $out
 mkdir -p $out
 
-. tests/step.sh
+. tests/lib/step.sh
 
 # section TITLE: the indented lines of a section of the opening comment, up to the next title.
 section() {

@@ -2,7 +2,7 @@
 #define SDV_NET_FACES 1                // nets of every kind, however rare
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "random_cage.h"
+#include "lib/random_cage.h"
 
 #include <stdio.h>
 #include <stdlib.h>

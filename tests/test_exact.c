@@ -9,9 +9,9 @@ static size_t most_cell_polynomials = (size_t)1 << 24;
 #define SDV_CELL_POLYNOMIALS most_cell_polynomials
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/test.h"
 
 // ---------------------------------------------------------------------------------- evaluation
 

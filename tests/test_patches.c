@@ -6,9 +6,9 @@
 #define SDV_NET_FACES 1                // nets of every kind, however rare
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/test.h"
 
 // One level of masks: from the values [3 * vertex_count] of a mesh, those of the next level.
 typedef void (*one_level)(const subdiv_mesh *m, const double *in, double *out);

@@ -7,9 +7,9 @@
 #define SDV_NET_FACES 1                // nets of every kind, however rare
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/test.h"
 
 static char where[96];
 
