@@ -1,7 +1,8 @@
 # make          build/subdiv, the command line
 # make demo     refines the cages of examples/cages: OBJ files and pictures in build/
 # make test     all tests; with a C++ compiler and libosd-dev also the comparison with OpenSubdiv
-# make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop"
+# make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop".
+#               And how long it takes to compile; with libstb-dev beside stb_image.h
 # make check    the header under every compiler, standard and sanitizer that is installed
 # make clean
 #
@@ -164,6 +165,7 @@ $(OUT)/bench_obj: examples/bench/obj.c $(OUT)/fast.o
 bench: $(OUT)/bench $(OUT)/bench_obj
 	$(OUT)/bench $(MESHES)
 	$(OUT)/bench_obj
+	sh examples/bench/compile.sh
 
 clean:
 	rm -rf $(OUT)
