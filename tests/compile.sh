@@ -34,6 +34,14 @@ if nm -u $out/no_stdio.o > $out/symbols 2> $out/log && [ -s $out/symbols ]; then
     step "no_stdio references no files" sh -c "! grep -E '$files' $out/symbols"
 fi
 
+# The command line for Windows, where MinGW is installed.
+mingw=x86_64-w64-mingw32-gcc
+if command -v $mingw > $out/log; then
+    step "the command line with MinGW" $mingw -std=c99 -Wall -Wextra -Wpedantic -Werror -I. \
+        examples/subdiv_cli.c -o $out/subdiv.exe
+fi
+
+more=
 if command -v $CXX > $out/log; then
     step "cpp11 compiles" $CXX -std=c++11 $warn -I. $from/cpp11.cpp -o $out/cpp11 -lm
     step "cpp11 runs" $out/cpp11
@@ -41,6 +49,13 @@ if command -v $CXX > $out/log; then
     step "two_files in C and C++" $CXX -std=c++11 $warn -I. $from/two_files_b.cpp \
         $out/two_files_a.o -o $out/two_files_cpp -lm
     step "two_files in C and C++ runs" $out/two_files_cpp
+    # What users of the declarations may have set besides; clang does not know all of it.
+    for option in -Wold-style-cast -Wdouble-promotion -Wuseless-cast; do
+        echo 'int main() { return 0; }' > $out/empty.cpp
+        $CXX -Werror $option -fsyntax-only $out/empty.cpp 2> $out/log && more="$more $option"
+    done
+    step "the declarations under$more" $CXX -std=c++11 $warn $more -I. -fsyntax-only \
+        $from/two_files_b.cpp
 else
     echo "no C++ compiler: the C++ programs are skipped"
 fi
