@@ -103,7 +103,7 @@ $(OUT)/opensubdiv.log: $(OUT)/opensubdiv FORCE
 	$(RUN) $< --continuity --random $(CAGES) tests/oracle/*.obj examples/cages/*.obj
 
 # The longest first.
-CAGES    = 1000
+CAGES   ?= 1000
 HAVE_OSD := $(shell printf '\043include <opensubdiv/far/primvarRefiner.h>\n' | \
               $(CXX) -x c++ -fsyntax-only - 2> /dev/null && echo yes)
 ifeq ($(HAVE_OSD),yes)
@@ -122,18 +122,17 @@ endif
 COMPILERS := $(foreach c,gcc clang,$(if $(shell command -v $c 2> /dev/null),$c))
 CHECK     = $(OUT)/check
 SANITIZE  = -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
-FIRST     = $(firstword $(COMPILERS))
-LAST      = $(lastword $(COMPILERS))
-OWN_TESTS   = $(OWN) $(NETS)
+SANITIZED_LOGS = $(MAKE) --no-print-directory logs CFLAGS="$(SANITIZE)"
+OWN_TESTS = $(OWN) $(NETS)
 PLAIN_TESTS = $(filter-out exact_oracle,$(PLAIN))
 SANITIZED = $(OWN_TESTS:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
-CHECK_LOGS = $(COMPILERS:%=$(CHECK)/%.log) $(CHECK)/simd.log
+CHECK_LOGS = $(CHECK)/simd.log $(COMPILERS:%=$(CHECK)/%.log)
 
 sanitize_own:
-	@$(MAKE) logs OUT=$(CHECK)/own CC=$(FIRST) CFLAGS="$(SANITIZE)" TESTS="$(OWN_TESTS)"
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN_TESTS)"
 
 sanitize_plain:
-	@$(MAKE) logs OUT=$(CHECK)/plain CC=$(LAST) CFLAGS="$(SANITIZE)" TESTS="$(PLAIN_TESTS)"
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/plain CC=$(lastword $(COMPILERS)) TESTS="$(PLAIN_TESTS)"
 
 logs: $(TESTS:%=$(OUT)/%.log)
 
@@ -143,7 +142,7 @@ $(COMPILERS:%=$(CHECK)/%.log): $(CHECK)/%.log: FORCE
 $(CHECK)/simd.log: FORCE
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/simd.sh
 
-check: sanitize_own sanitize_plain $(CHECK_LOGS)
+check: $(CHECK_LOGS) sanitize_own sanitize_plain
 	@sh tests/lib/sum.sh $(SANITIZED) $(CHECK_LOGS)
 
 # ------------------------------------------------------------------------------------------ bench
