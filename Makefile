@@ -1,9 +1,14 @@
 # make          build/subdiv, the command line
 # make demo     refines the cages of examples/cages: OBJ files and pictures in build/
 # make test     all tests; with a C++ compiler and libosd-dev also the comparison with OpenSubdiv
-# make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop"
+# make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop".
+#               And how long it takes to compile; with libstb-dev beside stb_image.h
 # make check    the header under every compiler, standard and sanitizer that is installed
 # make clean
+#
+# Every program here holds the implementation, as a user would write it, and compiles alone: its
+# first comment says how. To save time, the implementation is compiled once, as an object, and
+# SUBDIV_IMPLEMENTED leaves it out of the programs that are linked with that.
 
 CC      ?= cc
 CXX     ?= c++
@@ -11,65 +16,148 @@ CFLAGS  ?= -O2
 WARN    = -Wall -Wextra -Wpedantic
 FLAGS   = -std=c99 $(CFLAGS) $(WARN) -ffp-contract=off -I.
 THREADS = -pthread
+SHARED  = -DSUBDIV_IMPLEMENTED
+OUT     = build
 
-TESTS    = masks order invariants patches evaluate limit exact stencils recorded creases check obj \
-           errors uv partial_uvs tessellate exact_oracle memory
-EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
-           07_threads 08_tessellate 09_stencils 10_spines make_cages
-
-all: build/subdiv
-
-build/subdiv: examples/subdiv_cli.c subdiv.h | build
-	$(CC) $(FLAGS) $(THREADS) $< -o $@ -lm
-
-build/demo: examples/demo.c examples/render.c examples/picture.c examples/render.h subdiv.h | build
-	$(CC) $(FLAGS) $(filter %.c,$^) -o $@ -lm
-
-build/%: examples/%.c subdiv.h | build
-	$(CC) $(FLAGS) $(THREADS) $< -o $@ -lm
-
-build/test_%: tests/test_%.c $(wildcard tests/*.h) subdiv.h | build
-	$(CC) $(FLAGS) $(THREADS) $< -o $@ -lm
-
-build/opensubdiv: tests/opensubdiv.cpp $(wildcard tests/*.h) subdiv.h | build
-	$(CXX) -std=c++14 $(CFLAGS) -I. $< -o $@ -losdCPU
-
-# With OpenSubdiv where it is installed.
-HAVE_OSD = $(shell printf '\043include <opensubdiv/far/primvarRefiner.h>\n' | \
-             $(CXX) -x c++ -fsyntax-only - 2> /dev/null && echo yes)
-BENCH    = -O3 -DBENCH_FLAGS='"-O3"' examples/bench.c
-
-build/bench: examples/bench.c examples/bench.h examples/bench_opensubdiv.cpp subdiv.h | build
-ifeq ($(HAVE_OSD),yes)
-	$(CC) $(FLAGS) -DBENCH_PEER $(BENCH) -c -o build/bench.o
-	$(CXX) -std=c++14 -O3 $(WARN) -I. -c examples/bench_opensubdiv.cpp -o build/bench_opensubdiv.o
-	$(CXX) build/bench.o build/bench_opensubdiv.o -o $@ -losdCPU $(THREADS) -lm
-else
-	$(CC) $(FLAGS) $(BENCH) -o $@ $(THREADS) -lm
+# On all cores, unless told otherwise by -j.
+CORES   := $(shell nproc 2> /dev/null || getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
+ifeq ($(MAKELEVEL)$(filter -j% --jobserver%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(CORES)
 endif
 
-build/bench_obj: examples/bench_obj.c subdiv.h | build
-	$(CC) $(FLAGS) -O3 $< -o $@ -lm
+# Tests that look inside or bring an allocator compile the implementation themselves.
+OWN      = evaluate memory exact patches obj_numbers
+PLAIN    = tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
+           recorded creases check errors uv partial_uvs
+TESTS    = $(OWN) $(PLAIN)
+EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
+           07_threads 08_tessellate 09_stencils 10_spines
+HELPERS  = $(wildcard tests/lib/*.h)
 
-build:
-	mkdir -p build
+all: $(OUT)/subdiv
 
-demo: build/demo
-	build/demo examples/cages build
+# ------------------------------------------------------------------------- the implementation, once
 
-examples: $(EXAMPLES:%=build/%)
+$(OUT)/plain.o: subdiv.h | $(OUT)
+	$(CC) $(FLAGS) -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
 
-test: build/subdiv examples $(TESTS:%=build/test_%)
-	CC="$(CC)" CXX="$(CXX)" sh tests/run.sh $(TESTS:%=build/test_%)
+$(OUT)/fast.o: subdiv.h | $(OUT)
+	$(CC) $(FLAGS) -O3 -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
 
-bench: build/bench build/bench_obj
-	build/bench $(MESHES)
-	build/bench_obj
+$(OUT):
+	mkdir -p $@
 
-check:
-	sh tests/check.sh
+# --------------------------------------------------------------------------------------- examples
+
+$(OUT)/subdiv: examples/subdiv_cli.c $(OUT)/plain.o
+	$(CC) $(FLAGS) $(THREADS) $(SHARED) $^ -o $@ -lm
+
+$(EXAMPLES:%=$(OUT)/%): $(OUT)/%: examples/%.c $(OUT)/plain.o
+	$(CC) $(FLAGS) $(THREADS) $(SHARED) $^ -o $@ -lm
+
+$(OUT)/make_cages: examples/demo/make_cages.c | $(OUT)
+	$(CC) $(FLAGS) $< -o $@ -lm
+
+$(OUT)/demo: examples/demo/demo.c examples/demo/render.c examples/demo/picture.c $(OUT)/plain.o \
+             examples/demo/render.h
+	$(CC) $(FLAGS) $(SHARED) $(filter-out %.h,$^) -o $@ -lm
+
+examples: $(EXAMPLES:%=$(OUT)/%) $(OUT)/make_cages
+
+demo: $(OUT)/demo
+	$(OUT)/demo examples/cages $(OUT)
+
+# ------------------------------------------------------------------------------------------ tests
+
+$(OWN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(HELPERS) subdiv.h | $(OUT)
+	$(CC) $(FLAGS) $(THREADS) $< -o $@ -lm
+
+$(PLAIN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(OUT)/plain.o $(HELPERS)
+	$(CC) $(FLAGS) $(THREADS) $(SHARED) $< $(OUT)/plain.o -o $@ -lm
+
+$(OUT)/opensubdiv: $(wildcard tests/opensubdiv/*) $(OUT)/plain.o $(HELPERS)
+	$(CXX) -std=c++14 $(CFLAGS) $(SHARED) -I. tests/opensubdiv/opensubdiv.cpp $(OUT)/plain.o \
+		-o $@ -losdCPU
+
+# What a test says goes to a log, so that several can run at once; it is shown when the test ends.
+RUN = @sh tests/lib/run.sh $@
+
+$(TESTS:%=$(OUT)/%.log): $(OUT)/%.log: $(OUT)/test_% FORCE
+	$(RUN) $<
+
+$(OUT)/cli.log: $(OUT)/subdiv FORCE
+	$(RUN) sh tests/test_cli.sh $<
+
+$(OUT)/compile.log $(OUT)/docs.log: $(OUT)/%.log: FORCE | $(OUT)
+	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/$*.sh
+
+$(OUT)/opensubdiv.log: $(OUT)/opensubdiv FORCE
+	$(RUN) $< --continuity --random $(CAGES) tests/oracle/*.obj examples/cages/*.obj
+
+# The longest first.
+CAGES   ?= 1000
+HAVE_OSD := $(shell printf '\043include <opensubdiv/far/primvarRefiner.h>\n' | \
+              $(CXX) -x c++ -fsyntax-only - 2> /dev/null && echo yes)
+ifeq ($(HAVE_OSD),yes)
+TEST_LOGS = $(OUT)/opensubdiv.log
+endif
+TEST_LOGS += $(OUT)/compile.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) $(OUT)/cli.log
+
+test: $(TEST_LOGS) examples
+ifneq ($(HAVE_OSD),yes)
+	@echo "The comparison with OpenSubdiv was SKIPPED: it needs a C++ compiler and libosd-dev."
+endif
+	@sh tests/lib/sum.sh $(TEST_LOGS)
+
+# The sanitizers share the tests: those that take an implementation of their own go to the first
+# compiler, the others to the last.
+COMPILERS := $(foreach c,gcc clang,$(if $(shell command -v $c 2> /dev/null),$c))
+CHECK     = $(OUT)/check
+SANITIZE  = -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+SANITIZED_LOGS = $(MAKE) --no-print-directory logs CFLAGS="$(SANITIZE)"
+PLAIN_TESTS = $(filter-out exact_oracle,$(PLAIN))
+SANITIZED = $(OWN:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
+CHECK_LOGS = $(CHECK)/simd.log $(COMPILERS:%=$(CHECK)/%.log)
+
+sanitize_own:
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)"
+
+sanitize_plain:
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/plain CC=$(lastword $(COMPILERS)) TESTS="$(PLAIN_TESTS)"
+
+logs: $(TESTS:%=$(OUT)/%.log)
+
+$(COMPILERS:%=$(CHECK)/%.log): $(CHECK)/%.log: FORCE
+	$(RUN) sh tests/check.sh $*
+
+$(CHECK)/simd.log: FORCE
+	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/simd.sh
+
+check: $(CHECK_LOGS) sanitize_own sanitize_plain
+	@sh tests/lib/sum.sh $(SANITIZED) $(CHECK_LOGS)
+
+# ------------------------------------------------------------------------------------------ bench
+
+BENCH = $(FLAGS) -O3 $(SHARED)
+
+$(OUT)/bench: $(wildcard examples/bench/*) $(OUT)/fast.o
+ifeq ($(HAVE_OSD),yes)
+	$(CC) $(BENCH) -DBENCH_FLAGS='"-O3"' -DBENCH_PEER -c examples/bench/bench.c -o $@.o
+	$(CXX) -std=c++14 -O3 $(WARN) -I. -c examples/bench/opensubdiv.cpp -o $@_opensubdiv.o
+	$(CXX) $@.o $@_opensubdiv.o $(OUT)/fast.o -o $@ -losdCPU $(THREADS) -lm
+else
+	$(CC) $(BENCH) -DBENCH_FLAGS='"-O3"' examples/bench/bench.c $(OUT)/fast.o -o $@ $(THREADS) -lm
+endif
+
+$(OUT)/bench_obj: examples/bench/obj.c $(OUT)/fast.o
+	$(CC) $(BENCH) $^ -o $@ -lm
+
+bench: $(OUT)/bench $(OUT)/bench_obj
+	$(OUT)/bench $(MESHES)
+	$(OUT)/bench_obj
+	sh examples/bench/compile.sh
 
 clean:
-	rm -rf build
+	rm -rf $(OUT)
 
-.PHONY: all demo examples test bench check clean
+.PHONY: all demo examples test logs check sanitize_own sanitize_plain bench clean FORCE

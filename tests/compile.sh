@@ -8,7 +8,7 @@ out=build/compile
 from=tests/compile
 mkdir -p $out
 
-. tests/step.sh
+. tests/lib/step.sh
 
 # c NAME FILES...: a C program of so many files, compiled, linked and run.
 c() {
@@ -34,6 +34,59 @@ if nm -u $out/no_stdio.o > $out/symbols 2> $out/log && [ -s $out/symbols ]; then
     step "no_stdio references no files" sh -c "! grep -E '$files' $out/symbols"
 fi
 
+# Less of the library, each part left out alone and all of them together. parts.c is C++ as well.
+# What is left out is not there.
+exact='subdiv_(evaluate_at|tessellate|surface_tessellate|stencils_at)'
+tools='subdiv_(explain|check|inspect|crease_by_(angle|smoothing_groups|uv_seams))'
+obj='subdiv_(load|save|stream)_obj'
+
+# without NAME FUNCTIONS FLAGS...
+without() {
+    name=without_$1
+    functions=$2
+    shift 2
+    c $name "$@" $from/parts.c
+    if command -v $CXX > $out/log; then
+        step "$name compiles in C++" $CXX -x c++ -std=c++11 $warn -I. "$@" $from/parts.c \
+            -o $out/${name}_cpp -lm
+        step "$name runs in C++" $out/${name}_cpp
+    fi
+    if nm $out/$name > $out/symbols 2> $out/log; then
+        step "$name has none of it" sh -c "! grep -E ' _?$functions' $out/symbols"
+    fi
+}
+
+without exact "$exact" -DSUBDIV_NO_EXACT
+without tools "$tools" -DSUBDIV_NO_TOOLS
+without obj "$obj" -DSUBDIV_NO_OBJ
+without all "($exact|$tools|$obj)" -DSUBDIV_NO_EXACT -DSUBDIV_NO_TOOLS -DSUBDIV_NO_OBJ
+
+# macros FLAGS...: prints what the header has defined and not undefined, apart from SUBDIV_...
+macros() {
+    printf '#define SUBDIV_IMPLEMENTATION\n#include "subdiv.h"\n' > $out/macros.c
+    $CC -std=c99 -I. "$@" -E -dD $out/macros.c | awk '
+        /^# [0-9]+ "/ { inside = $3 ~ /subdiv\.h"$/ }
+        inside && /^#(define|undef) / { sub(/\(.*/, "", $2) }
+        inside && /^#define / { defined[$2] = 1 }
+        inside && /^#undef / { delete defined[$2] }
+        END { for (name in defined) if (name !~ /^SUBDIV_/) { print name; left = 1 }; exit left }'
+}
+
+# All names are those of the public API.
+if $CC -E -dD -x c /dev/null > $out/log 2>&1; then
+    step "no private macro is left" macros
+    step "nor without SIMD" macros -DSUBDIV_NO_SIMD
+    step "nor of less" macros -DSUBDIV_NO_EXACT -DSUBDIV_NO_TOOLS -DSUBDIV_NO_OBJ -DSUBDIV_NO_STDIO
+fi
+
+# The command line for Windows, where MinGW is installed.
+mingw=x86_64-w64-mingw32-gcc
+if command -v $mingw > $out/log; then
+    step "the command line with MinGW" $mingw -std=c99 -Wall -Wextra -Wpedantic -Werror -I. \
+        examples/subdiv_cli.c -o $out/subdiv.exe
+fi
+
+more=
 if command -v $CXX > $out/log; then
     step "cpp11 compiles" $CXX -std=c++11 $warn -I. $from/cpp11.cpp -o $out/cpp11 -lm
     step "cpp11 runs" $out/cpp11
@@ -41,6 +94,15 @@ if command -v $CXX > $out/log; then
     step "two_files in C and C++" $CXX -std=c++11 $warn -I. $from/two_files_b.cpp \
         $out/two_files_a.o -o $out/two_files_cpp -lm
     step "two_files in C and C++ runs" $out/two_files_cpp
+    # What users of the declarations may have set besides; clang does not know all of it.
+    for option in -Wold-style-cast -Wdouble-promotion -Wuseless-cast; do
+        echo 'int main() { return 0; }' > $out/empty.cpp
+        $CXX -Werror $option -fsyntax-only $out/empty.cpp 2> $out/log && more="$more $option"
+    done
+    step "the declarations under$more" $CXX -std=c++11 $warn $more -I. -fsyntax-only \
+        $from/two_files_b.cpp
+    step "the implementation under$more" $CXX -std=c++11 $warn $more -I. -fsyntax-only \
+        $from/cpp11.cpp
 else
     echo "no C++ compiler: the C++ programs are skipped"
 fi

@@ -2,7 +2,7 @@
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "random_cage.h"
+#include "lib/random_cage.h"
 
 #include <stdio.h>
 #include <stdlib.h>

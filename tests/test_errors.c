@@ -11,8 +11,8 @@
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "test.h"
-#include "same.h"
+#include "lib/test.h"
+#include "lib/same.h"
 
 // ---------------------------------------------------------------- a good mesh, broken one by one
 

@@ -9,9 +9,9 @@ static size_t most_cell_polynomials = (size_t)1 << 24;
 #define SDV_CELL_POLYNOMIALS most_cell_polynomials
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/test.h"
 
 // ---------------------------------------------------------------------------------- evaluation
 
@@ -752,7 +752,10 @@ static void test_batches(void)
     }
 }
 
-// With more polynomials than cells can number, the tree finds the others.
+// With more polynomials than cells can number, the tree finds the others. Each face of a nest has
+// three on every level whose polynomials are kept.
+enum { NEST_DEPTH = 4 };
+
 static void test_many_polynomials(void)
 {
     static subdiv_location at[MANY];
@@ -769,7 +772,7 @@ static void test_many_polynomials(void)
             subdiv_evaluate_begin(surface, 3, c->mesh.positions, 0, scratch, NULL);
             CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, MANY, at, &out, NULL), SUBDIV_OK);
             size_t count = (size_t)surface->exact->polynomial_count +
-                           3 * SDV_NEST_DEPTH * (size_t)surface->exact->nest_face_count;
+                           3 * NEST_DEPTH * (size_t)surface->exact->nest_face_count;
             most_cell_polynomials = k ? (size_t)1 << 24 : (size_t)i * count / 200;
             free(scratch);
             subdiv_surface_free(surface);

@@ -9,10 +9,10 @@
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "exact_oracle.h"
-#include "random_cage.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/exact_oracle.h"
+#include "lib/random_cage.h"
+#include "lib/test.h"
 
 // Faces that repeat a vertex are left out: whether a vertex is manifold then is told differently.
 enum { FEATURES = RANDOM_ALL & ~RANDOM_DEGENERATE, PLACES = 16, MOST_PLACES = 512 };

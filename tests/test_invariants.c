@@ -1,11 +1,13 @@
 // What refinement must not change, over simple and many random cages: affine maps, planes, labels,
 // winding, the Euler characteristic, manifolds, boundaries, one call or several, and its input.
+//
+//     cc -I. tests/test_invariants.c -o build/test_invariants -lm && build/test_invariants
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "same.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/same.h"
+#include "lib/test.h"
 
 // ----------------------------------------------------------------------------------- the cages
 

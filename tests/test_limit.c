@@ -8,10 +8,10 @@
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "same.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/same.h"
+#include "lib/test.h"
 
 typedef struct vec { double x[3]; } vec;
 

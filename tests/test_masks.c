@@ -2,10 +2,12 @@
 // refined coordinate of a point is the weight of that vertex in its mask. Three coordinates measure
 // three vertices at once, so a few refinements give the whole matrix of weights, which is compared
 // with the formulas of the literature written out below.
+//
+//     cc -I. tests/test_masks.c -o build/test_masks -lm && build/test_masks
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/test.h"
 
 static test_cage cage;
 

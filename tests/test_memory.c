@@ -13,8 +13,8 @@ static void  heap_free(void *pointer, void *user);
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "test.h"
-#include "same.h"
+#include "lib/test.h"
+#include "lib/same.h"
 
 // ------------------------------------------------------------------------- the allocator's books
 

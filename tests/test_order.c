@@ -2,11 +2,13 @@
 // Bilinear refinement puts each point at a place that is known beforehand, so its index can be
 // checked by its position. Loop does so too where all edges are infinitely sharp and all vertices
 // corners, and Catmull-Clark on a regular planar grid with sharp corners.
+//
+//     cc -I. tests/test_order.c -o build/test_order -lm && build/test_order
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/test.h"
 
 static test_cage cage;
 

@@ -1,7 +1,7 @@
 // Refines small cages of every kind and compares with what OpenSubdiv made of them: the numbers in
 // tests/oracle, see the README there. Runs in the root of the project.
 //
-//     test_recorded [directory]
+//     cc -I. tests/test_recorded.c -o build/test_recorded -lm && build/test_recorded [DIRECTORY]
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 
-#include "order.h"
-#include "test.h"
+#include "lib/order.h"
+#include "lib/test.h"
 
 enum { LEVELS = 2, LEAST_CAGES = 57 };
 

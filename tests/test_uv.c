@@ -1,11 +1,13 @@
 // Face-varying values: what refinement must do with UVs by every rule, over random cages. The main
 // oracle is a cage of its own, made of the values: what is true of positions is true of UVs there.
+//
+//     cc -I. tests/test_uv.c -o build/test_uv -lm && build/test_uv
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "cages.h"
-#include "random_cage.h"
-#include "same.h"
-#include "test.h"
+#include "lib/cages.h"
+#include "lib/random_cage.h"
+#include "lib/same.h"
+#include "lib/test.h"
 
 enum { RULES = 6 };
 

@@ -17,8 +17,8 @@ static int cube_is_right(void)
     cube.face_size = 4;
     cube.face_vertices = F;
     if (subdiv_refine(&fine, &cube, 1, NULL)) return 0;
-    double error = (double)fine.positions[0] + 5.0 / 9;
-    int right = fine.vertex_count == 26 && fine.face_count == 24 && error * error < 1e-12;
+    float error = fine.positions[0] + 5.0f / 9;
+    int right = fine.vertex_count == 26 && fine.face_count == 24 && error * error < 1e-12f;
     subdiv_mesh_free(&fine);
     return right;
 }

@@ -1,7 +1,7 @@
 // bench_obj: how fast OBJ files are read and written, beside what the machine needs for the bytes
 // alone. One thread; a torus of 2 million quads, with positions only and with UVs and normals.
 //
-//     cc -O3 -I. examples/bench_obj.c -o build/bench_obj -lm && build/bench_obj      (POSIX)
+//     cc -O3 -I. examples/bench/obj.c -o build/bench_obj -lm && build/bench_obj      (POSIX)
 //
 // The file stands in /dev/shm, which is memory, or else in the current folder. Runs of ours and the
 // machine's alternate, so that whatever slows the machine slows both.

@@ -1,7 +1,8 @@
 // The main job, shown: loads each cage, refines it, saves the result as OBJ, and draws the cage and
 // its levels 1, 2 and 4 side by side.
 //
-//     demo CAGES OUTPUT               the directory of the cages, and where the results go
+//     cd examples/demo && cc -O2 -I../.. demo.c render.c picture.c -o ../../build/demo -lm
+//     build/demo CAGES OUTPUT         the directory of the cages, and where the results go
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 

@@ -5,9 +5,9 @@
 // FILE is an OBJ file, or torus or torus-triangles, of about a million faces each. Without LEVEL it
 // is refined as far as 3 million vertices allow. Without arguments: both tori and examples/cages.
 //
-//     cc -O3 -I. examples/bench.c -o build/bench -lpthread -lm          (POSIX)
+//     cc -O3 -I. examples/bench/bench.c -o build/bench -lpthread -lm          (POSIX)
 //
-// To compare, add -DBENCH_PEER and link bench_opensubdiv.cpp with -losdCPU. Runs of ours, theirs
+// To compare, add -DBENCH_PEER and link opensubdiv.cpp with -losdCPU. Runs of ours, theirs
 // and the machine's alternate, so that whatever slows the machine slows all three.
 
 #define _POSIX_C_SOURCE 200809L

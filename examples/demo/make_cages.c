@@ -1,7 +1,8 @@
 // Makes the cages of the demo: a little modelling kit (turn a profile, cap it, grow faces out of
 // faces, sharpen a rim), then four models built with it.
 //
-//     make_cages DIRECTORY            writes octopus.obj camera.obj lotus.obj whale.obj
+//     cc examples/demo/make_cages.c -o build/make_cages -lm
+//     build/make_cages DIRECTORY      writes octopus.obj camera.obj lotus.obj whale.obj
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -258,7 +259,7 @@ static int save(const cage *c, const char *directory, const char *name, const ch
     snprintf(path, sizeof path, "%s/%s.obj", directory, name);
     FILE *file = fopen(path, "w");
     if (!file) { printf("%s: cannot be written\n", path); return 1; }
-    fprintf(file, "# %s: %s; made by examples/make_cages.c\n", name, comment);
+    fprintf(file, "# %s: %s; made by examples/demo/make_cages.c\n", name, comment);
     for (int v = 0; v < c->vertex_count; v++) {
         vec p = c->position[v];
         fprintf(file, "v %.4g %.4g %.4g\n", (double)p.x, (double)p.y, (double)p.z);

@@ -1,5 +1,5 @@
-# For the scripts here, which set out to a folder below build: step NAME COMMAND runs the command
-# and counts it in passed or failed; of a failure it shows the command and what that printed.
+# For the scripts of tests, which set out to a folder below build: step NAME COMMAND runs the
+# command and counts it in passed or failed; of a failure it shows the command and what it printed.
 passed=0
 failed=0
 

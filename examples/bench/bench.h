@@ -1,4 +1,4 @@
-// What bench.c asks of the library it compares with; bench_opensubdiv.cpp answers. bench.c is built
+// What bench.c asks of the library it compares with; opensubdiv.cpp answers. bench.c is built
 // with BENCH_PEER defined when that is linked in.
 #ifndef BENCH_H
 #define BENCH_H
