@@ -66,13 +66,15 @@
         *    >>sharpness how creases and corners fade
         *    >>masks     THE LECTURE: face, edge and vertex points of every scheme
              >>order     where each point of the result stands
-             >>rows      masks written out as rows of weights
+             >>rows      masks written out as rows of weights, and these in batches
+             >>lines     rows of finer levels, which follow from where the points stand
              >>split     the faces, edges and sharpness of the next level, where needed
              >>patches   regular faces: their control points
              >>face-varying  UVs: a topology of their own
              >>prepare   all levels of a cage, as far as they are needed
         *    >>evaluate  values through the rows; patches in closed form
              >>limit-surface  the same in the limit, with tangents and normals
+        *    >>grids     the general step: points of a level from those of the level before
              >>exact-surface  and anywhere between the points: >>nests around irregular vertices,
                          the >>tree of all leaves, >>locations on it and the >>cells of those,
                          their >>polynomials, >>samples of them
@@ -5914,7 +5916,10 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
         points[1 + i] = fill->line[m - 1];
         points[1 + sides + i] = fill->right[m - 1];
     }
-    if (fill->rules->linear) points[2] = fill->left[m - 1];
+    if (fill->rules->linear) {              // of the quad at vertex 0
+        points[2] = points[1];
+        points[1] = points[sides];
+    }
     sdv_limit_batch_row(limit, fill->rules->linear ? SDV_TIP : SDV_RING, fill->rules->linear ? 0 : sides,
                       centre);
 }
@@ -7743,13 +7748,13 @@ SDV_INLINE void sdv_limit_quad(const sdv_grid_limit *l, const sdv_four *a, const
     sdv_four right = sdv_plus(a[k + 1], c[k + 1]), left = sdv_plus(a[k - 1], c[k - 1]);
     sdv_four up = sdv_plus(c[k - 1], c[k + 1]), down = sdv_plus(a[k - 1], a[k + 1]);
     sdv_four edges = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(a[k], c[k]));
-    sdv_four near = sdv_all((float)l->along[1]), far = sdv_all((float)l->along[5]);
+    sdv_four edge = sdv_all((float)l->along[1]), face = sdv_all((float)l->along[5]);
     p[0] = sdv_plus(sdv_plus(sdv_times(sdv_all((float)l->mask.self), b[k]),
                              sdv_times(sdv_all((float)l->mask.edge), edges)),
                     sdv_times(sdv_all((float)l->mask.face), sdv_plus(left, right)));
-    p[1] = sdv_plus(sdv_times(near, sdv_minus(b[k + 1], b[k - 1])),
-                    sdv_times(far, sdv_minus(right, left)));
-    p[2] = sdv_plus(sdv_times(near, sdv_minus(c[k], a[k])), sdv_times(far, sdv_minus(up, down)));
+    p[1] = sdv_plus(sdv_times(edge, sdv_minus(b[k + 1], b[k - 1])),
+                    sdv_times(face, sdv_minus(right, left)));
+    p[2] = sdv_plus(sdv_times(edge, sdv_minus(c[k], a[k])), sdv_times(face, sdv_minus(up, down)));
 }
 
 // Around a vertex, counter-clockwise from the right: b[k+1] c[k] c[k-1] b[k-1] a[k] a[k+1].
@@ -7859,9 +7864,10 @@ static int sdv_share(int count, int i, int jobs)
 
 #define SDV_MOST_JOBS 256
 
-static int sdv_jobs(int64_t work, int64_t least)
+// For so much work, and no more for any job than this, if threads are lent.
+static int sdv_jobs(const subdiv_options *opt, int64_t work, int64_t least)
 {
-    int64_t jobs = work / least;
+    int64_t jobs = opt && opt->run ? work / least : 1;
     return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
@@ -7943,7 +7949,7 @@ static void sdv_make_level_points(sdv_evaluation *e, const subdiv_options *opt)
     int last = surface->rules.limit ? surface->levels : surface->levels - 1;
     for (e->step = -1; e->step < last; e->step++) {
         int level = e->step < 0 ? 0 : e->step + 1;
-        e->jobs = sdv_jobs(surface->bases[level + 1] - surface->bases[level], 4096);
+        e->jobs = sdv_jobs(opt, surface->bases[level + 1] - surface->bases[level], 1024);
         sdv_run(opt, sdv_level_job, e, e->jobs);
     }
 }
@@ -7952,7 +7958,7 @@ static void sdv_make_level_points(sdv_evaluation *e, const subdiv_options *opt)
 static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
-    e->jobs = sdv_jobs(surface->cage_vertex_count, 4096);
+    e->jobs = sdv_jobs(opt, surface->cage_vertex_count, 4096);
     sdv_run(opt, sdv_input_job, e, e->jobs);
     if (surface->refine) {
         sdv_make_level_points(e, opt);
@@ -7960,9 +7966,9 @@ static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
     }
     for (e->step = 0; e->step < surface->levels; e->step++) {
         const sdv_step *step = &surface->steps[e->step];
-        e->jobs = sdv_jobs(step->faces.count, 4096);
+        e->jobs = sdv_jobs(opt, step->faces.count, 4096);
         sdv_run(opt, sdv_face_point_job, e, e->jobs);
-        e->jobs = sdv_jobs(step->vertices.count + step->edges.count, 4096);
+        e->jobs = sdv_jobs(opt, step->vertices.count + step->edges.count, 4096);
         sdv_run(opt, sdv_point_job, e, e->jobs);
     }
 }
@@ -8007,7 +8013,7 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
     }
     if (surface->cage_face_count == 0) e->end_face = 1;    // vertices without faces go with face 0
     if (e->end_face == e->first_face) return;
-    e->jobs = sdv_jobs(surface->fine.vertex_count, 4096);
+    e->jobs = sdv_jobs(opt, surface->fine.vertex_count, 1024);
     sdv_run(opt, sdv_face_job, e, e->jobs);
 }
 
@@ -8357,7 +8363,7 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertice
         sdv_copy_faces_out(surface, face_vertices, cage_faces);
         return;
     }
-    out.jobs = sdv_jobs(surface->face_count, 1);
+    out.jobs = sdv_jobs(opt, surface->face_count, 1);
     sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
 }
 
@@ -10106,9 +10112,9 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
     work.doubles = e.memory.work;
     sdv_make_work(&work, opt);
     const sdv_exact *exact = e.surface->exact;
-    e.jobs = sdv_jobs(exact->patch_count, 256);
+    e.jobs = sdv_jobs(opt, exact->patch_count, 256);
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
-    e.jobs = sdv_jobs(exact->nest_count, 16);
+    e.jobs = sdv_jobs(opt, exact->nest_count, 16);
     sdv_run(opt, sdv_exact_nests_job, &e, e.jobs);
     for (int i = 0; i < exact->nest_count; i++)         // they are few, and there is room for one
         if (sdv_nest_work(exact, i) > SDV_NEST_STACK) sdv_nest_polynomials(&e, i, e.memory.nest);
@@ -10620,7 +10626,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.normal_stride = (size_t)(out->stride ? out->stride : 3);
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
-    e.jobs = sdv_jobs(count, 1024);
+    e.jobs = sdv_jobs(opt, count, 1024);
     sdv_run(opt, sdv_locations_job, &e, e.jobs);
     if (memchr(e.refused, 1, sizeof e.refused))
         sdv_check_locations(&context, surface, count, locations);
@@ -12480,7 +12486,7 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     s.normals = normals;
     s.count = count;
     s.user = context->user;
-    s.jobs = sdv_jobs((int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
+    s.jobs = sdv_jobs(opt, (int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
     sdv_run(opt, sdv_tile_points_job, &s, s.jobs);
     if (memchr(s.failed, 1, sizeof s.failed))
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
@@ -12673,7 +12679,7 @@ static void sdv_tile_job(void *context, int job)
 static void sdv_make_tiles(sdv_tessellator *t)
 {
     int *hole = t->mesh.holes, faces = t->points.cage->face_count;
-    t->jobs = sdv_jobs(faces, 1);
+    t->jobs = sdv_jobs(t->opt, faces, 1);
     sdv_run(t->opt, sdv_tile_job, t, t->jobs);
     for (int f = 0; f < faces && t->mesh.hole_count; f++)
         for (size_t i = t->first_face[f]; i < t->first_face[f + 1] && t->surface->hole[f]; i++)

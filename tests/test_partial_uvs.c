@@ -6,9 +6,9 @@
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
-#include "random_cage.h"
-#include "same.h"
-#include "test.h"
+#include "lib/random_cage.h"
+#include "lib/same.h"
+#include "lib/test.h"
 
 enum { CAGES = 600 };
 

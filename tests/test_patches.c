@@ -449,8 +449,8 @@ static void test_sharpness_around_levels(void)
     for_random_cages(300, RANDOM_ALL & ~RANDOM_DEGENERATE, check_around_levels);
 }
 
-// Faces whose vertices have other valences than the regular one, and two of them such a valence. Sharp: a corner, the end of a crease, a crease, three of
-// them, for a while or forever.
+// Faces whose vertices have other valences than the regular one, and two of them such a valence.
+// Sharp: a corner, the end of a crease, a crease, three of them, for a while or forever.
 static void sharpen_vertex(test_cage *c, int n, int set, double sharpness)
 {
     if (set == 1) cage_corner(c, 0, sharpness);

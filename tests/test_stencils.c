@@ -455,7 +455,7 @@ static void test_papers(void)
         subdiv_stencils_free(&s);
     }
     s = stencils_of(&c.mesh, 1, 1);
-    SHARES(&s, s.du, 0, { 2, 4, 1 }, { 4, 1, 1 }, { 3, 0, 1 });
+    SHARES(&s, s.du, 0, { 2, 2, 1 }, { 4, 1, 2 }, { 3, 0, 1 });
     subdiv_stencils_free(&s);
 
     build_torus(&c, SUBDIV_LOOP, 6, 6);
