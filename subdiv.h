@@ -7863,6 +7863,9 @@ static int sdv_share(int count, int i, int jobs)
 }
 
 #define SDV_MOST_JOBS 256
+#ifndef SDV_JOB_POINTS                  // (tests ask for smaller jobs)
+#define SDV_JOB_POINTS 1024
+#endif
 
 // For so much work, and no more for any job than this, if threads are lent.
 static int sdv_jobs(const subdiv_options *opt, int64_t work, int64_t least)
@@ -7949,7 +7952,8 @@ static void sdv_make_level_points(sdv_evaluation *e, const subdiv_options *opt)
     int last = surface->rules.limit ? surface->levels : surface->levels - 1;
     for (e->step = -1; e->step < last; e->step++) {
         int level = e->step < 0 ? 0 : e->step + 1;
-        e->jobs = sdv_jobs(opt, surface->bases[level + 1] - surface->bases[level], 1024);
+        e->jobs = sdv_jobs(opt, surface->bases[level + 1] - surface->bases[level],
+                           SDV_JOB_POINTS);
         sdv_run(opt, sdv_level_job, e, e->jobs);
     }
 }
@@ -8013,7 +8017,7 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
     }
     if (surface->cage_face_count == 0) e->end_face = 1;    // vertices without faces go with face 0
     if (e->end_face == e->first_face) return;
-    e->jobs = sdv_jobs(opt, surface->fine.vertex_count, 1024);
+    e->jobs = sdv_jobs(opt, surface->fine.vertex_count, SDV_JOB_POINTS);
     sdv_run(opt, sdv_face_job, e, e->jobs);
 }
 
@@ -16061,6 +16065,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_STRIP_LEVELS
 #undef SDV_WAITING
 #undef SDV_MOST_JOBS
+#undef SDV_JOB_POINTS
 #undef SDV_EXACT_LEVELS
 #undef SDV_NEST_DEPTH
 #undef SDV_NEST_FAR

@@ -16,6 +16,7 @@ static void *count_malloc(size_t size)
 #define SUBDIV_MALLOC(size, user)  ((void)(user), count_malloc(size))
 #define SUBDIV_FREE(pointer, user) ((void)(user), free(pointer))
 
+#define SDV_JOB_POINTS 4               // jobs of a few points, so that small cages take many
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "lib/cages.h"
