@@ -3044,7 +3044,7 @@ typedef struct sdv_batcher {
     int         *points;                // room for those of a row
     int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
     int         *polygon;               // with so many faces, and for face points; or -1
-    int          most, edge;            // the number of that for smooth edges, or -1
+    int          most;
     int          polygons;              // the rows are of the cage's face points
 } sdv_batcher;
 
@@ -3054,7 +3054,6 @@ static void sdv_begin_batches(sdv_context *context, sdv_arena *arena, sdv_batche
     batcher->context = context;
     batcher->arena = arena;
     batcher->scratch = sdv_scratch();
-    batcher->edge = -1;
     for (int i = 0; i < 256; i++) batcher->known[i] = -1;
 }
 
@@ -3383,15 +3382,14 @@ static sdv_mask sdv_spread_edge(sdv_mask mask, int faces)
     return mask;
 }
 
-// The point inside the face of h that is next to its vertex; in a face without, the centre.
-static int sdv_inside_corner(const sdv_order *order, int h)
+// The point inside face f that is next to its vertex i; if there is one only, that.
+static int sdv_inside_corner(const sdv_order *order, int f, int i)
 {
     const sdv_level *cage = &order->cage;
-    int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), n = order->n, m = order->m;
-    int inside = sdv_first_inside(order, f), i = h - start;
+    int inside = sdv_first_inside(order, f), n = order->n, m = order->m;
     if (m == 1) return inside;
     if (sdv_is_ngon(order, f))
-        return sdv_inside_ngon(inside, sdv_face_end(cage, f) - start, m, i);
+        return sdv_inside_ngon(inside, sdv_face_end(cage, f) - sdv_face_start(cage, f), m, i);
     return inside + (i >= 2 ? (n - 2) * (n - 1) : 0) + (i == 1 || i == 2 ? n - 2 : 0);
 }
 
@@ -3414,9 +3412,10 @@ static int sdv_point_behind(const sdv_level *level, int h)
 
 static int sdv_point_across(const sdv_level *level, int h)
 {
-    int across = sdv_next(level, sdv_next(level, h));
-    return level->first_point + (level->order ? sdv_inside_corner(level->order, h)
-                                              : level->face_vertices[across]);
+    int f = sdv_face_of(level, h), across = sdv_next(level, sdv_next(level, h));
+    return level->first_point + (level->order ?
+                                 sdv_inside_corner(level->order, f, h - sdv_face_start(level, f)) :
+                                 level->face_vertices[across]);
 }
 
 // Adds the neighbours of v along the edges that are sharp: now, or on the next level where a
@@ -3437,14 +3436,23 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
 
 // Without a crease each edge at v lies between two faces. The cage on a later level has no face
 // points: see >>lines.
-static int *sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
+// The points around a smooth vertex: its neighbours, then those of its faces.
+static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
 {
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        *point++ = sdv_point_ahead(level, h);
-    for (int h = level->vertex_first[v]; h >= 0 && !loop; h = level->vertex_next[h])
-        *point++ = level->order ? sdv_point_across(level, h)
-                                : level->face_point[sdv_face_of(level, h)];
-    return point;
+    const int *vertices = level->face_vertices;
+    int *across = point + level->vertex_faces[v], base = level->first_point;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int f = sdv_face_of(level, h), start = sdv_face_start(level, f);
+        int next = h + 1 < sdv_face_end(level, f) ? h + 1 : start;
+        if (!level->order) {
+            *point++ = base + vertices[next];
+            if (!loop) *across++ = level->face_point[f];
+            continue;
+        }
+        sdv_side side = sdv_seen_edge(level->order, level->face_edges[h], v > vertices[next]);
+        *point++ = base + side.first + side.step;
+        if (!loop) *across++ = base + sdv_inside_corner(level->order, f, h - start);
+    }
 }
 
 static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v,
@@ -3490,26 +3498,22 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 // The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
 {
-    int faces = sdv_edge_faces(level, h), triangles = 0, k = h, *known = NULL;
+    int faces = sdv_edge_faces(level, h), triangles = 0, k = h;
     float sharpness = level->sharpness[h];
     int stays_sharp = sharpness > 0 && sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
-    if (writer->batcher && sharpness <= 0 && triangles == 0) known = &writer->batcher->edge;
     sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
     int *point = sdv_begin_row(writer);
     sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face },
                       { 2, 0, 0, mask.face != 0 ? faces : 0 }, sharpness > 0 && !stays_sharp };
-    if (known && *known >= 0) point = sdv_put_row(writer->batcher, *known, writer->target);
     point[0] = level->first_point + level->face_vertices[h];
     point[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
     for (int i = 0; i < runs.count[3]; i++, k = level->across[k])
         point[2 + i] = rules->loop ?
             level->first_point + level->face_vertices[sdv_previous(level, k)] :
             level->face_point[sdv_face_of(level, k)];
-    if (known && *known >= 0) return;
-    int number = sdv_end_row(writer, &runs);
-    if (known) *known = number;
+    sdv_end_row(writer, &runs);
 }
 
 // --------------------------------------------------------------------------------- >>lines
@@ -3536,7 +3540,8 @@ typedef struct sdv_filler {
     int          base;                  // where the points of this level start, and those of the
     int          target;                // next
     int         *line, *left, *right;   // [n + 1]
-    int          odd, even;             // batches of the points on smooth edges
+    int          odd, even;             // batches of the points on smooth edges,
+    int          edge, copy;            // of the cage's smooth edges and of points that stay
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
@@ -3572,14 +3577,15 @@ static void sdv_points_beside(const sdv_filler *fill, int h, int backwards, int 
     const sdv_level *cage = &order->cage;
     int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), i = h - start;
     int n = order->n, m = order->m, sides = sdv_face_end(cage, f) - start;
-    int inside = sdv_first_inside(order, f), last = order->loop ? n - 1 : n;
-    sdv_side a = sdv_edge_side(order, sdv_previous(cage, h), 1);
-    sdv_side b = sdv_edge_side(order, sdv_next(cage, h), 0);
+    int inside = fill->base + sdv_first_inside(order, f), last = order->loop ? n - 1 : n;
+    int before = i > 0 ? i - 1 : sides - 1, next = i + 1 < sides ? i + 1 : 0;
+    const int *v = cage->face_vertices + start, *e = cage->face_edges + start;
+    sdv_side a = sdv_seen_edge(order, e[before], v[before] <= v[i]);
+    sdv_side b = sdv_seen_edge(order, e[next], v[next] > v[next + 1 < sides ? next + 1 : 0]);
     int step = backwards ? -1 : 1, *at = backwards ? out + last : out;
     at[0] = fill->base + a.first + a.step;
     at[step * last] = fill->base + b.first + b.step;
     at += step;
-    inside += fill->base;
     if (order->loop) {
         for (int t = 1; t < last; t++, at += step)
             *at = sdv_inside_point(inside, n, 1, i == 0 ? 1 : i == 1 ? t : last - t,
@@ -3590,23 +3596,25 @@ static void sdv_points_beside(const sdv_filler *fill, int h, int backwards, int 
         int along = i == 0 ? 1 : i == 1 ? n - 1 : i == 2 ? -1 : 1 - n;
         for (int t = 1; t < n; t++, at += step, first += along) *at = first;
     } else {
-        int quad = sdv_inside_ngon(inside, sides, m, i);
-        int next = sdv_inside_ngon(inside, sides, m, i + 1 < sides ? i + 1 : 0);
+        int quad = sdv_inside_ngon(inside, sides, m, i), after = sdv_inside_ngon(inside, sides, m, next);
         for (int t = 1; t < m; t++, at += step) *at = quad + t - 1;
         *at = m == 1 ? inside : inside + 1 + i * (m - 1) + m - 2;       // on the spoke
         at += step;
-        for (int t = m + 1; t < n; t++, at += step) *at = next + (n - t - 1) * (m - 1);
+        for (int t = m + 1; t < n; t++, at += step) *at = after + (n - t - 1) * (m - 1);
     }
 }
 
-static void sdv_points_on_edge(const sdv_filler *fill, int h, int *out)
+// The points of the edge of h; returns where those of the next level stand.
+static sdv_side sdv_points_on_edge(const sdv_filler *fill, int h, int *out)
 {
     const sdv_level *cage = &fill->from.cage;
-    sdv_side side = sdv_edge_side(&fill->from, h, 0);
-    int n = fill->from.n;
-    out[0] = fill->base + cage->face_vertices[h];
+    int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)], n = fill->from.n;
+    int e = cage->face_edges[h];
+    sdv_side side = sdv_seen_edge(&fill->from, e, a > b);
+    out[0] = fill->base + a;
     for (int t = 1; t < n; t++) out[t] = fill->base + side.first + side.step * t;
-    out[n] = fill->base + cage->face_vertices[sdv_next(cage, h)];
+    out[n] = fill->base + b;
+    return sdv_seen_edge(&fill->to, e, a > b);
 }
 
 // Piece j of a line and what is beside it.
@@ -3693,9 +3701,8 @@ static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side 
 static void sdv_line_rows(sdv_filler *fill, int h)
 {
     sdv_edge_line line = sdv_line_at(fill, h);
-    sdv_side target = sdv_edge_side(&fill->to, h, 0);
     int beside = (line.sharpness <= 0 || line.now) && !fill->rules->linear;
-    sdv_points_on_edge(fill, h, fill->line);
+    sdv_side target = sdv_points_on_edge(fill, h, fill->line);
     if (beside) sdv_points_beside(fill, h, 0, fill->left);
     if (beside) sdv_points_beside(fill, fill->level->across[h], 1, fill->right);
     target.first += fill->target;
@@ -5793,6 +5800,12 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     fill->odd = sdv_find_open(&fill->batcher, &shape, NULL);
     shape = sdv_shape_of(&even);
     fill->even = sdv_find_open(&fill->batcher, &shape, NULL);
+    memset(&shape, 0, sizeof shape);
+    fill->copy = sdv_find_open(&fill->batcher, &shape, NULL);
+    edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
+    sdv_runs smooth_edge = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, 2 }, 0 };
+    shape = sdv_shape_of(&smooth_edge);
+    fill->edge = sdv_find_open(&fill->batcher, &shape, NULL);
     fill->from = sdv_order_at(surface, level);
     fill->to = sdv_order_at(surface, level + 1);
     fill->base = fill->level->first_point = surface->bases[level];
@@ -5807,25 +5820,39 @@ static void sdv_fill_vertex(sdv_filler *fill, sdv_writer *writer, int v)
     sdv_vertex_row(fill->level, fill->rules, v, writer);
 }
 
+// The edge point of a smooth edge of the cage, from h to next and on the other side q.
+static void sdv_fill_edge(sdv_filler *fill, int target, int h, int next, int f)
+{
+    const sdv_level *level = fill->level;
+    int q = level->across[h], *row = sdv_put_row(&fill->batcher, fill->edge, target);
+    row[0] = level->face_vertices[h];
+    row[1] = level->face_vertices[next];
+    row[2] = fill->rules->loop ? level->face_vertices[sdv_previous(level, h)] : level->face_point[f];
+    row[3] = fill->rules->loop ? level->face_vertices[sdv_previous(level, q)]
+                               : level->face_point[sdv_face_of(level, q)];
+}
+
 // The rows that belong to face f: of the vertices and edges that no face before it has, and those
 // inside it that are not on a grid.
 static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f, int last)
 {
     const sdv_level *level = fill->level;
+    const sdv_rules *rules = fill->rules;
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f), cage = !level->order;
+    int plain = !rules->linear && rules->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK;
     sdv_batch_face(&fill->batcher, f);
-    if (cage && last && !fill->rules->loop) {
-        sdv_runs copy = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
-        fill->batcher.points[0] = level->face_point[f];
-        sdv_add_runs(&fill->batcher, &copy, fill->target + sdv_first_inside(&fill->to, f));
+    if (cage && last && !rules->loop) {
+        int target = fill->target + sdv_first_inside(&fill->to, f);
+        *sdv_put_row(&fill->batcher, fill->copy, target) = level->face_point[f];
     }
     for (int h = start; h < end; h++) {
         int v = level->face_vertices[h], e = level->face_edges[h];
         if (level->vertex_first[v] == h) sdv_fill_vertex(fill, writer, v);
         if (level->edge_first[e] != h) continue;
         writer->target = fill->target + fill->to.first_edge_point + e;
-        if (cage) sdv_edge_row(level, fill->rules, h, writer);
-        else sdv_line_rows(fill, h);
+        if (!cage) sdv_line_rows(fill, h);
+        else if (level->sharpness[h] > 0 || !plain) sdv_edge_row(level, rules, h, writer);
+        else sdv_fill_edge(fill, writer->target, h, h + 1 < end ? h + 1 : start, f);
     }
     if (!cage && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
 }
@@ -5889,8 +5916,7 @@ static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
 {
     const sdv_level *level = fill->level;
     sdv_edge_line line = sdv_line_at(fill, h);
-    sdv_side target = sdv_edge_side(&fill->to, h, 0);
-    sdv_points_on_edge(fill, h, fill->line);
+    sdv_side target = sdv_points_on_edge(fill, h, fill->line);
     sdv_points_beside(fill, h, 0, fill->left);
     if (line.sharpness <= 0 || line.now) sdv_points_beside(fill, level->across[h], 1, fill->right);
     for (int t = 1; t < line.n; t++) {
