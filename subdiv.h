@@ -3113,15 +3113,21 @@ SDV_INLINE int *sdv_put_row(sdv_batcher *batcher, int number, int target)
     return row + 1;
 }
 
-// Adds a row whose points are in batcher->points; returns the number of its batch.
+// Adds a row of a shape, whose points are in batcher->points, to its open batch.
+static void sdv_copy_row(sdv_batcher *batcher, int number, const sdv_shape *shape, int target)
+{
+    int points = sdv_row_points(shape), *row = sdv_put_row(batcher, number, target);
+    if (row == batcher->points) return;
+    for (int i = 0; i < points; i++) row[i] = batcher->points[i];
+    if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
+}
+
+// The same, and returns the number of the batch.
 static int sdv_add_shape(sdv_batcher *batcher, const sdv_shape *shape, const float *limit,
                          int target)
 {
-    int number = sdv_find_open(batcher, shape, limit), points = sdv_row_points(shape);
-    int *row = sdv_put_row(batcher, number, target);
-    if (row == batcher->points) return -1;
-    memcpy(row, batcher->points, (size_t)points * sizeof *row);
-    if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
+    int number = sdv_find_open(batcher, shape, limit);
+    sdv_copy_row(batcher, number, shape, target);
     return number;
 }
 
@@ -3531,6 +3537,13 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 // Such rows need no face points: a face point is the mean of four points, a corner of the face each,
 // so that a mask is as well one of the points at the edges' ends and of those across the faces.
 
+// A row on an edge that is sharp, or was: most are like the last one.
+typedef struct sdv_last_row {
+    float     key[5];                   // what it depends on
+    sdv_shape shape;
+    int       batch;                    // -1: none yet
+} sdv_last_row;
+
 // The rows from one level to the next.
 typedef struct sdv_filler {
     sdv_batcher  batcher;
@@ -3542,6 +3555,7 @@ typedef struct sdv_filler {
     int         *line, *left, *right;   // [n + 1]
     int          odd, even;             // batches of the points on smooth edges,
     int          edge, copy;            // of the cage's smooth edges and of points that stay
+    sdv_last_row sharp[2];             // the last odd and even one
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
@@ -3657,20 +3671,35 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
         sdv_points_around(fill, loop, t, sdv_put_row(&fill->batcher, fill->even, at));
 }
 
+// Adds a row on a sharp edge; runs say what it is if it is not like the last one.
+static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
+{
+    memcpy(row->key, key, sizeof row->key);
+    row->batch = sdv_find_open(&fill->batcher, &row->shape, NULL);
+    sdv_copy_row(&fill->batcher, row->batch, &row->shape, target);
+}
+
 // The odd points of a line that is sharp, or was.
 static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
 {
     int loop = fill->rules->loop, at = target.first + target.step;
+    sdv_last_row *row = &fill->sharp[0];
     for (int j = 0; j < line->n; j++, at += 2 * target.step) {
         float s = line->now ? line->now[j] : line->sharpness;
         int stays = line->next ? line->next[2 * j] > 0 && line->next[2 * j + 1] > 0 : s > 0;
+        const float key[5] = { s, (float)stays, 0, 0, 0 };
+        sdv_points_at_piece(fill, loop, j, fill->batcher.points);
+        if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
+            sdv_copy_row(&fill->batcher, row->batch, &row->shape, at);
+            continue;
+        }
         sdv_mask mask = sdv_edge_mask(fill->rules, s, stays, 2, 0);
         if (!loop) mask = sdv_spread_edge(mask, 2);
         int beside = mask.face != 0 ? loop ? 2 : 4 : 0;
         sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face }, { 2, 0, 0, beside },
                           beside > 0 };
-        sdv_points_at_piece(fill, loop, j, fill->batcher.points);
-        sdv_add_runs(&fill->batcher, &runs, at);
+        row->shape = sdv_shape_of(&runs);
+        sdv_add_sharp_row(fill, row, key, at);
     }
 }
 
@@ -3679,21 +3708,28 @@ static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side 
     const sdv_rules *rules = fill->rules;
     int loop = rules->loop, regular = loop ? 6 : 4, at = target.first + 2 * target.step;
     int straight = rules->straight && fill->level->across[line->h] == line->h;
-    float corner = straight ? SDV_IMPLIED : 0;
+    sdv_last_row *row = &fill->sharp[1];
     for (int t = 1; t < line->n; t++, at += 2 * target.step) {
         sdv_sharp_edges sharp = { 0, 0, 0, 0 };
-        for (int k = 0; k < 2; k++)
-            sdv_meet_edge(&sharp, line->now ? line->now[t - 1 + k] : line->sharpness,
-                          line->next ? line->next[2 * t - 1 + k] : line->sharpness);
-        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(corner, corner, &sharp), regular);
+        float key[5] = { line->sharpness, line->sharpness, line->sharpness, line->sharpness,
+                         straight ? SDV_IMPLIED : 0 };
+        if (line->now) memcpy(key, line->now + t - 1, 2 * sizeof *key);
+        if (line->next) memcpy(key + 2, line->next + 2 * t - 1, 2 * sizeof *key);
+        sdv_points_around(fill, loop, t, fill->batcher.points);
+        if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
+            sdv_copy_row(&fill->batcher, row->batch, &row->shape, at);
+            continue;
+        }
+        for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
+        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], key[4], &sharp), regular);
         if (!loop) mask = sdv_spread_vertex(mask, regular);
         int around = mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
         sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
                             (float)mask.face },
                           { 1, along ? 2 : 0, around ? regular - 2 : 0, around && !loop ? 4 : 0 },
                           around };
-        sdv_points_around(fill, loop, t, fill->batcher.points);
-        sdv_add_runs(&fill->batcher, &runs, at);
+        row->shape = sdv_shape_of(&runs);
+        sdv_add_sharp_row(fill, row, key, at);
     }
 }
 
@@ -5235,7 +5271,7 @@ static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage,
     return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
 }
 
-static void sdv_copy_row(sdv_writer *writer, int v)
+static void sdv_copy_vertex(sdv_writer *writer, int v)
 {
     sdv_runs runs = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
     *sdv_begin_row(writer) = v;
@@ -5255,12 +5291,12 @@ static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer
     if (writer->context->result) return;
     sdv_go_to_face(writer, 0);
     for (int v = 0; v < cage->vertex_count; v++)
-        if (cage->vertex_faces[v] == 0) sdv_copy_row(writer, v);
+        if (cage->vertex_faces[v] == 0) sdv_copy_vertex(writer, v);
     for (int h = 0; h < cage->face_vertex_count; h++) {
         int v = cage->face_vertices[h];
         if (!cage->vertex_done[v] || cage->vertex_first[v] != h) continue;
         sdv_go_to_face(writer, sdv_face_of(cage, h));
-        sdv_copy_row(writer, v);
+        sdv_copy_vertex(writer, v);
     }
     sdv_go_to_face(writer, faces);
 }
@@ -5811,6 +5847,7 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     fill->base = fill->level->first_point = surface->bases[level];
     fill->target = last ? 0 : surface->bases[level + 1];
     fill->level->order = level ? &fill->from : NULL;
+    fill->sharp[0].batch = fill->sharp[1].batch = -1;
     for (int i = 0; i <= fill->batcher.most && level <= 1; i++) fill->batcher.smooth[i] = -1;
 }
 
