@@ -7560,21 +7560,48 @@ SDV_INLINE void sdv_load_row(const sdv_grid *grid, int row, int first, int last,
 }
 
 // Writes count points that stand one behind the other.
-SDV_INLINE void sdv_put_points(const sdv_window *out, int index, int count, const sdv_four *p)
+static void sdv_put_points(const sdv_window *out, int index, int count, const sdv_four *p)
 {
     int i = index - out->first, skip = i < 0 ? -i : 0;
     size_t stride = out->stride;
     if (count > out->count - i) count = out->count - i;
     if (skip >= count) return;
     float *to = out->values + (ptrdiff_t)stride * (i + skip);
-    if (out->lanes == 4) {
-        for (int k = skip; k < count; k++, to += stride) sdv_store(to, p[k]);
-    } else if (out->lanes == 3 && stride == 3) {
-        for (int k = skip; k < count - 1; k++, to += 3) sdv_store(to, p[k]);
-        sdv_store_three(to, p[count - 1]);
-    } else {
-        for (int k = skip; k < count; k++, to += stride) sdv_store_some(to, p[k], out->lanes);
-    }
+    for (int k = skip; k < count; k++, to += stride) sdv_store_some(to, p[k], out->lanes);
+}
+
+// Points that stand one behind the other as they are made, four lanes each but the last. Where the
+// window or its layout does not allow that, they are made in some room and written when all are there.
+typedef struct sdv_points_run {
+    const sdv_window *out;
+    int       index, count;
+    int       direct;
+    float    *to;
+    size_t    step;
+    sdv_four *room;
+} sdv_points_run;
+
+SDV_INLINE sdv_points_run sdv_begin_run(const sdv_window *out, int index, int count, sdv_four *room)
+{
+    sdv_points_run run = { out, index, count, 0, (float *)(void *)room, 4, room };
+    run.direct = !out->clip && (out->lanes == 4 || (out->lanes == 3 && out->stride == 3));
+    if (!run.direct) return run;
+    run.to = out->values + out->stride * (size_t)index;
+    run.step = out->stride;
+    return run;
+}
+
+SDV_INLINE void sdv_put_next(sdv_points_run *run, sdv_four p)
+{
+    sdv_store(run->to, p);
+    run->to += run->step;
+}
+
+SDV_INLINE void sdv_put_last(sdv_points_run *run, sdv_four p)
+{
+    if (run->direct && run->step == 3) sdv_store_three(run->to, p);
+    else sdv_store(run->to, p);
+    if (!run->direct) sdv_put_points(run->out, run->index, run->count, run->room);
 }
 
 // The inside of a grid of quads, whose points will stand from target on in rows of so many: first
@@ -7586,8 +7613,13 @@ SDV_INLINE void sdv_put_points(const sdv_window *out, int index, int count, cons
 //     b   v---e---v           v = self v + edge (sum of v around) + face (sum of f around)
 //       f e   f   e
 //     a   v---e---v           here a, b, c are at the left, and columns run from first to last
-SDV_INLINE void sdv_quad_row(const sdv_four *a, const sdv_four *b, int cells, float weight,
-                             sdv_four *f)
+typedef struct sdv_quad_lines {
+    const sdv_four *a, *b, *c, *f, *g;
+    sdv_four origin, self, beside, corner, edge, across;
+} sdv_quad_lines;
+
+SDV_INLINE void sdv_face_points(const sdv_four *a, const sdv_four *b, int cells, float weight,
+                                sdv_four *f)
 {
     sdv_four w = sdv_all(weight), left = sdv_plus(a[0], b[0]);
     for (int c = 0; c < cells; c++) {
@@ -7597,44 +7629,80 @@ SDV_INLINE void sdv_quad_row(const sdv_four *a, const sdv_four *b, int cells, fl
     }
 }
 
+// Row b, from cell k up to end: before the first cell there is no vertex point if k is 0.
+SDV_INLINE void sdv_vertex_points(const sdv_quad_lines *q, int k, int end, sdv_points_run *run)
+{
+    const sdv_four *a = q->a, *b = q->b, *c = q->c, *f = q->f, *g = q->g;
+    sdv_four fours = k ? sdv_plus(f[k - 1], g[k - 1]) : sdv_all(0);
+    for (int first = k == 0; ; k++, first = 0) {
+        sdv_four next = sdv_plus(f[k], g[k]);
+        sdv_four e = sdv_plus(sdv_times(q->edge, sdv_plus(b[k], b[k + 1])),
+                              sdv_times(q->across, next));
+        if (!first) {
+            sdv_four around = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(a[k], c[k]));
+            sdv_four v = sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->beside, around));
+            v = sdv_plus(v, sdv_times(q->corner, sdv_plus(fours, next)));
+            sdv_put_next(run, sdv_plus(q->origin, v));
+        }
+        e = sdv_plus(q->origin, e);
+        if (k + 1 == end) {
+            sdv_put_last(run, e);
+            return;
+        }
+        sdv_put_next(run, e);
+        fours = next;
+    }
+}
+
+// The row between b and c.
+SDV_INLINE void sdv_edge_points(const sdv_quad_lines *q, int k, int end, sdv_points_run *run)
+{
+    const sdv_four *b = q->b, *c = q->c, *g = q->g;
+    for (;; k++) {
+        if (k > 0) {
+            sdv_four e = sdv_plus(sdv_times(q->edge, sdv_plus(b[k], c[k])),
+                                  sdv_times(q->across, sdv_plus(g[k - 1], g[k])));
+            sdv_put_next(run, sdv_plus(q->origin, e));
+        }
+        sdv_four face = sdv_plus(q->origin, g[k]);
+        if (k + 1 == end) {
+            sdv_put_last(run, face);
+            return;
+        }
+        sdv_put_next(run, face);
+    }
+}
+
 static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, int target, int first,
                              int last, const float *work, const sdv_window *out)
 {
     sdv_four rows[3][SDV_PIECE + 2], faces[2][SDV_PIECE + 1], made[2 * SDV_PIECE];
     sdv_four *a = rows[0], *b = rows[1], *c = rows[2], *f = faces[0], *g = faces[1];
-    const sdv_four edge = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
-    const sdv_four self = sdv_all((float)step->vertex.self);
-    const sdv_four beside = sdv_all((float)step->vertex.edge);
-    const sdv_four corner = sdv_all((float)step->vertex.face);
-    const sdv_four origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
-    int low = first ? first - 1 : 0, skip = first ? 1 : 0, cells = last - low, n = last - first;
+    sdv_quad_lines q;
+    q.origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
+    q.self = sdv_all((float)step->vertex.self);
+    q.beside = sdv_all((float)step->vertex.edge);
+    q.corner = sdv_all((float)step->vertex.face);
+    q.edge = sdv_all((float)step->edge.self);
+    q.across = sdv_all((float)step->edge.face);
+    int low = first ? first - 1 : 0, skip = first ? 1 : 0, cells = last - low;
     int length = 2 * grid->columns - 1, at = target + (first ? 2 * first - 1 : 0);
-    int count = first ? 2 * n : 2 * n - 1;
-    sdv_load_row(grid, 0, low, last, work, origin, b);
+    int count = 2 * (last - first) - !first;
+    sdv_load_row(grid, 0, low, last, work, q.origin, b);
     for (int r = 0; r < grid->rows; r++) {
-        sdv_load_row(grid, r + 1, low, last, work, origin, c);
-        sdv_quad_row(b, c, cells, step->face, g);
-        for (int i = 0, k = skip; r > 0 && i < n; i++, k++) {           // row b
-            sdv_four along = sdv_plus(b[k], b[k + 1]);
-            if (k > 0) {
-                sdv_four around = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(a[k], c[k]));
-                sdv_four fours = sdv_plus(sdv_plus(f[k - 1], f[k]), sdv_plus(g[k - 1], g[k]));
-                sdv_four v = sdv_plus(sdv_times(self, b[k]), sdv_times(beside, around));
-                made[2 * i - 1 + skip] = sdv_plus(origin, sdv_plus(v, sdv_times(corner, fours)));
-            }
-            made[2 * i + skip] =
-                sdv_plus(origin, sdv_plus(sdv_times(edge, along),
-                                          sdv_times(across, sdv_plus(f[k], g[k]))));
+        sdv_load_row(grid, r + 1, low, last, work, q.origin, c);
+        sdv_face_points(b, c, cells, step->face, g);
+        q.a = a;
+        q.b = b;
+        q.c = c;
+        q.f = f;
+        q.g = g;
+        if (r > 0) {
+            sdv_points_run run = sdv_begin_run(out, at + (2 * r - 1) * length, count, made);
+            sdv_vertex_points(&q, skip, cells, &run);
         }
-        if (r > 0) sdv_put_points(out, at + (2 * r - 1) * length, count, made);
-        for (int i = 0, k = skip; i < n; i++, k++) {                    // between b and c
-            if (k > 0)
-                made[2 * i - 1 + skip] =
-                    sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k], c[k])),
-                                              sdv_times(across, sdv_plus(g[k - 1], g[k]))));
-            made[2 * i + skip] = sdv_plus(origin, g[k]);
-        }
-        sdv_put_points(out, at + 2 * r * length, count, made);
+        sdv_points_run run = sdv_begin_run(out, at + 2 * r * length, count, made);
+        sdv_edge_points(&q, skip, cells, &run);
         sdv_four *swap = a;
         a = b;
         b = c;
@@ -7653,49 +7721,94 @@ static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, in
 //           e e e e
 //            \|  \|          v = self v + edge (sum of the six v around)
 //     b   v---e---v
+typedef struct sdv_triangle_lines {
+    const sdv_four *a, *b, *c;
+    sdv_four origin, self, beside, edge, across;
+} sdv_triangle_lines;
+
+SDV_INLINE sdv_four sdv_triangle_edge(const sdv_triangle_lines *q, sdv_four p0, sdv_four p1,
+                                      sdv_four beside0, sdv_four beside1)
+{
+    sdv_four e = sdv_plus(sdv_times(q->edge, sdv_plus(p0, p1)),
+                          sdv_times(q->across, sdv_plus(beside0, beside1)));
+    return sdv_plus(q->origin, e);
+}
+
+// Row b, from k up to end.
+SDV_INLINE void sdv_triangle_vertices(const sdv_triangle_lines *q, int k, int end, sdv_points_run *run)
+{
+    const sdv_four *a = q->a, *b = q->b, *c = q->c;
+    for (;; k++) {
+        if (k > 0) {
+            sdv_four around = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]),
+                                                sdv_plus(c[k - 1], c[k])), sdv_plus(a[k], a[k + 1]));
+            sdv_four v = sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->beside, around));
+            sdv_put_next(run, sdv_plus(q->origin, v));
+        }
+        sdv_four e = sdv_triangle_edge(q, b[k], b[k + 1], a[k + 1], c[k]);
+        if (k + 1 == end) {
+            sdv_put_last(run, e);
+            return;
+        }
+        sdv_put_next(run, e);
+    }
+}
+
+// The row between b and c. whole: behind the last one there is no edge point on a long side.
+SDV_INLINE void sdv_triangle_edges(const sdv_triangle_lines *q, int k, int end, int whole,
+                                   sdv_points_run *run)
+{
+    const sdv_four *b = q->b, *c = q->c;
+    for (;; k++) {
+        if (k > 0) {
+            sdv_four e = sdv_triangle_edge(q, b[k], c[k], b[k + 1], c[k - 1]);
+            if (whole && k + 1 == end) {
+                sdv_put_last(run, e);
+                return;
+            }
+            sdv_put_next(run, e);
+        }
+        sdv_four e = sdv_triangle_edge(q, b[k + 1], c[k], b[k], c[k + 1]);
+        if (k + 1 == end) {
+            sdv_put_last(run, e);
+            return;
+        }
+        sdv_put_next(run, e);
+    }
+}
+
 static void sdv_refine_triangles(const sdv_grid *grid, const sdv_grid_step *step, int target,
                                  int first, int last, const float *work, const sdv_window *out)
 {
     sdv_four rows[3][SDV_PIECE + 2], made[2 * SDV_PIECE];
     sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
-    const sdv_four edge = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
-    const sdv_four self = sdv_all((float)step->vertex.self);
-    const sdv_four beside = sdv_all((float)step->vertex.edge);
-    const sdv_four origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
-    int n = grid->columns, low = first ? first - 1 : 0, skip = first ? 1 : 0, start = 2 * first;
-    sdv_load_row(grid, 0, low, last, work, origin, b);
+    sdv_triangle_lines q;
+    q.origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
+    q.self = sdv_all((float)step->vertex.self);
+    q.beside = sdv_all((float)step->vertex.edge);
+    q.edge = sdv_all((float)step->edge.self);
+    q.across = sdv_all((float)step->edge.face);
+    int n = grid->columns, low = first ? first - 1 : 0, skip = first ? 1 : 0;
+    int column = first ? 2 * first : 1;
+    sdv_load_row(grid, 0, low, last, work, q.origin, b);
     for (int r = 0; r < n - first; r++) {
-        int cells = (last < n - r ? last : n - r) - first, count = 0, above = n - r - 1;
-        if (low <= above) sdv_load_row(grid, r + 1, low, last < above ? last : above, work, origin, c);
-        for (int k = skip; r > 0 && k < skip + cells; k++) {
-            if (k > 0) {
-                sdv_four around = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]),
-                                                    sdv_plus(c[k - 1], c[k])),
-                                           sdv_plus(a[k], a[k + 1]));
-                made[count++] = sdv_plus(origin, sdv_plus(sdv_times(self, b[k]),
-                                                          sdv_times(beside, around)));
-            }
-            made[count++] =
-                sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k], b[k + 1])),
-                                          sdv_times(across, sdv_plus(a[k + 1], c[k]))));
+        int above = n - r - 1, end = last < n - r ? last : n - r, whole = end == n - r;
+        int count = 2 * (end - first) - !first;
+        if (low <= above)
+            sdv_load_row(grid, r + 1, low, last < above ? last : above, work, q.origin, c);
+        q.a = a;
+        q.b = b;
+        q.c = c;
+        if (r > 0) {
+            int at = sdv_inside_point(target, 2 * n, 1, 2 * r, column);
+            sdv_points_run run = sdv_begin_run(out, at, count, made);
+            sdv_triangle_vertices(&q, skip, end - low, &run);
         }
-        if (count)
-            sdv_put_points(out, sdv_inside_point(target, 2 * n, 1, 2 * r, start ? start : 1), count,
-                           made);
-        count = 0;
-        for (int k = skip; k < skip + cells; k++) {
-            if (k > 0)
-                made[count++] =
-                    sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k], c[k])),
-                                              sdv_times(across, sdv_plus(b[k + 1], c[k - 1]))));
-            if (low + k < above)
-                made[count++] =
-                    sdv_plus(origin, sdv_plus(sdv_times(edge, sdv_plus(b[k + 1], c[k])),
-                                              sdv_times(across, sdv_plus(b[k], c[k + 1]))));
+        if (count > whole) {
+            int at = sdv_inside_point(target, 2 * n, 1, 2 * r + 1, column);
+            sdv_points_run run = sdv_begin_run(out, at, count - whole, made);
+            sdv_triangle_edges(&q, skip, end - low, whole, &run);
         }
-        if (count)
-            sdv_put_points(out, sdv_inside_point(target, 2 * n, 1, 2 * r + 1, start ? start : 1),
-                           count, made);
         sdv_four *swap = a;
         a = b;
         b = c;
@@ -7719,7 +7832,7 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     const sdv_four origin = sdv_load(work + 4 * (size_t)sdv_first_inside(order, f));
     const sdv_four half = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
     const sdv_four quarter = sdv_all(step->face);
-    sdv_four p[4], e[4], face[4], edge[4], made[9], sum = sdv_all(0), fours = sum;
+    sdv_four p[4], e[4], face[4], edge[4], made[9], room[9], sum = sdv_all(0), fours = sum;
     for (int i = 0; i < 4; i++) {
         p[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
         e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
@@ -7742,8 +7855,9 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     made[6] = face[3];
     made[7] = edge[2];
     made[8] = face[2];
-    for (int i = 0; i < 9; i++) made[i] = sdv_plus(origin, made[i]);
-    sdv_put_points(out, target, 9, made);
+    sdv_points_run run = sdv_begin_run(out, target, 9, room);
+    for (int i = 0; i < 8; i++) sdv_put_next(&run, sdv_plus(origin, made[i]));
+    sdv_put_last(&run, sdv_plus(origin, made[8]));
 }
 
 // Where the points inside a grid start in an order.
