@@ -3005,6 +3005,7 @@ typedef struct sdv_shape {
     int   count[3];                     // behind the first point so many points of each weight
     float weight[3];
     int   own;                          // each row has weights of its own behind its points
+    int   regular;                      // of a limit: smooth, with the regular number of faces
 } sdv_shape;
 
 typedef struct sdv_batch {
@@ -5558,6 +5559,7 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
     if (limit->writer->context->result) return;
     memset(&shape, 0, sizeof shape);
     shape.count[0] = mask->count - 1;
+    shape.regular = kind == SDV_RING && faces == (limit->rules->loop ? 6 : 4);
     sdv_add_shape(limit->batcher, &shape, mask->weights, target);
 }
 
@@ -7313,6 +7315,20 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
     if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
 }
 
+// The normals of four points that stand one behind the other.
+static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *along,
+                            sdv_four *across)
+{
+    sdv_four normal[4];
+    sdv_transpose(along);
+    sdv_transpose(across);
+    sdv_unit_normals(along, across, normal);
+    normal[3] = normal[2];
+    sdv_transpose(normal);
+    float *p = tangents->normals + tangents->stride * (size_t)at;
+    for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
+}
+
 // Those of a run of points, see sdv_put_run: four by four, and the others wait.
 static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curve *row,
                                 float x, float h)
@@ -7321,18 +7337,12 @@ static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const 
     sdv_four t = sdv_all(x), step = sdv_all(h);
     int i = 0;
     for (; i + 4 <= count && !tangents->tangents; i += 4) {
-        sdv_four a[4], b[4], normal[4];
+        sdv_four a[4], b[4];
         for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
             a[k] = sdv_horner3(row->along, t);
             b[k] = sdv_horner3(row->across, t);
         }
-        sdv_transpose(a);
-        sdv_transpose(b);
-        sdv_unit_normals(a, b, normal);
-        normal[3] = normal[2];
-        sdv_transpose(normal);
-        float *p = tangents->normals + tangents->stride * (size_t)(at + i);
-        for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
+        sdv_put_normals(tangents, at + i, a, b);
     }
     for (; i < count; i++, t = sdv_plus(t, step))
         sdv_put_tangents(out, out->first + at + i, sdv_horner3(row->along, t),
@@ -7462,33 +7472,86 @@ static void sdv_make_rows(const sdv_batch *batch, int first, int end, const floa
     else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
 }
 
-// The rows of a batch of a limit: its points and, if they are wanted, two tangents.
-SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
-                                  const float *work, const sdv_window *out)
+// The limit at a regular smooth vertex: of points p its own p[0], those of its neighbours, and under
+// Catmull-Clark those across its faces, counter-clockwise. Its weights [3][count] are a few: of each
+// kind of point, of pairs of opposite ones in the tangents.
+SDV_INLINE void sdv_limit_ring(const float *w, int loop, const sdv_four *p, sdv_four *sums)
 {
-    const float *w = batch->limit, *w0 = w + width, *w1 = w0 + width;
-    const int *row = batch->items + (size_t)(1 + width) * (size_t)first;
-    for (int i = first; i < end; i++, row += 1 + width) {
-        const sdv_four p0 = sdv_load(work + 4 * (size_t)row[1]);
-        sdv_four sum = sdv_all(0), t0 = sum, t1 = sum;
-        for (int k = 1; k < width; k++) {
-            sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)row[1 + k]), p0);
-            sum = sdv_plus(sum, sdv_times(sdv_all(w[k]), d));
-            t0 = sdv_plus(t0, sdv_times(sdv_all(w0[k]), d));
-            t1 = sdv_plus(t1, sdv_times(sdv_all(w1[k]), d));
-        }
-        sdv_put_point(out, row[0], sdv_plus(p0, sum));
-        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1);
+    if (loop) {
+        const float *t0 = w + 7, *t1 = w + 14;
+        sdv_four d0 = sdv_minus(p[1], p[4]), d1 = sdv_minus(p[2], p[5]), d2 = sdv_minus(p[3], p[6]);
+        sdv_four edges = sdv_plus(sdv_plus(sdv_plus(p[1], p[4]), sdv_plus(p[2], p[5])),
+                                  sdv_plus(p[3], p[6]));
+        sums[0] = sdv_times(sdv_all(w[1]), edges);
+        sums[1] = sdv_plus(sdv_times(sdv_all(t0[1]), d0),
+                           sdv_times(sdv_all(t0[2]), sdv_minus(d1, d2)));
+        sums[2] = sdv_times(sdv_all(t1[2]), sdv_plus(d1, d2));
+        return;
     }
+    const float *t0 = w + 9, *t1 = w + 18;
+    sdv_four right = sdv_plus(p[5], p[8]), left = sdv_plus(p[6], p[7]);
+    sdv_four up = sdv_plus(p[5], p[6]), down = sdv_plus(p[7], p[8]);
+    sdv_four edges = sdv_plus(sdv_plus(p[1], p[3]), sdv_plus(p[2], p[4]));
+    sums[0] = sdv_plus(sdv_times(sdv_all(w[1]), edges),
+                       sdv_times(sdv_all(w[5]), sdv_plus(right, left)));
+    sums[1] = sdv_plus(sdv_times(sdv_all(t0[1]), sdv_minus(p[1], p[3])),
+                       sdv_times(sdv_all(t0[5]), sdv_minus(right, left)));
+    sums[2] = sdv_plus(sdv_times(sdv_all(t1[2]), sdv_minus(p[2], p[4])),
+                       sdv_times(sdv_all(t1[5]), sdv_minus(up, down)));
+}
+
+// A row of a limit: its point and two tangents.
+SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width, int regular,
+                                   const float *work, sdv_four *p, sdv_four *t0, sdv_four *t1)
+{
+    const float *w = weights, *w0 = w + width, *w1 = w0 + width;
+    const sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
+    sdv_four sums[3] = { sdv_all(0), sdv_all(0), sdv_all(0) };
+    if (regular) {
+        sdv_four d[9];
+        for (int k = 1; k < width; k++)
+            d[k] = sdv_minus(sdv_load(work + 4 * (size_t)points[k]), p0);
+        sdv_limit_ring(w, width == 7, d, sums);
+    }
+    for (int k = 1; k < width && !regular; k++) {
+        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[k]), p0);
+        sums[0] = sdv_plus(sums[0], sdv_times(sdv_all(w[k]), d));
+        sums[1] = sdv_plus(sums[1], sdv_times(sdv_all(w0[k]), d));
+        sums[2] = sdv_plus(sums[2], sdv_times(sdv_all(w1[k]), d));
+    }
+    *p = sdv_plus(p0, sums[0]);
+    *t0 = sums[1];
+    *t1 = sums[2];
+}
+
+// The rows of a batch of a limit: points and, if they are wanted, tangents, four at a time.
+SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
+                                  int regular, const float *work, const sdv_window *out)
+{
+    const int *row = batch->items + (size_t)(1 + width) * (size_t)first;
+    sdv_four p, t0[4], t1[4];
+    int at[4], n = 0;
+    for (int i = first; i < end; i++, row += 1 + width) {
+        sdv_limit_row_sums(batch->limit, row + 1, width, regular, work, &p, &t0[n], &t1[n]);
+        sdv_put_point(out, row[0], p);
+        at[n++] = row[0] - out->first;
+        if (!out->tangents) n = 0;
+        if (n < 4) continue;
+        sdv_transpose(t0);
+        sdv_transpose(t1);
+        sdv_put_four_tangents(out->tangents, at, out->count, t0, t1);
+        n = 0;
+    }
+    for (int k = 0; k < n; k++) sdv_put_tangents(out, at[k] + out->first, t0[k], t1[k]);
 }
 
 static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, const float *work,
                                 const sdv_window *out)
 {
-    int width = 1 + batch->shape.count[0];
-    if (width == 9) sdv_limit_rows_of(batch, first, end, 9, work, out);
-    else if (width == 7) sdv_limit_rows_of(batch, first, end, 7, work, out);
-    else sdv_limit_rows_of(batch, first, end, width, work, out);
+    int width = 1 + batch->shape.count[0], regular = batch->shape.regular;
+    if (regular && width == 9) sdv_limit_rows_of(batch, first, end, 9, 1, work, out);
+    else if (regular) sdv_limit_rows_of(batch, first, end, 7, 1, work, out);
+    else sdv_limit_rows_of(batch, first, end, width, 0, work, out);
 }
 
 // The first row of a batch that belongs to this face of its block or one behind it.
@@ -7860,6 +7923,30 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     sdv_put_last(&run, sdv_plus(origin, made[8]));
 }
 
+// The inside of a triangle of 2 segments a side, which is all of a face on level 1: the edge points of
+// the triangle of edge points e0 e1 e2, whose edges lie across from the corners.
+SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_step *step,
+                                 int target, const float *work, const sdv_window *out)
+{
+    const int *v = order->cage.face_vertices + 3 * (size_t)f;
+    const int *edges = order->cage.face_edges + 3 * (size_t)f;
+    const float *on_edges = work + 4 * (size_t)order->first_edge_point;
+    sdv_four e[3], d[3], room[3];
+    sdv_triangle_lines q;
+    q.origin = sdv_load(on_edges + 4 * (size_t)edges[0]);
+    q.edge = sdv_all((float)step->edge.self);
+    q.across = sdv_all((float)step->edge.face);
+    e[0] = sdv_all(0);
+    for (int i = 0; i < 3; i++) {
+        d[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), q.origin);
+        if (i > 0) e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), q.origin);
+    }
+    sdv_points_run run = sdv_begin_run(out, target, 3, room);
+    sdv_put_next(&run, sdv_triangle_edge(&q, e[0], e[2], d[0], e[1]));
+    sdv_put_next(&run, sdv_triangle_edge(&q, e[0], e[1], d[1], e[2]));
+    sdv_put_last(&run, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0]));
+}
+
 // Where the points inside a grid start in an order.
 static int sdv_inside_grid(const sdv_order *order, int f, int i)
 {
@@ -7883,8 +7970,10 @@ static void sdv_refine_grids(const sdv_rules *rules, const sdv_order *from, cons
     sdv_grid_step step = sdv_regular_masks(rules);
     for (int f = face; f < end; f++) {
         int start = sdv_face_start(&from->cage, f), count = sdv_grids_of(from, f);
-        if (from->n == 2 && !rules->loop && count == 1) {
-            sdv_refine_four(from, f, &step, target + sdv_first_inside(to, f), points, out);
+        if (from->n == 2 && count == 1) {
+            int at = target + sdv_first_inside(to, f);
+            if (rules->loop) sdv_refine_three(from, f, &step, at, points, out);
+            else sdv_refine_four(from, f, &step, at, points, out);
             continue;
         }
         for (int i = 0; i < count; i++) {
@@ -7918,62 +8007,109 @@ static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
     return limit;
 }
 
-// Point k of row b, whose neighbours are in rows a below and c above.
-SDV_INLINE void sdv_limit_quad(const sdv_grid_limit *l, const sdv_four *a, const sdv_four *b,
-                               const sdv_four *c, int k, sdv_four *p)
+// Three rows of points and, of quads, the sums and differences of those above and below.
+typedef struct sdv_limit_lines {
+    sdv_four rows[3][SDV_PIECE + 5], sums[SDV_PIECE + 5], differences[SDV_PIECE + 5];
+    const sdv_four *a, *b, *c;
+    sdv_four self, edge, face, along1, along2, across;
+    int linear;
+} sdv_limit_lines;
+
+static void sdv_begin_limit_lines(const sdv_grid_limit *limit, int triangle, sdv_limit_lines *q)
 {
-    sdv_four right = sdv_plus(a[k + 1], c[k + 1]), left = sdv_plus(a[k - 1], c[k - 1]);
-    sdv_four up = sdv_plus(c[k - 1], c[k + 1]), down = sdv_plus(a[k - 1], a[k + 1]);
-    sdv_four edges = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(a[k], c[k]));
-    sdv_four edge = sdv_all((float)l->along[1]), face = sdv_all((float)l->along[5]);
-    p[0] = sdv_plus(sdv_plus(sdv_times(sdv_all((float)l->mask.self), b[k]),
-                             sdv_times(sdv_all((float)l->mask.edge), edges)),
-                    sdv_times(sdv_all((float)l->mask.face), sdv_plus(left, right)));
-    p[1] = sdv_plus(sdv_times(edge, sdv_minus(b[k + 1], b[k - 1])),
-                    sdv_times(face, sdv_minus(right, left)));
-    p[2] = sdv_plus(sdv_times(edge, sdv_minus(c[k], a[k])), sdv_times(face, sdv_minus(up, down)));
+    q->self = sdv_all((float)limit->mask.self);
+    q->edge = sdv_all((float)limit->mask.edge);
+    q->face = sdv_all((float)limit->mask.face);
+    q->along1 = sdv_all((float)limit->along[1]);
+    q->along2 = sdv_all((float)limit->along[triangle ? 2 : 5]);
+    q->across = sdv_all((float)limit->across[2]);
+    q->linear = limit->linear;
+}
+
+// Point k of row b, whose neighbours are in rows a below and c above: its limit and two tangents.
+SDV_INLINE void sdv_limit_quad(const sdv_limit_lines *q, int k, sdv_four *p, sdv_four *t0,
+                               sdv_four *t1)
+{
+    const sdv_four *b = q->b, *s = q->sums, *d = q->differences;
+    sdv_four edges = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), s[k]);
+    *p = sdv_plus(sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->edge, edges)),
+                  sdv_times(q->face, sdv_plus(s[k - 1], s[k + 1])));
+    *t0 = sdv_plus(sdv_times(q->along1, sdv_minus(b[k + 1], b[k - 1])),
+                   sdv_times(q->along2, sdv_minus(s[k + 1], s[k - 1])));
+    *t1 = sdv_plus(sdv_times(q->across, d[k]),
+                   sdv_times(q->along2, sdv_plus(d[k - 1], d[k + 1])));
 }
 
 // Around a vertex, counter-clockwise from the right: b[k+1] c[k] c[k-1] b[k-1] a[k] a[k+1].
-SDV_INLINE void sdv_limit_triangle(const sdv_grid_limit *l, const sdv_four *a, const sdv_four *b,
-                                   const sdv_four *c, int k, sdv_four *p)
+SDV_INLINE void sdv_limit_triangle(const sdv_limit_lines *q, int k, sdv_four *p, sdv_four *t0,
+                                   sdv_four *t1)
 {
-    sdv_four d0 = sdv_minus(b[k + 1], b[k - 1]), d1 = sdv_minus(c[k], a[k]);
-    sdv_four d2 = sdv_minus(c[k - 1], a[k + 1]);
+    const sdv_four *a = q->a, *b = q->b, *c = q->c;
+    sdv_four d1 = sdv_minus(c[k], a[k]), d2 = sdv_minus(c[k - 1], a[k + 1]);
     sdv_four edges = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(c[k - 1], c[k])),
                               sdv_plus(a[k], a[k + 1]));
-    p[0] = sdv_plus(sdv_times(sdv_all((float)l->mask.self), b[k]),
-                    sdv_times(sdv_all((float)l->mask.edge), edges));
-    p[1] = sdv_plus(sdv_times(sdv_all((float)l->along[1]), d0),
-                    sdv_times(sdv_all((float)l->along[2]), sdv_minus(d1, d2)));
-    p[2] = sdv_times(sdv_all((float)l->across[2]), sdv_plus(d1, d2));
+    *p = sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->edge, edges));
+    *t0 = sdv_plus(sdv_times(q->along1, sdv_minus(b[k + 1], b[k - 1])),
+                   sdv_times(q->along2, sdv_minus(d1, d2)));
+    *t1 = sdv_times(q->across, sdv_plus(d1, d2));
+}
+
+SDV_INLINE void sdv_limit_point(const sdv_limit_lines *q, int triangle, int k, sdv_four *p,
+                                sdv_four *t0, sdv_four *t1)
+{
+    if (triangle) sdv_limit_triangle(q, k, p, t0, t1);
+    else sdv_limit_quad(q, k, p, t0, t1);
+    if (!q->linear) return;
+    *p = q->b[k];
+    *t0 = sdv_minus(q->b[k + 1], q->b[k]);
+    *t1 = sdv_minus(q->c[k], q->b[k]);
+}
+
+// The limit of points 1 to count of row b, which stand from index on: four at a time, and the others
+// wait for more.
+SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *q, int triangle, int count, int index,
+                                     sdv_four origin, const sdv_window *out)
+{
+    sdv_four p[4], t0[4], t1[4];
+    int fours = out->tangents && !out->tangents->tangents && !out->clip, k = 1;
+    for (; fours && k + 3 <= count; k += 4, index += 4) {
+        for (int i = 0; i < 4; i++) {
+            sdv_limit_point(q, triangle, k + i, &p[i], &t0[i], &t1[i]);
+            sdv_put_point(out, index + i, sdv_plus(origin, p[i]));
+        }
+        sdv_put_normals(out->tangents, index, t0, t1);
+    }
+    for (; k <= count; k++, index++) {
+        sdv_limit_point(q, triangle, k, p, t0, t1);
+        sdv_put_point(out, index, sdv_plus(origin, p[0]));
+        if (out->tangents) sdv_put_tangents(out, index, t0[0], t1[0]);
+    }
 }
 
 // The limit points inside a grid, in columns from first to last - 1, at least 1, and their tangents.
 static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, int first, int last,
                            const float *points, const sdv_window *out)
 {
-    sdv_four rows[3][SDV_PIECE + 2], p[3];
-    sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
+    sdv_limit_lines q;
+    sdv_four *a = q.rows[0], *b = q.rows[1], *c = q.rows[2];
     const sdv_four origin = sdv_load(points + 4 * (size_t)grid->corner[0]);
     int triangle = grid->triangle, n = grid->columns;
+    sdv_begin_limit_lines(limit, triangle, &q);
     sdv_load_row(grid, 0, first - 1, last, points, origin, a);
     sdv_load_row(grid, 1, first - 1, last < n - triangle ? last : n - triangle, points, origin, b);
     for (int r = 1; r < grid->rows - first * triangle; r++) {
-        int end = triangle && n - r < last ? n - r : last, above = n - (r + 1) * triangle;
+        int count = (triangle && n - r < last ? n - r : last) - first, above = n - (r + 1) * triangle;
+        int index = sdv_inside_index(grid, r, first);
         sdv_load_row(grid, r + 1, first - 1, last < above ? last : above, points, origin, c);
-        for (int k = 1; k <= end - first; k++) {
-            int index = sdv_inside_index(grid, r, first + k - 1);
-            if (triangle) sdv_limit_triangle(limit, a, b, c, k, p);
-            else sdv_limit_quad(limit, a, b, c, k, p);
-            if (limit->linear) {
-                p[0] = b[k];
-                p[1] = sdv_minus(b[k + 1], b[k]);
-                p[2] = sdv_minus(c[k], b[k]);
-            }
-            sdv_put_point(out, index, sdv_plus(origin, p[0]));
-            if (out->tangents) sdv_put_tangents(out, index, p[1], p[2]);
+        q.a = a;
+        q.b = b;
+        q.c = c;
+        for (int k = 0; k <= count + 1 && !triangle; k++) {
+            q.sums[k] = sdv_plus(a[k], c[k]);
+            q.differences[k] = sdv_minus(c[k], a[k]);
         }
+        if (triangle) sdv_limit_row_points(&q, 1, count, index, origin, out);
+        else sdv_limit_row_points(&q, 0, count, index, origin, out);
         sdv_four *swap = a;
         a = b;
         b = c;
@@ -7981,10 +8117,58 @@ static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, in
     }
 }
 
+// The limit of face points on level 1, each inside a quad of 2 x 2 cells: of them 4 at a time.
+static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *order,
+                              const float *points, int face, int end, const sdv_window *out)
+{
+    const float *on_edges = points + 4 * (size_t)order->first_edge_point;
+    float w[27];
+    sdv_four t0[4], t1[4];
+    int at[4], n = 0;
+    for (int k = 0; k < 9; k++) {
+        w[k] = (float)(k == 0 ? limit->mask.self : k < 5 ? limit->mask.edge : limit->mask.face);
+        w[9 + k] = (float)limit->along[k];
+        w[18 + k] = (float)limit->across[k];
+    }
+    for (int f = face; f < end; f++) {
+        if (sdv_is_ngon(order, f)) continue;
+        const int *v = order->cage.face_vertices + sdv_face_start(&order->cage, f);
+        const int *edges = order->cage.face_edges + sdv_face_start(&order->cage, f);
+        int index = sdv_first_inside(order, f);
+        const sdv_four p0 = sdv_load(points + 4 * (size_t)index);
+        sdv_four p[9], sums[3];
+        for (int i = 0; i < 4; i++) {
+            p[1 + i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), p0);
+            p[5 + i] = sdv_minus(sdv_load(points + 4 * (size_t)v[(i + 1) & 3]), p0);
+        }
+        sdv_limit_ring(w, 0, p, sums);
+        if (limit->linear) {
+            sums[0] = sdv_all(0);
+            sums[1] = p[2];
+            sums[2] = p[3];
+        }
+        sdv_put_point(out, index, sdv_plus(p0, sums[0]));
+        if (!out->tangents) continue;
+        at[n] = index - out->first;
+        t0[n] = sums[1];
+        t1[n++] = sums[2];
+        if (n < 4) continue;
+        sdv_transpose(t0);
+        sdv_transpose(t1);
+        sdv_put_four_tangents(out->tangents, at, out->count, t0, t1);
+        n = 0;
+    }
+    for (int k = 0; k < n; k++) sdv_put_tangents(out, at[k] + out->first, t0[k], t1[k]);
+}
+
 static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, const float *points,
                             int face, int end, const sdv_window *out)
 {
     sdv_grid_limit limit = sdv_regular_limit(rules);
+    if (order->n == 2) {                    // of triangles nothing is inside
+        if (!order->loop) sdv_limit_centres(&limit, order, points, face, end, out);
+        return;
+    }
     for (int f = face; f < end; f++) {
         int start = sdv_face_start(&order->cage, f), count = sdv_grids_of(order, f);
         for (int i = 0; i < count; i++) {
