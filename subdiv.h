@@ -6208,15 +6208,17 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
 }
 
 // A surface of values over a surface that is being prepared from a cage.
-// Up to so many levels everything is made by the masks.
+// Up to so many levels everything is made by the masks; with more to go patches pay, under Loop and
+// without limits a level later.
 #ifndef SDV_MOST_ROW_LEVELS
-#define SDV_MOST_ROW_LEVELS 4
+#define SDV_MOST_ROW_LEVELS 3
 #endif
 
 static void sdv_prepare_refinement(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                                    sdv_arena *arena)
 {
-    if (surface->levels <= SDV_MOST_ROW_LEVELS) sdv_prepare_rows(context, surface, cage, arena);
+    int most = SDV_MOST_ROW_LEVELS + surface->rules.loop + !surface->rules.limit;
+    if (surface->levels <= most && SDV_MOST_ROW_LEVELS) sdv_prepare_rows(context, surface, cage, arena);
     else sdv_prepare_levels(context, surface, cage, arena);
 }
 
@@ -8007,13 +8009,17 @@ static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
     return limit;
 }
 
-// Three rows of points and, of quads, the sums and differences of those above and below.
+// Three rows of points, a below b below c, and what moves along b: the points before, at and behind
+// the one that is made, and of quads the sums and differences of those above and below.
 typedef struct sdv_limit_lines {
-    sdv_four rows[3][SDV_PIECE + 5], sums[SDV_PIECE + 5], differences[SDV_PIECE + 5];
     const sdv_four *a, *b, *c;
     sdv_four self, edge, face, along1, along2, across;
-    int linear;
+    int      linear;
 } sdv_limit_lines;
+
+typedef struct sdv_limit_place {
+    sdv_four b[3], sum[3], difference[3];
+} sdv_limit_place;
 
 static void sdv_begin_limit_lines(const sdv_grid_limit *limit, int triangle, sdv_limit_lines *q)
 {
@@ -8026,18 +8032,31 @@ static void sdv_begin_limit_lines(const sdv_grid_limit *limit, int triangle, sdv
     q->linear = limit->linear;
 }
 
-// Point k of row b, whose neighbours are in rows a below and c above: its limit and two tangents.
-SDV_INLINE void sdv_limit_quad(const sdv_limit_lines *q, int k, sdv_four *p, sdv_four *t0,
-                               sdv_four *t1)
+SDV_INLINE void sdv_limit_next(const sdv_limit_lines *q, int k, sdv_limit_place *at)
 {
-    const sdv_four *b = q->b, *s = q->sums, *d = q->differences;
-    sdv_four edges = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), s[k]);
-    *p = sdv_plus(sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->edge, edges)),
-                  sdv_times(q->face, sdv_plus(s[k - 1], s[k + 1])));
-    *t0 = sdv_plus(sdv_times(q->along1, sdv_minus(b[k + 1], b[k - 1])),
-                   sdv_times(q->along2, sdv_minus(s[k + 1], s[k - 1])));
-    *t1 = sdv_plus(sdv_times(q->across, d[k]),
-                   sdv_times(q->along2, sdv_plus(d[k - 1], d[k + 1])));
+    at->b[0] = at->b[1];
+    at->b[1] = at->b[2];
+    at->b[2] = q->b[k];
+    at->sum[0] = at->sum[1];
+    at->sum[1] = at->sum[2];
+    at->sum[2] = sdv_plus(q->a[k], q->c[k]);
+    at->difference[0] = at->difference[1];
+    at->difference[1] = at->difference[2];
+    at->difference[2] = sdv_minus(q->c[k], q->a[k]);
+}
+
+// The limit of point k of row b and two tangents.
+SDV_INLINE void sdv_limit_quad(const sdv_limit_lines *q, int k, sdv_limit_place *at, sdv_four *p,
+                               sdv_four *t0, sdv_four *t1)
+{
+    const sdv_four *b = at->b, *s = at->sum, *d = at->difference;
+    sdv_limit_next(q, k + 1, at);
+    sdv_four edges = sdv_plus(sdv_plus(b[0], b[2]), s[1]);
+    *p = sdv_plus(sdv_plus(sdv_times(q->self, b[1]), sdv_times(q->edge, edges)),
+                  sdv_times(q->face, sdv_plus(s[0], s[2])));
+    *t0 = sdv_plus(sdv_times(q->along1, sdv_minus(b[2], b[0])),
+                   sdv_times(q->along2, sdv_minus(s[2], s[0])));
+    *t1 = sdv_plus(sdv_times(q->across, d[1]), sdv_times(q->along2, sdv_plus(d[0], d[2])));
 }
 
 // Around a vertex, counter-clockwise from the right: b[k+1] c[k] c[k-1] b[k-1] a[k] a[k+1].
@@ -8054,11 +8073,11 @@ SDV_INLINE void sdv_limit_triangle(const sdv_limit_lines *q, int k, sdv_four *p,
     *t1 = sdv_times(q->across, sdv_plus(d1, d2));
 }
 
-SDV_INLINE void sdv_limit_point(const sdv_limit_lines *q, int triangle, int k, sdv_four *p,
-                                sdv_four *t0, sdv_four *t1)
+SDV_INLINE void sdv_limit_point(const sdv_limit_lines *q, int triangle, int k, sdv_limit_place *at,
+                                sdv_four *p, sdv_four *t0, sdv_four *t1)
 {
     if (triangle) sdv_limit_triangle(q, k, p, t0, t1);
-    else sdv_limit_quad(q, k, p, t0, t1);
+    else sdv_limit_quad(q, k, at, p, t0, t1);
     if (!q->linear) return;
     *p = q->b[k];
     *t0 = sdv_minus(q->b[k + 1], q->b[k]);
@@ -8067,20 +8086,24 @@ SDV_INLINE void sdv_limit_point(const sdv_limit_lines *q, int triangle, int k, s
 
 // The limit of points 1 to count of row b, which stand from index on: four at a time, and the others
 // wait for more.
-SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *q, int triangle, int count, int index,
-                                     sdv_four origin, const sdv_window *out)
+SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *lines, int triangle, int count,
+                                     int index, sdv_four origin, const sdv_window *out)
 {
+    const sdv_limit_lines q = *lines;
+    sdv_limit_place at;
     sdv_four p[4], t0[4], t1[4];
-    int fours = out->tangents && !out->tangents->tangents && !out->clip, k = 1;
+    int fours = out->tangents && !out->tangents->tangents && !out->clip && out->values, k = 1;
+    float *to = fours ? out->values + out->stride * (size_t)index : NULL;
+    for (int i = 0; i < 2 && !triangle; i++) sdv_limit_next(&q, i, &at);
     for (; fours && k + 3 <= count; k += 4, index += 4) {
-        for (int i = 0; i < 4; i++) {
-            sdv_limit_point(q, triangle, k + i, &p[i], &t0[i], &t1[i]);
-            sdv_put_point(out, index + i, sdv_plus(origin, p[i]));
+        for (int i = 0; i < 4; i++, to += out->stride) {
+            sdv_limit_point(&q, triangle, k + i, &at, &p[i], &t0[i], &t1[i]);
+            sdv_store_three(to, sdv_plus(origin, p[i]));
         }
         sdv_put_normals(out->tangents, index, t0, t1);
     }
     for (; k <= count; k++, index++) {
-        sdv_limit_point(q, triangle, k, p, t0, t1);
+        sdv_limit_point(&q, triangle, k, &at, p, t0, t1);
         sdv_put_point(out, index, sdv_plus(origin, p[0]));
         if (out->tangents) sdv_put_tangents(out, index, t0[0], t1[0]);
     }
@@ -8090,8 +8113,9 @@ SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *q, int triangle, int
 static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, int first, int last,
                            const float *points, const sdv_window *out)
 {
+    sdv_four rows[3][SDV_PIECE + 2];
+    sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
     sdv_limit_lines q;
-    sdv_four *a = q.rows[0], *b = q.rows[1], *c = q.rows[2];
     const sdv_four origin = sdv_load(points + 4 * (size_t)grid->corner[0]);
     int triangle = grid->triangle, n = grid->columns;
     sdv_begin_limit_lines(limit, triangle, &q);
@@ -8104,10 +8128,6 @@ static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, in
         q.a = a;
         q.b = b;
         q.c = c;
-        for (int k = 0; k <= count + 1 && !triangle; k++) {
-            q.sums[k] = sdv_plus(a[k], c[k]);
-            q.differences[k] = sdv_minus(c[k], a[k]);
-        }
         if (triangle) sdv_limit_row_points(&q, 1, count, index, origin, out);
         else sdv_limit_row_points(&q, 0, count, index, origin, out);
         sdv_four *swap = a;
