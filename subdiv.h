@@ -3014,9 +3014,7 @@ typedef struct sdv_batch {
     const int *items;                   // of each row the target, the points, three floats if own
     const unsigned char *faces;         // [rows] which face of the block a row belongs to, rising
     const float *limit;                 // [3][points] of a limit: weights of the point and of two
-                                        // tangents; else NULL
-    int       polygon;                  // rows of the cage's face points
-} sdv_batch;
+} sdv_batch;                            // tangents; else NULL
 
 typedef struct sdv_batches {
     int        rows, blocks;
@@ -3044,9 +3042,7 @@ typedef struct sdv_batcher {
     int          rows, face;            // face: the rows that follow belong to it
     int         *points;                // room for those of a row
     int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
-    int         *polygon;               // with so many faces, and for face points; or -1
-    int          most;
-    int          polygons;              // the rows are of the cage's face points
+    int          most;                  // with so many faces; or -1
 } sdv_batcher;
 
 static void sdv_begin_batches(sdv_context *context, sdv_arena *arena, sdv_batcher *batcher)
@@ -3183,7 +3179,6 @@ static void sdv_end_block(sdv_batcher *batcher)
         sdv_copy(faces, open[i].faces, rows, 1);
         batch->shape = open[i].shape;
         batch->limit = open[i].limit;
-        batch->polygon = batcher->polygons;
         batch->rows = open[i].rows;
         batch->items = items;
         batch->faces = faces;
@@ -3365,12 +3360,8 @@ static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
     int *point = sdv_begin_row(writer);
     sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0, 0 }, { end - start, 0, 0, 0 }, 0 };
-    int *known = writer->batcher ? &writer->batcher->polygon[end - start] : NULL;
-    if (known && *known >= 0) point = sdv_put_row(writer->batcher, *known, writer->target);
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
-    if (known && *known >= 0) return;
-    int number = sdv_end_row(writer, &runs);
-    if (known) *known = number;
+    sdv_end_row(writer, &runs);
 }
 
 // From weights of face points to weights of what they are the mean of.
@@ -3555,7 +3546,7 @@ typedef struct sdv_filler {
     int          target;                // next
     int         *line, *left, *right;   // [n + 1]
     int          odd, even;             // batches of the points on smooth edges,
-    int          edge, copy;            // of the cage's smooth edges and of points that stay
+    int          edge;                  // of the cage's smooth edges
     sdv_last_row sharp[2];             // the last odd and even one
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
@@ -5006,7 +4997,6 @@ struct subdiv_surface {
     sdv_limit_rows limit;               // of a limit, instead of last
 
     sdv_batches *refine;                // [levels] the rows to each next level; NULL: as above
-    sdv_batches first_faces;            // those of level 0's face points
     sdv_batches limit_rows;             // of a limit: from the last level to it
     int      *bases;                    // [levels + 2] where each level starts among work points
 
@@ -5767,8 +5757,17 @@ static void sdv_set_order(subdiv_surface *surface)
     surface->fine.vertex_count = surface->order.count;
 }
 
-// The rows of all levels: the cage's face, edge and vertex points, then lines and vertices level by
-// level.
+// The rows of all levels: the cage's edge and vertex points, then lines and vertices level by level.
+
+// The work point of a face point of the cage, as edge and vertex points are made from them: where it
+// stands on level 1 or, if that is the result, behind level 0.
+static int sdv_face_point(const subdiv_surface *surface, int f)
+{
+    int last = surface->levels == 1 && !surface->rules.limit;
+    if (last || surface->rules.loop) return surface->bases[1] + f;
+    sdv_order next = sdv_order_at(surface, 1);
+    return surface->bases[1] + sdv_first_inside(&next, f);
+}
 
 static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_level *cage, int n,
                            sdv_pieces *pieces)
@@ -5838,8 +5837,6 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     fill->odd = sdv_find_open(&fill->batcher, &shape, NULL);
     shape = sdv_shape_of(&even);
     fill->even = sdv_find_open(&fill->batcher, &shape, NULL);
-    memset(&shape, 0, sizeof shape);
-    fill->copy = sdv_find_open(&fill->batcher, &shape, NULL);
     edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
     sdv_runs smooth_edge = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, 2 }, 0 };
     shape = sdv_shape_of(&smooth_edge);
@@ -5873,17 +5870,13 @@ static void sdv_fill_edge(sdv_filler *fill, int target, int h, int next, int f)
 
 // The rows that belong to face f: of the vertices and edges that no face before it has, and those
 // inside it that are not on a grid.
-static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f, int last)
+static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f)
 {
     const sdv_level *level = fill->level;
     const sdv_rules *rules = fill->rules;
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f), cage = !level->order;
     int plain = !rules->linear && rules->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK;
     sdv_batch_face(&fill->batcher, f);
-    if (cage && last && !rules->loop) {
-        int target = fill->target + sdv_first_inside(&fill->to, f);
-        *sdv_put_row(&fill->batcher, fill->copy, target) = level->face_point[f];
-    }
     for (int h = start; h < end; h++) {
         int v = level->face_vertices[h], e = level->face_edges[h];
         if (level->vertex_first[v] == h) sdv_fill_vertex(fill, writer, v);
@@ -5898,30 +5891,12 @@ static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f, int last)
 
 static void sdv_fill_level(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface, int level)
 {
-    int last = level + 1 == surface->levels && !surface->rules.limit;
-    sdv_begin_fill(fill, surface, level, last);
+    sdv_begin_fill(fill, surface, level, level + 1 == surface->levels && !surface->rules.limit);
     for (int v = 0; v < fill->level->vertex_count; v++)
         if (fill->level->vertex_first[v] < 0) sdv_fill_vertex(fill, writer, v);
     for (int f = 0; f < fill->level->face_count && !writer->context->result; f++)
-        sdv_fill_face(fill, writer, f, last);
+        sdv_fill_face(fill, writer, f);
     sdv_end_batches(&fill->batcher, &surface->refine[level]);
-}
-
-// The face points of the cage: work points, as all others are made from them.
-static void sdv_fill_face_points(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface)
-{
-    sdv_level *level = fill->level;
-    sdv_order next = sdv_order_at(surface, 1);
-    int last = surface->levels == 1 && !surface->rules.limit;
-    fill->batcher.polygons = 1;
-    for (int f = 0; f < level->face_count && !fill->rules->loop; f++) {
-        level->face_point[f] = surface->bases[1] + (last ? f : sdv_first_inside(&next, f));
-        writer->target = level->face_point[f];
-        sdv_batch_face(&fill->batcher, f);
-        sdv_face_row(level, f, writer);
-    }
-    sdv_end_batches(&fill->batcher, &surface->first_faces);
-    fill->batcher.polygons = 0;
 }
 
 // The limit of point t of a line: on a crease that of the surface on its left; linear, where the
@@ -6060,7 +6035,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     sdv_begin_batches(context, &surface->points, &fill.batcher);
     fill.batcher.points = SDV_NEW(context, scratch, int, sdv_longest_row(cage, &most));
     fill.batcher.most = most;
-    fill.batcher.smooth = SDV_NEW(context, scratch, int, 2 * (size_t)most + 2);
+    fill.batcher.smooth = SDV_NEW(context, scratch, int, (size_t)most + 1);
     fill.line = SDV_NEW(context, scratch, int, n + 1);
     fill.left = SDV_NEW(context, scratch, int, n + 1);
     fill.right = SDV_NEW(context, scratch, int, n + 1);
@@ -6068,7 +6043,6 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     surface->refine = SDV_NEW(context, &surface->points, sdv_batches, levels);
     sdv_new_pieces(context, scratch, cage, (int)n, &pieces);
     if (context->result) return;
-    fill.batcher.polygon = fill.batcher.smooth + most + 1;
     memset(&writer, 0, sizeof writer);
     writer.context = context;
     writer.batcher = &fill.batcher;
@@ -6086,8 +6060,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     }
     surface->work_count = surface->bases[levels + 1];
     int semi = sdv_is_semi(cage);
-    for (int i = 0; i < 2 * most + 2; i++) fill.batcher.smooth[i] = -1;
-    sdv_fill_face_points(&fill, &writer, surface);
+    for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = sdv_face_point(surface, f);
     for (int i = 0; i < levels && !context->result; i++) {
         if (semi) sdv_level_fade(cage);
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
@@ -6097,6 +6070,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     pieces.now = pieces.next;
     if (limit && !context->result) sdv_fill_limit(&fill, &writer, surface, most, scratch);
     sdv_batcher_free(&fill.batcher);
+    sdv_arena_free(&surface->around);
 }
 
 // The first fine face of face f, or how many there are before any.
@@ -8157,15 +8131,15 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
         int index = sdv_first_inside(order, f);
         const sdv_four p0 = sdv_load(points + 4 * (size_t)index);
         sdv_four p[9], sums[3];
-        for (int i = 0; i < 4; i++) {
-            p[1 + i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), p0);
-            p[5 + i] = sdv_minus(sdv_load(points + 4 * (size_t)v[(i + 1) & 3]), p0);
+        for (int i = 0; i < 4; i++) {           // from the right, that is from edge 1 on
+            p[1 + i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[(i + 1) & 3]), p0);
+            p[5 + i] = sdv_minus(sdv_load(points + 4 * (size_t)v[(i + 2) & 3]), p0);
         }
         sdv_limit_ring(w, 0, p, sums);
         if (limit->linear) {
             sums[0] = sdv_all(0);
-            sums[1] = p[2];
-            sums[2] = p[3];
+            sums[1] = p[1];
+            sums[2] = p[2];
         }
         sdv_put_point(out, index, sdv_plus(p0, sums[0]));
         if (!out->tangents) continue;
@@ -8202,11 +8176,39 @@ static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, cons
     }
 }
 
+// The face points of the cage, of faces face to end - 1: each the mean of the face's vertices. As work
+// points; as they are all of a result's level 1 that is inside faces, they are copied there later.
+static void sdv_make_face_points(const subdiv_surface *surface, float *work, int face, int end)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int point = sdv_face_point(surface, 0);
+    if (end > cage->face_count) end = cage->face_count;
+    for (int f = face; f < end; f++) {
+        int start = sdv_face_start(cage, f), size = sdv_face_end(cage, f) - start;
+        const int *v = cage->face_vertices + start;
+        const float w = (float)sdv_face_weight(size);
+        sdv_store(work + 4 * ((size_t)point + (size_t)f),
+                  size == 4 ? sdv_batch_sum(v, 3, 0, 0, &w, work)
+                            : sdv_batch_sum(v, size - 1, 0, 0, &w, work));
+    }
+}
+
+static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face, int end,
+                                 const sdv_window *out)
+{
+    const float *from = work + 4 * (size_t)sdv_face_point(surface, 0);
+    int first = sdv_first_inside(&surface->order, 0);
+    for (int f = face; f < end && f < surface->cage_face_count; f++)
+        sdv_put_point(out, first + f, sdv_load(from + 4 * (size_t)f));
+}
+
 // A level from the one before, for the points that belong to cage faces face to end - 1.
 static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
                              int end, int target, const sdv_window *out)
 {
     sdv_make_batches(&surface->refine[level], work, face, end, out);
+    if (level == 0 && surface->levels == 1 && !surface->rules.limit && !surface->rules.loop)
+        sdv_copy_face_points(surface, work, face, end, out);
     if (level == 0) return;
     sdv_order from = sdv_order_at(surface, level), to = sdv_order_at(surface, level + 1);
     if (end > surface->cage_face_count) end = surface->cage_face_count;
@@ -8322,7 +8324,7 @@ static void sdv_level_job(void *context, int job)
     for (int c = 0; c < e->channels; c += 4) {
         float *work = e->work + (size_t)c * (size_t)surface->work_count;
         sdv_window out = { work, 4, 4, 0, surface->work_count, 0, NULL };
-        if (e->step < 0) sdv_make_batches(&surface->first_faces, work, face, end, &out);
+        if (e->step < 0) sdv_make_face_points(surface, work, face, end);
         else sdv_refine_faces(surface, e->step, work, face, end, surface->bases[e->step + 1], &out);
     }
 }
@@ -8331,7 +8333,7 @@ static void sdv_make_level_points(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
     int last = surface->rules.limit ? surface->levels : surface->levels - 1;
-    for (e->step = -1; e->step < last; e->step++) {
+    for (e->step = surface->rules.loop ? 0 : -1; e->step < last; e->step++) {
         int level = e->step < 0 ? 0 : e->step + 1;
         e->jobs = sdv_jobs(opt, surface->bases[level + 1] - surface->bases[level],
                            SDV_JOB_POINTS);
@@ -11093,7 +11095,6 @@ static void sdv_note_rows_of(sdv_stencil_maker *make)
     make->rows = SDV_NEW(make->context, &make->arena, const int *, count);
     if (make->context->result) return;
     for (size_t i = 0; i < count; i++) make->rows[i] = NULL;
-    sdv_note_batches(make, &surface->first_faces, 0);
     for (int i = 0; i <= last; i++)
         sdv_note_batches(make, &surface->refine[i], i == last && !limit ? surface->work_count : 0);
     if (limit) sdv_note_batches(make, &surface->limit_rows, surface->work_count);
@@ -11119,6 +11120,10 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
     make->longest = 9;
+    for (int f = 0; f < surface->order.cage.face_count; f++) {
+        int size = sdv_face_end(&surface->order.cage, f) - sdv_face_start(&surface->order.cage, f);
+        if (size > make->longest) make->longest = size;
+    }
     if (surface->refine) sdv_note_rows_of(make);
     for (size_t i = 0; i < (size_t)(surface->refine ? 0 : surface->masks.count); i++)
         if (surface->masks.items[i].count > make->longest)
@@ -11319,6 +11324,19 @@ static void sdv_grid_row_of(const subdiv_surface *surface, int level, int index,
     sdv_fill_weights(out);
 }
 
+// The row of a face point of the cage.
+static void sdv_face_stencil(const subdiv_surface *surface, int f, sdv_stencil_row *out)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int start = sdv_face_start(cage, f);
+    out->count = sdv_face_end(cage, f) - start;
+    for (int i = 0; i < out->count; i++) {
+        out->points[i] = cage->face_vertices[start + i];
+        out->weights[i] = (double)(float)sdv_face_weight(out->count);
+    }
+    sdv_fill_weights(out);
+}
+
 // The row of point index of a level; the last level's has no work points.
 static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, sdv_stencil_row *out)
 {
@@ -11326,7 +11344,8 @@ static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, s
     int last = level == surface->levels && !surface->rules.limit;
     int at = last ? surface->work_count + index : surface->bases[level] + index;
     if (make->rows[at]) sdv_batch_row(make->batches[at], make->rows[at], out);
-    else sdv_grid_row_of(surface, level, index, out);
+    else if (level > 1) sdv_grid_row_of(surface, level, index, out);
+    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1).first_face_point, out);
 }
 
 // The row of a work point, in the room of its level. The face points of the cage have one of their
@@ -11341,9 +11360,11 @@ static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int po
         return make->room;
     }
     while (point >= surface->bases[level + 1]) level++;
-    int face = make->rows[point] && make->batches[point]->polygon;
-    sdv_stencil_row *room = &make->room[face ? 0 : level];
-    if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
+    int faces = surface->rules.loop ? 0 : surface->cage_face_count;
+    int face = level == 1 && faces ? point - sdv_face_point(surface, 0) : -1;
+    sdv_stencil_row *room = &make->room[face < 0 ? level : 0];
+    if (face >= 0) sdv_face_stencil(surface, face, room);
+    else if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
     else sdv_grid_row_of(surface, level, point - surface->bases[level], room);
     return room;
 }
