@@ -3069,9 +3069,10 @@ static int sdv_same_shape(const sdv_shape *a, const sdv_shape *b)
 // place is taken takes it over. -1: out of memory.
 static int sdv_find_open(sdv_batcher *batcher, const sdv_shape *shape, const float *limit)
 {
-    uint32_t bits[3] = { 0, 0, 0 }, hash = (uint32_t)(uintptr_t)limit;
+    uint32_t bits[3] = { 0, 0, 0 }, hash = 0;
     sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open);
     if (!shape->own) memcpy(bits, shape->weight, sizeof bits);
+    if (limit) memcpy(&hash, limit, sizeof hash);
     for (int i = 0; i < 3; i++) hash = (hash ^ bits[i] ^ (uint32_t)shape->count[i]) * 2654435761u;
     int *known = &batcher->known[hash >> 24];
     if (*known >= 0 && open[*known].limit == limit && sdv_same_shape(&open[*known].shape, shape))
