@@ -3043,6 +3043,7 @@ typedef struct sdv_batcher {
     int         *points;                // room for those of a row
     int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
     int          most;                  // with so many faces; or -1
+    int          crease, corner, middle;        // the same for vertices and edges that stay sharp
 } sdv_batcher;
 
 static void sdv_begin_batches(sdv_context *context, sdv_arena *arena, sdv_batcher *batcher)
@@ -3051,6 +3052,7 @@ static void sdv_begin_batches(sdv_context *context, sdv_arena *arena, sdv_batche
     batcher->context = context;
     batcher->arena = arena;
     batcher->scratch = sdv_scratch();
+    batcher->crease = batcher->corner = batcher->middle = -1;
     for (int i = 0; i < 256; i++) batcher->known[i] = -1;
 }
 
@@ -3435,6 +3437,14 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
 
 // Without a crease each edge at v lies between two faces. The cage on a later level has no face
 // points: see >>lines.
+// Where the number of the batch of such vertices is kept; NULL: of a blend of two rules.
+static int *sdv_known_batch(sdv_batcher *batcher, sdv_fading fading, int faces)
+{
+    if (fading.rule < SDV_CREASE) return &batcher->smooth[faces];
+    if (fading.rule != fading.next) return NULL;
+    return fading.rule == SDV_CREASE ? &batcher->crease : &batcher->corner;
+}
+
 // The points around a smooth vertex: its neighbours, then those of its faces.
 static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
 {
@@ -3459,11 +3469,12 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 {
     int faces = level->vertex_faces[v], spread = level->order && !rules->loop;
     sdv_fading fading = sdv_vertex_fading(level, v);
-    int *known = writer->batcher && fading.rule < SDV_CREASE ? &writer->batcher->smooth[faces] : NULL;
+    int *known = writer->batcher ? sdv_known_batch(writer->batcher, fading, faces) : NULL;
     if (known && *known >= 0) {
         int *row = sdv_put_row(writer->batcher, *known, writer->target);
         row[0] = level->first_point + v;
-        sdv_add_ring(level, v, rules->loop, row + 1);
+        if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, rules->loop, row + 1);
+        if (fading.rule == SDV_CREASE) sdv_add_neighbours(level, v, SDV_CREASE, 1, row + 1);
         return;
     }
     sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
@@ -3491,7 +3502,7 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
                               : level->face_point[sdv_face_of(level, h)];
     runs.count[3] = (int)(point - run);
     int number = sdv_end_row(writer, &runs);
-    if (known && mask.self != 0 && mask.edge != 0) *known = number;
+    if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
 
 // The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
@@ -3503,7 +3514,14 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
     sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
-    int *point = sdv_begin_row(writer);
+    int *point = sdv_begin_row(writer), *known = NULL;
+    if (writer->batcher && stays_sharp) known = &writer->batcher->middle;
+    if (known && *known >= 0) {
+        int *row = sdv_put_row(writer->batcher, *known, writer->target);
+        row[0] = level->first_point + level->face_vertices[h];
+        row[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
+        return;
+    }
     sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face },
                       { 2, 0, 0, mask.face != 0 ? faces : 0 }, sharpness > 0 && !stays_sharp };
     point[0] = level->first_point + level->face_vertices[h];
@@ -3512,7 +3530,8 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
         point[2 + i] = rules->loop ?
             level->first_point + level->face_vertices[sdv_previous(level, k)] :
             level->face_point[sdv_face_of(level, k)];
-    sdv_end_row(writer, &runs);
+    int number = sdv_end_row(writer, &runs);
+    if (known) *known = number;
 }
 
 // --------------------------------------------------------------------------------- >>lines
@@ -3548,7 +3567,8 @@ typedef struct sdv_filler {
     int         *line, *left, *right;   // [n + 1]
     int          odd, even;             // batches of the points on smooth edges,
     int          edge;                  // of the cage's smooth edges
-    sdv_last_row sharp[2];             // the last odd and even one
+    sdv_last_row sharp[2];              // the last odd and even one
+    int          edges;                 // that have their rows; faces meet them in this order
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
@@ -5760,14 +5780,12 @@ static void sdv_set_order(subdiv_surface *surface)
 
 // The rows of all levels: the cage's edge and vertex points, then lines and vertices level by level.
 
-// The work point of a face point of the cage, as edge and vertex points are made from them: where it
-// stands on level 1 or, if that is the result, behind level 0.
-static int sdv_face_point(const subdiv_surface *surface, int f)
+// The face points of the cage are work points, as edge and vertex points are made from them: the
+// first one. They stand where they do on level 1 or, if that is the result, behind level 0.
+static int sdv_first_face_point(const subdiv_surface *surface)
 {
     int last = surface->levels == 1 && !surface->rules.limit;
-    if (last || surface->rules.loop) return surface->bases[1] + f;
-    sdv_order next = sdv_order_at(surface, 1);
-    return surface->bases[1] + sdv_first_inside(&next, f);
+    return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1).first_face_point);
 }
 
 static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_level *cage, int n,
@@ -5848,6 +5866,7 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     fill->target = last ? 0 : surface->bases[level + 1];
     fill->level->order = level ? &fill->from : NULL;
     fill->sharp[0].batch = fill->sharp[1].batch = -1;
+    fill->edges = 0;
     for (int i = 0; i <= fill->batcher.most && level <= 1; i++) fill->batcher.smooth[i] = -1;
 }
 
@@ -5881,7 +5900,8 @@ static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f)
     for (int h = start; h < end; h++) {
         int v = level->face_vertices[h], e = level->face_edges[h];
         if (level->vertex_first[v] == h) sdv_fill_vertex(fill, writer, v);
-        if (level->edge_first[e] != h) continue;
+        if (e != fill->edges) continue;
+        fill->edges++;
         writer->target = fill->target + fill->to.first_edge_point + e;
         if (!cage) sdv_line_rows(fill, h);
         else if (level->sharpness[h] > 0 || !plain) sdv_edge_row(level, rules, h, writer);
@@ -6061,7 +6081,8 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     }
     surface->work_count = surface->bases[levels + 1];
     int semi = sdv_is_semi(cage);
-    for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = sdv_face_point(surface, f);
+    int point = sdv_first_face_point(surface);
+    for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = point + f;
     for (int i = 0; i < levels && !context->result; i++) {
         if (semi) sdv_level_fade(cage);
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
@@ -8182,7 +8203,7 @@ static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, cons
 static void sdv_make_face_points(const subdiv_surface *surface, float *work, int face, int end)
 {
     const sdv_level *cage = &surface->order.cage;
-    int point = sdv_face_point(surface, 0);
+    int point = sdv_first_face_point(surface);
     if (end > cage->face_count) end = cage->face_count;
     for (int f = face; f < end; f++) {
         int start = sdv_face_start(cage, f), size = sdv_face_end(cage, f) - start;
@@ -8197,7 +8218,7 @@ static void sdv_make_face_points(const subdiv_surface *surface, float *work, int
 static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face, int end,
                                  const sdv_window *out)
 {
-    const float *from = work + 4 * (size_t)sdv_face_point(surface, 0);
+    const float *from = work + 4 * (size_t)sdv_first_face_point(surface);
     int first = sdv_first_inside(&surface->order, 0);
     for (int f = face; f < end && f < surface->cage_face_count; f++)
         sdv_put_point(out, first + f, sdv_load(from + 4 * (size_t)f));
@@ -11362,7 +11383,7 @@ static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int po
     }
     while (point >= surface->bases[level + 1]) level++;
     int faces = surface->rules.loop ? 0 : surface->cage_face_count;
-    int face = level == 1 && faces ? point - sdv_face_point(surface, 0) : -1;
+    int face = level == 1 && faces ? point - sdv_first_face_point(surface) : -1;
     sdv_stencil_row *room = &make->room[face < 0 ? level : 0];
     if (face >= 0) sdv_face_stencil(surface, face, room);
     else if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
