@@ -3470,6 +3470,7 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     int faces = level->vertex_faces[v], spread = level->order && !rules->loop;
     sdv_fading fading = sdv_vertex_fading(level, v);
     int *known = writer->batcher ? sdv_known_batch(writer->batcher, fading, faces) : NULL;
+    if (rules->linear) known = NULL;
     if (known && *known >= 0) {
         int *row = sdv_put_row(writer->batcher, *known, writer->target);
         row[0] = level->first_point + v;
