@@ -1744,8 +1744,6 @@ typedef struct sdv_level {
     unsigned char *core;                // [face_count]         makes points of the result; the
                                         //                      others are there for their masks
     unsigned char *rough;               // [face_count]         in the core, and not a patch
-    unsigned char *edge_done;           // [face_vertex_count]  points of the result that a patch
-    unsigned char *vertex_done;         // [vertex_count]       or a copy makes
 } sdv_level;
 
 static int sdv_face_start(const sdv_level *level, int face)
@@ -1853,8 +1851,6 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
     level->face_point = SDV_NEW(context, arena, int, faces);
     level->core = SDV_NEW(context, arena, unsigned char, faces);
     level->rough = SDV_NEW(context, arena, unsigned char, faces);
-    level->edge_done = SDV_NEW(context, arena, unsigned char, face_vertices);
-    level->vertex_done = SDV_NEW(context, arena, unsigned char, vertices);
     if (!context->result) memset(level->creased, 0, vertices);
 }
 
@@ -2193,16 +2189,16 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *le
 }
 
 // Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
-// around what its patches are gathered from besides, scratch the rest.
-static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *around,
-                           sdv_arena *scratch, sdv_cage *cage, const subdiv_mesh *mesh)
+// scratch the rest.
+static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                           sdv_cage *cage, const subdiv_mesh *mesh)
 {
     sdv_level *level = &cage->level;
     memset(cage, 0, sizeof *cage);
     sdv_cage_faces(context, keep, level, mesh);
     if (context->result) return;
     level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
-    level->across = SDV_NEW(context, around, int, level->face_vertex_count);
+    level->across = SDV_NEW(context, scratch, int, level->face_vertex_count);
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
@@ -2972,10 +2968,8 @@ typedef struct sdv_masks {              // of all rows of a surface
 
 typedef struct sdv_rows {
     int     count;
-    int     first;                      // row i makes work point first + i; starts[i / 64] is where
-                                        // it stands, for i a multiple of 64. Or
-    int     targets;                    // rows make points of the result; starts[f] is where the
-    size_t *starts;                     // first of cage face f stands
+    int     first;                      // row i makes work point first + i
+    size_t *starts;                     // [i / 64] where row i stands, for i a multiple of 64
     int    *items;                      // the stream
 } sdv_rows;
 
@@ -3235,8 +3229,8 @@ typedef struct sdv_writer {
     sdv_arena    arena;
     sdv_rows    *rows;                  // being written
     int         *row;                   // the next one
-    int          target, face;          // and what it makes, if it has a target
-    struct sdv_batcher *batcher;        // where the rows go, or NULL
+    struct sdv_batcher *batcher;        // where rows go that have a target, or NULL
+    int          target;
 } sdv_writer;
 
 static void sdv_writer_free(sdv_writer *writer)
@@ -3309,26 +3303,10 @@ static void sdv_begin_rows(sdv_writer *writer, sdv_arena *arena, sdv_rows *rows,
     writer->row = rows->items;
 }
 
-// Rows that make points of the result, cage face by cage face.
-static void sdv_begin_result(sdv_writer *writer, sdv_arena *arena, sdv_rows *rows, size_t size,
-                             int cage_faces)
-{
-    sdv_begin_rows(writer, arena, rows, size, (size_t)cage_faces + 1, 0);
-    rows->targets = 1;
-    writer->face = 0;
-}
-
-// The rows that follow belong to this cage face.
-static void sdv_go_to_face(sdv_writer *writer, int face)
-{
-    sdv_rows *rows = writer->rows;
-    while (writer->face <= face) rows->starts[writer->face++] = (size_t)(writer->row - rows->items);
-}
-
 // Where the points of the next row go.
 static int *sdv_begin_row(sdv_writer *writer)
 {
-    return writer->batcher ? writer->batcher->points : writer->row + 1 + writer->rows->targets;
+    return writer->batcher ? writer->batcher->points : writer->row + 1;
 }
 
 // Returns the number of its batch, or -1.
@@ -3337,11 +3315,10 @@ static int sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
     if (writer->batcher) return sdv_add_runs(writer->batcher, runs, writer->target);
     sdv_rows *rows = writer->rows;
     int *row = writer->row, points = sdv_run_points(runs);
-    if (rows->targets) row[1] = writer->target;
-    else if (rows->count % SDV_ROW_BLOCK == 0)
+    if (rows->count % SDV_ROW_BLOCK == 0)
         rows->starts[rows->count / SDV_ROW_BLOCK] = (size_t)(row - rows->items);
     row[0] = sdv_mask_number(writer, runs);
-    writer->row = row + 1 + rows->targets + points;
+    writer->row = row + 1 + points;
     rows->count++;
     return -1;
 }
@@ -3913,14 +3890,12 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         int point = split->vertex[v];
         if (point < 0) continue;
         next->vertex_sharpness[point] = sdv_fade(level->vertex_sharpness[v]);
-        next->vertex_done[point] = level->vertex_done[v];
         next->vertex_faces[point] = level->vertex_faces[v];
     }
     for (int f = 0; f < level->face_count && !rules->loop; f++) {
         int point = split->face[f];
         if (point < 0) continue;
         next->vertex_sharpness[point] = 0;
-        next->vertex_done[point] = 0;
         next->vertex_faces[point] = sdv_face_end(level, f) - sdv_face_start(level, f);
     }
     for (int h = 0; h < level->face_vertex_count; h++) {
@@ -3928,7 +3903,6 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         if (point < 0 || !sdv_is_edge(level, h)) continue;
         int straight = rules->straight && level->across[h] == h;
         next->vertex_sharpness[point] = straight ? level->sharpness[h] : 0;
-        next->vertex_done[point] = level->edge_done[h];
         next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
     }
 }
@@ -3997,8 +3971,6 @@ static void sdv_split_vertex(const sdv_level *level, const sdv_split *split, sdv
     next->sharpness[last] = behind;
     if (ahead > 0) next->creased[split->vertex[v]] = next->creased[split->edge[h]] = 1;
     if (behind > 0) next->creased[split->vertex[v]] = next->creased[split->edge[before]] = 1;
-    next->edge_done[child] = level->edge_done[h];
-    next->edge_done[last] = level->edge_done[before];
 }
 
 // An edge inside a face, between siblings: smooth and new. other < 0: there is only one.
@@ -4006,7 +3978,6 @@ static void sdv_split_inside(sdv_level *next, int at, int other)
 {
     next->across[at] = other < 0 ? at : other;
     next->sharpness[at] = 0;
-    next->edge_done[at] = 0;
 }
 
 // The place of the child at the vertex that is so far from vertex 0.
@@ -4109,54 +4080,22 @@ typedef struct sdv_patch {
     int row, column;                    // of vertex 0 on that grid, in segments of the last level
     signed char step;                   // -1 for a triangle that is turned by half
     unsigned char sharp;                // bit i: edge i is sharp
-    unsigned char owned;                // which of its sides and vertices it writes, see below
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
     unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
 } sdv_patch;
 
-// Bits of owned. A triangle's slanted side is its right one, its last vertex top left.
-enum { SDV_BOTTOM = 1, SDV_RIGHT = 2, SDV_TOP = 4, SDV_LEFT = 8, SDV_BOTTOM_LEFT = 16,
-       SDV_BOTTOM_RIGHT = 32, SDV_TOP_RIGHT = 64, SDV_TOP_LEFT = 128 };
-
 // Which control points the vertices of a face are (see the gathering functions).
 static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
 
-// Patches pay for so many levels at least.
-#define SDV_QUAD_PATCH_DEPTH 1
-#define SDV_LOOP_PATCH_DEPTH 2
-
 typedef struct sdv_patches {            // of one level
-    int        count, depth;            // depth: levels to go
+    int        count;
     sdv_patch *items;                   // [count] in the order of cage faces
     int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
-                                        //      work points; for those that are mirrored, any. Of
-                                        //      a result's level 0 NULL: they are gathered from the
-} sdv_patches;                          //      cage each time, which is less to read
+} sdv_patches;                          //      work points; for those that are mirrored, any
 
 static int sdv_control_points(const sdv_rules *rules)
 {
     return rules->loop ? 12 : 16;
-}
-
-// So many levels never end: then a patch's place is that of its face, and strips are measured in
-// segments of so many levels, as semi-sharp creases are smooth by then.
-#define SDV_FOREVER 1000
-#define SDV_STRIP_LEVELS 10
-
-// Is an edge or vertex of this sharpness sharp on all of so many levels? If it lasts, it is sharp
-// even behind the last of them; with just as much sharpness as levels its own masks are all
-// sharp, too, but its end shows in the blend with others that end before (see sdv_vertex_fading),
-// and in the limit.
-static int sdv_lasts(float sharpness, int levels, const sdv_rules *rules)
-{
-    return sharpness >= SUBDIV_INFINITE ||
-           (rules->creasing == SUBDIV_CREASING_UNIFORM && sharpness > (float)levels);
-}
-
-static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
-{
-    int just = rules->creasing == SUBDIV_CREASING_UNIFORM && sharpness == (float)levels;
-    return sdv_lasts(sharpness, levels, rules) || (just && !rules->limit);
 }
 
 // A quad whose edge is semi-sharp, as the crease goes straight on with the same sharpness, is still
@@ -4175,17 +4114,20 @@ static int sdv_stays(float sharpness, int levels, const sdv_rules *rules)
 // one segment wide (two if there is a fraction), and the rest, which does not know that the edge
 // will ever be smooth. (A triangle is no such product: along the crease, what is beside it in
 // Loop is not one polynomial but one for each segment of level c.)
+//
+// Strips are measured in segments of so many levels, as semi-sharp creases are smooth by then.
+#define SDV_STRIP_LEVELS 10
+
 typedef struct sdv_strip {
-    int   from, to;                     // segments of the last level that it covers
-    int   origin, unit;                 // its own segment: where it starts, how long it is
-    int   smooth;                       // beside a crease that is smooth by then; others: mirrored
-    float rows[4][4];                   // smooth: its control rows, as sums of the patch's
-    double exact[4][4];                 // the same, for >>polynomials
+    int    from, to;                    // segments that it covers
+    int    origin, unit;                // its own segment: where it starts, how long it is
+    int    smooth;                      // beside a crease that is smooth by then; others: mirrored
+    double rows[4][4];                  // smooth: its control rows, as sums of the patch's
 } sdv_strip;
 
 typedef struct sdv_strips {
     float low, high;                    // sharpness of the two edges, 0: not semi-sharp
-    int   levels, count;
+    int   count;
     sdv_strip items[5];
 } sdv_strips;
 
@@ -4247,29 +4189,24 @@ static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
 static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
 {
     sdv_strip *strip = &strips->items[strips->count++];
-    int length = 1 << (strips->levels - c);
+    int length = 1 << (SDV_STRIP_LEVELS - c);
     strip->smooth = smooth;
     strip->from = first * length;
     strip->to = (last + 1) * length;
-    strip->unit = smooth ? length : 1 << strips->levels;
+    strip->unit = smooth ? length : 1 << SDV_STRIP_LEVELS;
     strip->origin = smooth ? strip->from : 0;
-    for (int j = 0; j < 4 && smooth; j++) {
-        sdv_strip_row(strips, c, first + j - 1, strip->exact[j]);
-        for (int k = 0; k < 4; k++) strip->rows[j][k] = (float)strip->exact[j][k];
-    }
+    for (int j = 0; j < 4 && smooth; j++) sdv_strip_row(strips, c, first + j - 1, strip->rows[j]);
 }
 
-// Cuts a quad, of so many levels to go. What is sharper than that is sharp on all of them.
-static sdv_strips sdv_cut_strips(float low, float high, int levels)
+static sdv_strips sdv_cut_strips(float low, float high)
 {
     double s = (double)(low > high ? low : high);
-    int lasts = s > levels, c = lasts ? 0 : (int)ceil(s), width = s > floor(s) ? 2 : 1;
+    int c = (int)ceil(s), width = s > floor(s) ? 2 : 1;
     int end = 1 << c, left = c && low > 0 ? width : 0, right = end - (c && high > 0 ? width : 0);
     sdv_strips strips;
     memset(&strips, 0, sizeof strips);
     strips.low = low;
     strips.high = high;
-    strips.levels = levels;
     if (left > right) left = right = end;
     for (int i = 0; i < left; i++) sdv_add_strip(&strips, c, i, i, 1);
     if (left < right) sdv_add_strip(&strips, c, left, right - 1, 0);
@@ -4277,7 +4214,7 @@ static sdv_strips sdv_cut_strips(float low, float high, int levels)
     return strips;
 }
 
-// How the surface goes on at a vertex, down to the last level. Bits, so that a face may have those
+// How the surface goes on at a vertex, on all levels. Bits, so that a face may have those
 // of all its vertices.
 typedef enum sdv_kind {
     SDV_ROUGH = 1, SDV_FREE = 2, SDV_LINED = 4, SDV_EDGED = 8, SDV_PINNED = 16
@@ -4347,10 +4284,9 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 
 // Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
 // creases that go straight on, or end where a crease that stays runs across. All else is rough.
-static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int levels,
-                               int dependent)
+static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int dependent)
 {
-    int sharp = 0, stay = 0, last = 0, semi = 0;
+    int sharp = 0, stay = 0;
     float s = level->vertex_sharpness[v];
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
@@ -4358,32 +4294,27 @@ static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, i
             float t = level->sharpness[two[i]];
             if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
             sharp++;
-            semi += t < SUBDIV_INFINITE;
-            stay += sdv_stays(t, levels, rules);
-            last += sdv_lasts(t, levels, rules);
+            stay += t >= SUBDIV_INFINITE;
         }
     }
-    if (last > 2 || sdv_lasts(s, levels, rules)) return SDV_PINNED;
+    if (stay > 2 || s >= SUBDIV_INFINITE) return SDV_PINNED;
     int others = level->origin && level->origin[v] >= 0 &&      // across a seam
-                 level->sums[2 * (size_t)level->origin[v] + 1] > (float)semi;
+                 level->sums[2 * (size_t)level->origin[v] + 1] > (float)(sharp - stay);
     if (stay < sharp && !dependent && !others) {
-        int ends = last == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
+        int ends = stay == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
         if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
     }
-    if (stay < sharp || (s > 0 && !sdv_stays(s, levels, rules))) return SDV_ROUGH;
-    if (s > 0 || sharp > 2) return SDV_PINNED;
-    return sharp == 2 ? SDV_EDGED : SDV_ROUGH;
+    return stay < sharp || s > 0 || sharp != 2 ? SDV_ROUGH : SDV_EDGED;
 }
 
-static inline sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v,
-                                       int levels)
+static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v)
 {
     int dependent = level->partner && level->partner[v] >= 0;
     if (rules->linear) return SDV_FREE;
     if (dependent) v = level->partner[v];
     if (level->vertex_sharpness[v] <= 0 && !level->creased[v])
         return sdv_smooth_kind(level, rules, v);
-    return sdv_sharp_kind(level, rules, v, levels, dependent);
+    return sdv_sharp_kind(level, rules, v, dependent);
 }
 
 // The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
@@ -4522,40 +4453,38 @@ static void sdv_gather_linear(const sdv_level *level, int h, int size, int *poin
 
 // The control points of a patch, whose face starts with face-vertex h.
 static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
-                              const sdv_patch *patch, int h, int closed, int *points)
+                              const sdv_patch *patch, int h, int *points)
 {
     if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
     else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
-    else sdv_gather_quad(level, h, closed, points);
+    else sdv_gather_quad(level, h, patch->sharp, points);
 }
 
 // The number of the strips between two edges; 0 if they differ, or there are too many already.
-static int sdv_find_strips(sdv_writer *writer, float low, float high, int levels)
+static int sdv_find_strips(sdv_writer *writer, float low, float high)
 {
     sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
     int count = (int)writer->strips.count;
     if (low > 0 && high > 0 && (low < high || low > high)) return 0;
-    if (levels == SDV_FOREVER) levels = SDV_STRIP_LEVELS;
     for (int i = count; i > 0; i--) {
         float d = strips[i - 1].low - low, e = strips[i - 1].high - high;
-        if (d * d + e * e <= 0 && strips[i - 1].levels == levels) return i;
+        if (d * d + e * e <= 0) return i;
     }
     strips = (sdv_strips *)sdv_array_room(writer->context, &writer->strips, 1, sizeof *strips);
     if (!strips || count == UCHAR_MAX) return 0;
-    *strips = sdv_cut_strips(low, high, levels);
+    *strips = sdv_cut_strips(low, high);
     return (int)++writer->strips.count;
 }
 
 // Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
 // which semi-sharp, and how its vertices' fans go on. Does it have a patch?
 static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                         const unsigned char *kinds, int h, int size, int levels,
-                         sdv_patch *patch)
+                         const unsigned char *kinds, int h, int size, sdv_patch *patch)
 {
     float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
-        if (s > 0 && !sdv_stays(s, levels, rules)) semi[i] = s;
+        if (sdv_is_semi_sharp(s)) semi[i] = s;
         else patch->sharp |= (unsigned char)((s > 0) << i);
         sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
         sdv_fan fan = sdv_find_fan(level, kind, h + i, rules->loop);
@@ -4568,59 +4497,31 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
         if (semi[i] > 0 && (kinds[level->face_vertices[at]] != SDV_LINED ||
                             kinds[level->face_vertices[next]] != SDV_LINED)) return 0;
     }
-    patch->up = (unsigned char)sdv_find_strips(writer, semi[0], semi[2], levels);
-    patch->along = (unsigned char)sdv_find_strips(writer, semi[3], semi[1], levels);
+    patch->up = (unsigned char)sdv_find_strips(writer, semi[0], semi[2]);
+    patch->along = (unsigned char)sdv_find_strips(writer, semi[3], semi[1]);
     return patch->up && patch->along;
 }
 
-// Where face f stands on its grid, of so many levels to go.
-static void sdv_set_place(const sdv_level *level, int f, int levels, sdv_patch *patch)
+// Where face f stands on its grid.
+static void sdv_set_place(const sdv_level *level, int f, sdv_patch *patch)
 {
     sdv_place place = level->places ? level->places[f] : sdv_first_place(sdv_face_start(level, f));
     patch->h = place.h;
-    patch->row = (int)((unsigned)place.row << levels);
-    patch->column = (int)((unsigned)place.column << levels);
+    patch->row = place.row;
+    patch->column = place.column;
     patch->step = (signed char)place.step;
 }
 
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                          const unsigned char *kinds, int f, int levels, int is_free,
-                          sdv_patch *patch)
+                          const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, levels, patch)) return 0;
-    sdv_set_place(level, f, levels == SDV_FOREVER ? 0 : levels, patch);
+    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, patch)) return 0;
+    sdv_set_place(level, f, patch);
     return 1;
-}
-
-static inline void sdv_mark_edge(const int *across, int h, unsigned char *done)
-{
-    int k = h;
-    do done[k] = 1;
-    while ((k = across[k]) != h);
-}
-
-// Every point of the result is written by one patch or one row. The first patch of a level that
-// has an edge or vertex writes its points, unless a level before did. So the vertex of h and the
-// edge that leads on become done; returns the bits of those that were not.
-static inline int sdv_claim_corner(const sdv_level *level, int h, int bit)
-{
-    unsigned char *edge = &level->edge_done[h];
-    unsigned char *vertex = &level->vertex_done[level->face_vertices[h]];
-    int owned = !*vertex << (4 + bit) | !*edge << bit;
-    *vertex = 1;
-    sdv_mark_edge(level->across, h, level->edge_done);
-    return owned;
-}
-
-static inline void sdv_claim(const sdv_level *level, int h, int size, sdv_patch *patch)
-{
-    int owned = sdv_claim_corner(level, h, 0) | sdv_claim_corner(level, h + 1, 1);
-    if (size == 4) owned |= sdv_claim_corner(level, h + 2, 2);
-    patch->owned = (unsigned char)(owned | sdv_claim_corner(level, h + size - 1, 3));
 }
 
 // The kinds of a face's vertices; rough if its size is not the regular one.
@@ -4635,34 +4536,28 @@ static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *ki
 }
 
 // Finds the patches of a level and marks the faces of the core that have none as rough. At most
-// there are as many as faces that are not rough by their vertices; they are counted if it matters.
+// there are as many as faces that are not rough by their vertices.
 static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
-                             const sdv_rules *rules, int levels, sdv_patches *patches)
+                             const sdv_rules *rules, sdv_patches *patches)
 {
     sdv_context *context = writer->context;
     sdv_arena scratch = sdv_scratch();
     int size = rules->loop ? 3 : 4, most = level->face_count;
-    size_t width = level->places || levels == SDV_FOREVER ? (size_t)sdv_control_points(rules) : 0;
+    size_t width = (size_t)sdv_control_points(rules);
     memcpy(level->rough, level->core, (size_t)level->face_count);
-    patches->depth = levels;
-    if (levels < (rules->loop ? SDV_LOOP_PATCH_DEPTH : SDV_QUAD_PATCH_DEPTH)) return;
     unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
     for (int v = 0; v < level->vertex_count && !context->result; v++)
-        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v, levels);
-    for (int f = 0; f < level->face_count && width && !context->result; f++)
+        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
+    for (int f = 0; f < level->face_count && !context->result; f++)
         most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
-    if (width) patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
+    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
         int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
         sdv_patch *patch = &patches->items[patches->count];
         if (!level->core[f] || (found & SDV_ROUGH)) continue;
-        if (!sdv_make_patch(writer, level, rules, kinds, f, levels, found == SDV_FREE, patch))
-            continue;
-        if (width)
-            sdv_gather(level, rules, patch, h, patch->sharp,
-                       patches->points + width * (size_t)patches->count);
-        sdv_claim(level, h, size, patch);
+        if (!sdv_make_patch(writer, level, rules, kinds, f, found == SDV_FREE, patch)) continue;
+        sdv_gather(level, rules, patch, h, patches->points + width * (size_t)patches->count);
         level->rough[f] = 0;
         patches->count++;
     }
@@ -4944,8 +4839,8 @@ static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *s
 }
 
 // Level 0 of the values. Arenas as for sdv_cage_build: to keep goes source, too.
-static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *around,
-                            sdv_arena *scratch, sdv_seams *seams, int *own_face, int levels)
+static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                            sdv_seams *seams, int *own_face, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
@@ -4958,7 +4853,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *ar
     if (context->result) return;
     sdv_find_seams(seams);
     sdv_seam_vertices(context, keep, scratch, seams);
-    level->across = SDV_NEW(context, around, int, level->face_vertex_count);
+    level->across = SDV_NEW(context, scratch, int, level->face_vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
@@ -4984,11 +4879,6 @@ typedef struct sdv_limit_weights {
     float *weights;                     // [3][count] for the position, then for either tangent
 } sdv_limit_weights;
 
-typedef struct sdv_limit_rows {
-    sdv_rows        rows;
-    sdv_limit_weights *masks;
-} sdv_limit_rows;
-
 // What makes a surface for SUBDIV_EXACT and begins its evaluation. A program that does not ask for
 // such surfaces is not given their code: nothing else names these functions.
 typedef struct sdv_exact_calls {
@@ -5004,8 +4894,7 @@ static const sdv_exact_calls *sdv_find_exact_calls(void);       // NULL under SU
 
 struct subdiv_surface {
     sdv_arena arena;
-    sdv_arena points;                   // of what makes points alone: rows and patches;
-    sdv_arena around;                   // those of level 0 and what they are gathered from
+    sdv_arena points;                   // of what makes points alone: rows and patches
     int       borrows;                  // the cage's faces, as the cage outlives the surface; it
                                         // is the library's own: nobody asks it for locations
     int       levels;
@@ -5014,10 +4903,7 @@ struct subdiv_surface {
     sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
     sdv_patches *patches;               // [levels]
     sdv_strips  *strips;                // of semi-sharp patches, counted from 1
-    sdv_rows  copies, last;             // rows that make points of the result
     sdv_masks masks;                    // of all rows
-    sdv_limit_rows limit;               // of a limit, instead of last
-
     sdv_batches *refine;                // [levels] the rows to each next level; NULL: as above
     sdv_batches limit_rows;             // of a limit: from the last level to it
     int      *bases;                    // [levels + 2] where each level starts among work points
@@ -5274,46 +5160,6 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     sdv_arena_free(&scratch);
 }
 
-// Vertices that never move are copied: those without faces, corners that stay, all if linear. (In a
-// limit only the first: the others have tangents.)
-static int sdv_never_moves(const subdiv_surface *surface, const sdv_level *cage, int v)
-{
-    if (cage->vertex_faces[v] == 0) return 1;
-    if (surface->rules.linear || surface->rules.limit) return !surface->rules.limit;
-    if (!cage->creased[v] && cage->vertex_sharpness[v] <= 0) return 0;
-    return sdv_vertex_kind(cage, &surface->rules, v, surface->levels) == SDV_PINNED;
-}
-
-static void sdv_copy_vertex(sdv_writer *writer, int v)
-{
-    sdv_runs runs = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
-    *sdv_begin_row(writer) = v;
-    writer->target = v;
-    sdv_end_row(writer, &runs);
-}
-
-// Each with the first cage face that has it; those without, with face 0.
-static void sdv_find_copies(subdiv_surface *surface, sdv_level *cage, sdv_writer *writer)
-{
-    int count = 0;
-    for (int v = 0; v < cage->vertex_count; v++)
-        count += cage->vertex_done[v] = (unsigned char)sdv_never_moves(surface, cage, v);
-    if (count == 0) return;
-    int faces = surface->cage_face_count ? surface->cage_face_count : 1;
-    sdv_begin_result(writer, &surface->points, &surface->copies, 3 * (size_t)count, faces);
-    if (writer->context->result) return;
-    sdv_go_to_face(writer, 0);
-    for (int v = 0; v < cage->vertex_count; v++)
-        if (cage->vertex_faces[v] == 0) sdv_copy_vertex(writer, v);
-    for (int h = 0; h < cage->face_vertex_count; h++) {
-        int v = cage->face_vertices[h];
-        if (!cage->vertex_done[v] || cage->vertex_first[v] != h) continue;
-        sdv_go_to_face(writer, sdv_face_of(cage, h));
-        sdv_copy_vertex(writer, v);
-    }
-    sdv_go_to_face(writer, faces);
-}
-
 static size_t sdv_row_blocks(int rows)
 {
     return ((size_t)rows + SDV_ROW_BLOCK - 1) / SDV_ROW_BLOCK;
@@ -5359,104 +5205,6 @@ static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
                    sdv_row_blocks(split->edge_points), next);
     for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
         if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
-}
-
-// Where in the result the vertex points, edge points and face point of a face stand.
-typedef struct sdv_targets {
-    const sdv_order *order;
-    const sdv_level *level;
-    sdv_grid grid;
-    int      h;                         // the grid's face-vertex; -1: none yet
-    sdv_place place;                    // of the face
-} sdv_targets;
-
-static void sdv_aim(sdv_targets *targets, int f)
-{
-    const sdv_level *level = targets->level;
-    if (!level->places) return;
-    targets->place = level->places[f];
-    if (targets->place.h != targets->h)
-        sdv_grid_at(targets->order, targets->h = targets->place.h, &targets->grid);
-}
-
-// So far from vertex 0, in segments of the last level.
-static int sdv_target(const sdv_targets *targets, int up, int right)
-{
-    const sdv_place *place = &targets->place;
-    return sdv_grid_index(&targets->grid, 2 * place->row + place->step * up,
-                          2 * place->column + place->step * right);
-}
-
-static int sdv_vertex_target(const sdv_targets *targets, int h, int i)
-{
-    const int (*at)[2] = targets->order->loop ? sdv_corner_triangle : sdv_corner_quad;
-    return targets->level->places ? sdv_target(targets, at[i][0], at[i][1])
-                                  : targets->level->face_vertices[h];
-}
-
-static int sdv_edge_target(const sdv_targets *targets, int h, int i)
-{
-    const int (*at)[2] = targets->order->loop ? sdv_corner_triangle : sdv_corner_quad;
-    if (targets->level->places)
-        return sdv_target(targets, (at[i][0] + at[i + 1][0]) / 2, (at[i][1] + at[i + 1][1]) / 2);
-    sdv_side side = sdv_edge_side(targets->order, h, 0);
-    return side.first + side.step;
-}
-
-static int sdv_face_target(const sdv_targets *targets, int f)
-{
-    return targets->level->places ? sdv_target(targets, 1, 1)
-                                  : sdv_first_inside(targets->order, f);
-}
-
-static void sdv_last_face(const subdiv_surface *surface, sdv_level *level, int f,
-                          sdv_targets *targets, sdv_writer *writer)
-{
-    const sdv_rules *rules = &surface->rules;
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-    sdv_aim(targets, f);
-    sdv_go_to_face(writer, level->places ? sdv_face_of(&surface->order.cage, level->places[f].h)
-                                         : f);
-    if (!rules->loop) {
-        sdv_runs runs = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, 0 };
-        *sdv_begin_row(writer) = level->face_point[f];
-        writer->target = sdv_face_target(targets, f);
-        sdv_end_row(writer, &runs);
-    }
-    for (int h = start; h < end; h++) {
-        int v = level->face_vertices[h];
-        if (!level->vertex_done[v]) {
-            writer->target = sdv_vertex_target(targets, h, h - start);
-            sdv_vertex_row(level, rules, v, writer);
-        }
-        if (!level->edge_done[h]) {
-            writer->target = sdv_edge_target(targets, h, h - start);
-            sdv_edge_row(level, rules, h, writer);
-        }
-        level->vertex_done[v] = 1;
-        sdv_mark_edge(level->across, h, level->edge_done);
-    }
-}
-
-// The result's points that no patch makes: those of the faces that are rough to the end.
-static void sdv_last_rows(subdiv_surface *surface, sdv_level *level, sdv_writer *writer)
-{
-    const sdv_order *order = &surface->order;
-    sdv_targets targets;
-    memset(&targets, 0, sizeof targets);
-    targets.order = order;
-    targets.level = level;
-    targets.h = -1;
-    size_t size = 0;
-    for (int v = 0; v < level->vertex_count; v++)
-        if (!level->vertex_done[v]) size += sdv_vertex_row_size(level, v, order->loop);
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (!level->edge_done[h] && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
-    for (int f = 0; f < level->face_count && !order->loop; f++) size += 3 * (size_t)level->rough[f];
-    sdv_begin_result(writer, &surface->points, &surface->last, size, surface->cage_face_count);
-    for (int f = 0; f < level->face_count && !writer->context->result; f++)
-        if (level->rough[f]) sdv_last_face(surface, level, f, &targets, writer);
-    if (!writer->context->result) sdv_go_to_face(writer, surface->cage_face_count);
 }
 
 // What the weights of a limit row depend on, with the number of faces: all those around a smooth
@@ -5581,10 +5329,9 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
-    sdv_writer *writer = limit->writer;
     int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
     int faces = level->vertex_faces[v], span = 0;
-    int *point = limit->batcher ? limit->batcher->points : writer->row + 2;
+    int *point = limit->batcher->points;
     sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     sdv_limit_kind kind = SDV_TIP;
     if (rule == SDV_CREASE) {
@@ -5598,36 +5345,7 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     else if (kind == SDV_SPAN) point = sdv_add_fan(level, first, span, 1, loop, point);
     else point = sdv_add_tip(level, h, kind, loop, point);
     if (rule >= SDV_CREASE) faces = span;
-    if (limit->batcher) {
-        sdv_limit_batch_row(limit, kind, faces, target);
-        return;
-    }
-    writer->row[0] = sdv_find_limit_mask(limit, kind, faces);
-    writer->row[1] = target;
-    writer->row = point;
-    writer->rows->count++;
-}
-
-// The points of the faces of the core that no patch makes, face by face.
-static void sdv_write_limit(sdv_limit_writer *limit, subdiv_surface *surface)
-{
-    const sdv_level *level = limit->level;
-    int size = level->face_size, h_grid = -1;
-    sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
-    for (int f = 0; f < level->face_count && !limit->writer->context->result; f++) {
-        sdv_place place = level->places[f];
-        if (!level->core[f]) continue;
-        if (place.h != h_grid) sdv_grid_at(&surface->order, h_grid = place.h, &grid);
-        sdv_go_to_face(limit->writer, sdv_face_of(&surface->order.cage, place.h));
-        for (int i = 0; i < size; i++) {
-            int h = size * f + i, up = i >= 2, right = i == 1 || (i == 2 && size == 4);
-            unsigned char *done = &level->vertex_done[level->face_vertices[h]];
-            if (!*done) sdv_limit_row(limit, h, sdv_grid_index(&grid, place.row + place.step * up,
-                                                               place.column + place.step * right));
-            *done = 1;
-        }
-    }
-    if (!limit->writer->context->result) sdv_go_to_face(limit->writer, surface->cage_face_count);
+    sdv_limit_batch_row(limit, kind, faces, target);
 }
 
 static void sdv_begin_limit(sdv_context *context, sdv_arena *scratch, sdv_limit_writer *limit,
@@ -5646,63 +5364,6 @@ static void sdv_begin_limit(sdv_context *context, sdv_arena *scratch, sdv_limit_
     for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
 }
 
-static void sdv_prepare_limit(sdv_writer *writer, subdiv_surface *surface, const sdv_level *level)
-{
-    sdv_context *context = writer->context;
-    sdv_arena scratch = sdv_scratch();
-    sdv_limit_writer limit;
-    size_t size = 0;
-    int most = 0;
-    for (int v = 0; v < level->vertex_count; v++) {
-        int faces = level->vertex_faces[v];
-        if (!level->vertex_done[v]) size += 5 + 2 * (size_t)faces;
-        if (faces > most) most = faces;
-    }
-    sdv_begin_limit(context, &scratch, &limit, writer, &surface->rules, level, most,
-                    &surface->points);
-    sdv_begin_result(writer, &surface->points, &surface->limit.rows, size,
-                     surface->cage_face_count);
-    sdv_write_limit(&limit, surface);
-    surface->limit.masks = (sdv_limit_weights *)sdv_keep_array(context, &surface->points,
-                                                               &limit.masks,
-                                                               sizeof(sdv_limit_weights));
-    sdv_arena_free(&scratch);
-}
-
-// A level: its patches; then, of what is rough, the rows to the next level and the next level,
-// which has no faces if nothing is.
-static void sdv_prepare_level(sdv_writer *writer, subdiv_surface *surface, int depth,
-                              sdv_level *level, sdv_level *next, sdv_arena *next_arena)
-{
-    const sdv_rules *rules = &surface->rules;
-    sdv_context *context = writer->context;
-    sdv_step *step = &surface->steps[depth];
-    sdv_arena scratch = sdv_scratch();
-    int last = depth + 1 == surface->levels && !rules->limit;
-    sdv_split split;
-    sdv_find_patches(writer, depth ? &surface->points : &surface->around, level, rules,
-                     surface->levels - depth, &surface->patches[depth]);
-    next->face_count = 0;
-    surface->work_count = level->first_point + level->vertex_count;
-    if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
-    sdv_split_new(context, &scratch, level, &split);
-    if (!last) sdv_split_more(context, &scratch, level, &split);
-    if (!context->result) {
-        if (!last || !rules->loop) sdv_find_active(level, &split);
-        if (!last) sdv_number_faces(level, &split, rules->loop);
-        if (!last) sdv_number_points(level, &split, rules->loop);
-        else if (!rules->loop) sdv_number_face_points(level, &split, 0);
-        if (!rules->loop) sdv_step_faces(surface, level, &split, writer, step);
-        surface->work_count += split.face_points;
-        if (last) sdv_last_rows(surface, level, writer);
-        else sdv_step_points(surface, level, &split, writer, step);
-    }
-    if (!last && !context->result)
-        sdv_split_level(context, next_arena, level, &split, next, rules);
-    if (!last && !context->result) surface->work_count = next->first_point + next->vertex_count;
-    sdv_arena_free(&scratch);
-}
-
 // The masks that were written.
 static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
 {
@@ -5713,49 +5374,6 @@ static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const 
     if (context->result) return;
     sdv_copy(surface->masks.items, sdv_items(&writer->masks), masks, sizeof(sdv_weights));
     sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
-}
-
-// Level 0's patches and what they are gathered from: one block of memory.
-static void sdv_reserve_around(sdv_context *context, subdiv_surface *surface,
-                               const subdiv_mesh *work)
-{
-    size_t across = sdv_face_vertex_count(work) * sizeof(int);
-    sdv_reserve(context, &surface->around,
-                across + (size_t)work->face_count * sizeof(sdv_patch) + 64);
-}
-
-// Level by level from the cage, whose arena it frees.
-static void sdv_prepare_levels(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
-                               sdv_arena *arena)
-{
-    sdv_arena next_arena = sdv_scratch();
-    sdv_level level = *cage, next = level;
-    sdv_writer writer;
-    sdv_writer_new(context, &writer);
-    if (!context->result) {
-        memset(level.core, 1, (size_t)level.face_count);
-        memset(level.edge_done, 0, (size_t)level.face_vertex_count);
-        sdv_level_fade(&level);
-        sdv_find_copies(surface, &level, &writer);
-        surface->work_count = level.vertex_count;
-    }
-    for (int i = 0; i < surface->levels && level.face_count && !context->result; i++) {
-        sdv_prepare_level(&writer, surface, i, &level, &next, &next_arena);
-        if (i == 0 && surface->patches[0].count == 0) sdv_arena_free(&surface->around);
-        sdv_arena_free(arena);
-        *arena = next_arena;
-        next_arena = sdv_scratch();
-        level = next;
-    }
-    if (surface->rules.limit && level.face_count && !context->result)
-        sdv_prepare_limit(&writer, surface, &level);
-    surface->strips = SDV_NEW(context, &surface->points, sdv_strips, writer.strips.count);
-    if (!context->result)
-        sdv_copy(surface->strips, sdv_items(&writer.strips), writer.strips.count,
-                 sizeof(sdv_strips));
-    sdv_keep_masks(context, surface, &writer);
-    sdv_writer_free(&writer);
-    sdv_arena_free(arena);
 }
 
 // Where the points of a level stand, for a cage that is known.
@@ -6093,7 +5711,6 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     pieces.now = pieces.next;
     if (limit && !context->result) sdv_fill_limit(&fill, &writer, surface, most, scratch);
     sdv_batcher_free(&fill.batcher);
-    sdv_arena_free(&surface->around);
 }
 
 // The first fine face of face f, or how many there are before any.
@@ -6205,20 +5822,6 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
 }
 
 // A surface of values over a surface that is being prepared from a cage.
-// Up to so many levels everything is made by the masks; with more to go patches pay, under Loop and
-// without limits a level later.
-#ifndef SDV_MOST_ROW_LEVELS
-#define SDV_MOST_ROW_LEVELS 3
-#endif
-
-static void sdv_prepare_refinement(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
-                                   sdv_arena *arena)
-{
-    int most = SDV_MOST_ROW_LEVELS + surface->rules.loop + !surface->rules.limit;
-    if (surface->levels <= most && SDV_MOST_ROW_LEVELS) sdv_prepare_rows(context, surface, cage, arena);
-    else sdv_prepare_levels(context, surface, cage, arena);
-}
-
 static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
                                const subdiv_surface *surface, const subdiv_mesh *work,
                                const sdv_cage *cage, const sdv_values *values)
@@ -6233,10 +5836,8 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.rule = values->rule;
     sdv_like(context, made, surface);
     sdv_new_levels(context, made);
-    if (!made->exact) sdv_reserve_around(context, made, work);
     if (!context->result)
-        sdv_seams_build(context, &made->arena, made->exact ? &scratch : &made->around, &scratch,
-                        &seams, made->own_face, made->levels);
+        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
@@ -6257,7 +5858,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
         made->exact_calls->prepare(context, made, &seams.level, cage->hole, &scratch);
         return;
     }
-    sdv_prepare_refinement(context, made, &seams.level, &scratch);
+    sdv_prepare_rows(context, made, &seams.level, &scratch);
     sdv_arena_free(&scratch);
 }
 
@@ -6366,9 +5967,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         return;
     }
 
-    if (!surface->exact) sdv_reserve_around(context, surface, &work);
-    sdv_cage_build(context, &surface->arena, surface->exact ? &scratch : &surface->around, &scratch,
-                   &built, &work);
+    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
     sdv_new_levels(context, surface);
@@ -6383,7 +5982,7 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     } else if (!context->result && !alone) {
         if (work.crease_count || work.corner_count)
             sdv_surviving_sharpness(context, surface, &built.level);
-        sdv_prepare_refinement(context, surface, &built.level, &scratch);
+        sdv_prepare_rows(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
 }
@@ -6461,7 +6060,6 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
 static void sdv_free_points(subdiv_surface *surface)
 {
     sdv_arena_free(&surface->points);
-    sdv_arena_free(&surface->around);
 }
 
 // The surface is itself the arena's first block, so the arena is taken out before it is freed.
@@ -6515,46 +6113,7 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
-// The sum of a row of count points that start here, in one order of additions, so that its bits are
-// always the same.
-SDV_INLINE sdv_four sdv_sum(const sdv_masks *masks, const sdv_weights *mask, int count,
-                               const int *points, const float *work)
-{
-    const int even = mask->first < 0;
-    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]), sum = sdv_all(0);
-    for (int i = 1; i < count; i++) {
-        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
-        if (!even) d = sdv_times(sdv_all(masks->weights[mask->first + i]), d);
-        sum = sdv_plus(sum, d);
-    }
-    return sdv_plus(p0, even ? sdv_times(sdv_all(mask->even), sum) : sum);
-}
-
-// Most rows have four points: their loop is unrolled.
-SDV_INLINE sdv_four sdv_row_sum(const sdv_masks *masks, const sdv_weights *mask,
-                                   const int *points, const float *work)
-{
-    if (mask->count == 4) return sdv_sum(masks, mask, 4, points, work);
-    return sdv_sum(masks, mask, mask->count, points, work);
-}
-
-// Blocks of rows, from one up to another.
-static void sdv_apply(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
-                      float *work)
-{
-    if (block == end) return;
-    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
-    const int *row = rows->items + rows->starts[block];
-    float *out = work + 4 * (size_t)(rows->first + first);
-    if (last > rows->count) last = rows->count;
-    for (int i = first; i < last; i++, out += 4) {
-        const sdv_weights *mask = &masks->items[row[0]];
-        sdv_store(out, sdv_row_sum(masks, mask, row + 1, work));
-        row += 1 + mask->count;
-    }
-}
-
-// Rows as sdv_apply, in doubles. Returns the next row.
+// A row, in doubles. Returns the next one.
 SDV_INLINE const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
                                        double *out)
 {
@@ -6581,86 +6140,19 @@ static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int blo
     for (int i = first; i < last; i++, out += 4) row = sdv_exact_row(masks, row, work, out);
 }
 
-// The first patch of a cage face or one behind it.
-static int sdv_first_patch(const sdv_order *order, const sdv_patches *patches, int face)
-{
-    int low = 0, high = patches->count, h = high ? sdv_face_start(&order->cage, face) : 0;
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (patches->items[middle].h < h) low = middle + 1;
-        else high = middle;
-    }
-    return low;
-}
-
-static void sdv_apply_result(const sdv_masks *masks, const sdv_rows *rows, const float *work,
-                             int face, int end, const sdv_window *out)
-{
-    if (rows->count == 0) return;
-    const int *row = rows->items + rows->starts[face], *last = rows->items + rows->starts[end];
-    while (row < last) {
-        const sdv_weights *mask = &masks->items[row[0]];
-        sdv_put_point(out, row[1], sdv_row_sum(masks, mask, row + 2, work));
-        if (out->tangents) sdv_put_tangents(out, row[1], sdv_all(0), sdv_all(0));
-        row += 2 + mask->count;
-    }
-}
-
-// The sums of a limit row: its position and, unless NULL, two tangents.
-static void sdv_limit_sums(const sdv_limit_rows *limit, const int *row, const float *work,
-                           sdv_four *position, sdv_four *tangents)
-{
-    const sdv_limit_weights *mask = &limit->masks[row[0]];
-    const float *w = mask->weights, *w0 = w + mask->count, *w1 = w0 + mask->count;
-    const int *points = row + 2;
-    sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
-    sdv_four sum = sdv_all(0), t0 = sum, t1 = sum;
-    for (int i = 1; i < mask->count; i++) {
-        sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[i]), p0);
-        sum = sdv_plus(sum, sdv_times(sdv_all(w[i]), d));
-        if (!tangents) continue;
-        t0 = sdv_plus(t0, sdv_times(sdv_all(w0[i]), d));
-        t1 = sdv_plus(t1, sdv_times(sdv_all(w1[i]), d));
-    }
-    *position = sdv_plus(p0, sum);
-    if (!tangents) return;
-    tangents[0] = t0;
-    tangents[1] = t1;
-}
-
-static void sdv_apply_limit(const subdiv_surface *surface, const float *work, int face, int end,
-                            const sdv_window *out)
-{
-    const sdv_limit_rows *limit = &surface->limit;
-    if (limit->rows.count == 0) return;
-    const int *row = limit->rows.items + limit->rows.starts[face];
-    const int *last = limit->rows.items + limit->rows.starts[end];
-    for (; row < last; row += 2 + limit->masks[row[0]].count) {
-        sdv_four p, t[2];
-        sdv_limit_sums(limit, row, work, &p, out->tangents ? t : NULL);
-        sdv_put_point(out, row[1], p);
-        if (out->tangents) sdv_put_tangents(out, row[1], t[0], t[1]);
-    }
-}
-
-// The control points of level k of a uniform cubic B-spline segment lie on a cubic polynomial: that
-// of the point at t is the blossom f(t - h, t, t + h) of the segment's own cubic f, h = 2^-k. (A
-// blossom is symmetric, linear in each argument, and f(t, t, t) = f(t).) With the control points
-// p0 p1 p2 p3 around the segment from t = 0 to 1 that is
+// The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline, from
+// t = 0 to 1. a[i] becomes the coefficient of t^i.
 //
-//     p1 + (1 - h^2) s / 6  +  ((p2 - p0) / 2 - h^2 c) t  +  s / 2 t^2  +  c t^3
+//     p1 + s / 6  +  (p2 - p0) / 2 t  +  s / 2 t^2  +  c t^3
 //     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
-//
-// h = 1 gives p1 and p2 back, h = 0 the limit curve. a[i] becomes the coefficient of t^i.
-SDV_INLINE void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, float hh, sdv_four *a)
+static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, sdv_four *a)
 {
     sdv_four d0 = sdv_minus(p1, p0), d1 = sdv_minus(p2, p1), d2 = sdv_minus(p3, p2);
-    sdv_four s = sdv_minus(d1, d0);
-    sdv_four c = sdv_times(sdv_all(1.0f / 6), sdv_minus(sdv_minus(d2, d1), s));
-    a[0] = sdv_plus(p1, sdv_times(sdv_all((1 - hh) / 6), s));
-    a[1] = sdv_minus(sdv_times(sdv_all(0.5f), sdv_plus(d0, d1)), sdv_times(sdv_all(hh), c));
+    sdv_four s = sdv_minus(d1, d0), sixth = sdv_all(1.0f / 6);
+    a[0] = sdv_plus(p1, sdv_times(sixth, s));
+    a[1] = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
     a[2] = sdv_times(sdv_all(0.5f), s);
-    a[3] = c;
+    a[3] = sdv_times(sixth, sdv_minus(sdv_minus(d2, d1), s));
 }
 
 // Bilinear: from p1 to p2 straight on.
@@ -6711,21 +6203,12 @@ SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, 
     if (degree == 4) sdv_horner_step(p, t, c[0]);
 }
 
-// The control points of a patch on the last level: origin + the sum of c[i][j] x^i y^j, where x
-// runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
+// The surface of a patch: origin + the sum of c[i][j] x^i y^j, where x runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
 // i + j <= 4, a triangle.
 typedef struct sdv_polynomial {
     sdv_four origin, c[5][5];
     int degree;
 } sdv_polynomial;
-
-// A patch, or the part of it between the lines that cut it into strips.
-typedef struct sdv_part {
-    sdv_patch      patch;               // its place on the grid, and what it writes
-    sdv_polynomial q;
-    int   columns, rows;                // segments
-    float x, y, dx, dy;                 // where in the polynomial it starts, and its segments
-} sdv_part;
 
 // A row of it, a polynomial in x alone, and its derivatives in x and y; or, turned, a column.
 typedef struct sdv_curve {
@@ -6755,136 +6238,6 @@ SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, 
     }
 }
 
-SDV_INLINE sdv_four sdv_curve_point(const sdv_curve *curve, sdv_four x)
-{
-    return curve->degree == 4 ? sdv_horner4(curve->a, x) : sdv_horner3(curve->a, x);
-}
-
-SDV_INLINE void sdv_make_row(const sdv_window *out, const sdv_polynomial *q, float y,
-                                sdv_curve *row)
-{
-    if (!out->tangents && q->degree == 3) sdv_make_curve(q, 3, 0, 0, y, row);
-    else if (!out->tangents) sdv_make_curve(q, 4, 0, 0, y, row);
-    else if (q->degree == 3) sdv_make_curve(q, 3, 0, 1, y, row);
-    else sdv_make_curve(q, 4, 0, 1, y, row);
-}
-
-SDV_INLINE void sdv_put_row_point(const sdv_window *out, int index, const sdv_curve *row,
-                                     float x)
-{
-    sdv_four t = sdv_all(x);
-    sdv_put_point(out, index, sdv_curve_point(row, t));
-    if (out->tangents)
-        sdv_put_tangents(out, index, sdv_horner3(row->along, t), sdv_horner3(row->across, t));
-}
-
-// See >>limit-surface.
-static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curve *row,
-                                float x, float h);
-
-// The inner loop of everything: count points that stand one behind the other, those at x, x + h,
-// ... (Parameters are multiples of a power of two, so adding them up is exact.) Without space
-// between points, four lanes are stored of each but the last.
-SDV_INLINE void sdv_put_curve(const sdv_window *out, int index, int count,
-                                 const sdv_curve *curve, float x, float h)
-{
-    const sdv_four a[5] = { curve->a[0], curve->a[1], curve->a[2], curve->a[3], curve->a[4] };
-    int lanes = out->lanes;
-    size_t stride = out->stride;
-    float *p = out->values + stride * (size_t)index, *end = p + stride * (size_t)(count - 1);
-    sdv_four t = sdv_all(x), step = sdv_all(h);
-    if (lanes < 4 && (lanes < 3 || stride > 3))
-        for (; p != end; p += stride, t = sdv_plus(t, step))
-            sdv_store_some(p, sdv_curve_point(curve, t), lanes);
-    else if (curve->degree == 4)
-        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner4(a, t));
-    else
-        for (; p != end; p += stride, t = sdv_plus(t, step)) sdv_store(p, sdv_horner3(a, t));
-    sdv_store_some(p, sdv_curve_point(curve, t), lanes);
-}
-
-SDV_INLINE void sdv_put_run(const sdv_window *out, int index, int count, const sdv_curve *row,
-                               float x, float h)
-{
-    int first = index - out->first, skip = first < 0 ? -first : 0;
-    if (count > out->count - first) count = out->count - first;
-    if (skip >= count) return;
-    first += skip;
-    count -= skip;
-    x += (float)skip * h;
-    if (out->values) sdv_put_curve(out, first, count, row, x, h);
-    if (out->tangents) sdv_put_tangent_run(out, first, count, row, x, h);
-}
-
-// The first or last row of a patch.
-static void sdv_put_outer_row(const sdv_window *out, const sdv_grid *grid, const sdv_part *part,
-                              int top)
-{
-    const sdv_patch *patch = &part->patch;
-    int step = patch->step, owned = patch->owned, column = patch->column;
-    int row = patch->row + (top ? step * part->rows : 0);
-    int count = top && grid->triangle ? 0 : part->columns;
-    int left = owned & (top ? SDV_TOP_LEFT : SDV_BOTTOM_LEFT);
-    int right = owned & (top ? SDV_TOP_RIGHT : SDV_BOTTOM_RIGHT);
-    int inside = owned & (top ? SDV_TOP : SDV_BOTTOM);
-    if (!(left | inside | right)) return;
-    sdv_curve curve;
-    float dx = part->dx, y = part->y + (top ? (float)part->rows * part->dy : 0);
-    sdv_make_row(out, &part->q, y, &curve);
-    if (left)
-        sdv_put_row_point(out, sdv_grid_index(grid, row, column), &curve, part->x);
-    if (right)
-        sdv_put_row_point(out, sdv_grid_index(grid, row, column + step * count), &curve,
-                          part->x + (float)part->columns * dx);
-    if (inside) {
-        sdv_side line = sdv_grid_line(grid, row);
-        int forward = line.step == step, i = forward ? 1 : count - 1;
-        sdv_put_run(out, line.first + line.step * (column + step * i), count - 1, &curve,
-                    part->x + (float)i * dx, forward ? dx : -dx);
-    }
-}
-
-// The rows between: their inner points and, beside them, their ends, unless those stand on a side
-// of the grid. A turned triangle has none there.
-static void sdv_put_inner_rows(const sdv_window *out, const sdv_grid *grid, const sdv_part *part)
-{
-    const sdv_patch *patch = &part->patch;
-    int step = patch->step, triangle = grid->triangle, column = patch->column;
-    int n = part->columns, rows = part->rows;
-    int reach = column + n + (triangle ? patch->row : 0);
-    int left = patch->owned & SDV_LEFT, right = patch->owned & SDV_RIGHT;
-    int left_side = left && column == 0, right_side = right && step > 0 && reach == grid->columns;
-    int first = left && !left_side ? 0 : 1, last = right && !right_side ? n : n - 1;
-    int count = last - first + 1 - triangle;            // of row 1, and where it starts
-    int at = sdv_inside_index(grid, patch->row + step, column + step * first);
-    int next = sdv_inside_index(grid, patch->row + 2 * step, column + step * first);
-    int across = next - at;
-    float h = part->dx, dy = part->dy, dx = h, turn = 0;
-    float start = part->x, x = start + (float)first * h, end = start + (float)n * h;
-    float y = part->y + dy;
-    if (step < 0) {                                     // from the other end
-        at -= count - 1;
-        across++;
-        x += (float)(count - 1) * h;
-        dx = turn = -h;
-    }
-    for (int r = 1; r < rows && (count > 0 || left_side || right_side); r++) {
-        sdv_curve curve;
-        sdv_make_row(out, &part->q, y, &curve);
-        sdv_put_run(out, at, count, &curve, x, dx);
-        if (left_side)
-            sdv_put_row_point(out, sdv_side_index(grid, 3, patch->row + r), &curve, start);
-        if (right_side)
-            sdv_put_row_point(out, sdv_side_index(grid, 1, patch->row + r), &curve,
-                              triangle ? 1 - y : end);
-        at += across;
-        across -= triangle;
-        count -= triangle;
-        x += turn;
-        y += dy;
-    }
-}
-
 // Beyond a sharp edge: outside = 2 edge - inside.
 SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
 {
@@ -6910,62 +6263,20 @@ static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
     }
 }
 
-// The control points of patch i, in room [16] if they have to be gathered. closed: see
-// sdv_gather_quad.
-SDV_INLINE const int *sdv_patch_points(const subdiv_surface *surface, const sdv_patches *patches,
-                                          int i, int closed, int *room)
-{
-    size_t width = (size_t)sdv_control_points(&surface->rules);
-    if (patches->points) return patches->points + width * (size_t)i;
-    sdv_gather(&surface->order.cage, &surface->rules, &patches->items[i], patches->items[i].h,
-               closed, room);
-    return room;
-}
-
-// The control points of a quad, relative to its vertex 0, which is their origin.
-static sdv_four sdv_load_quad(const sdv_patch *patch, const int *points, const float *work,
-                              sdv_four *p)
-{
-    sdv_load_points(points, 16, work, p);
-    sdv_four origin = p[5];
-    for (int i = 0; i < 16; i++) p[i] = sdv_minus(p[i], origin);
-    if (patch->sharp) sdv_mirror_quad(patch, p);
-    return origin;
-}
-
-// The polynomial of a quad, hx^2 and hy^2 being those of the last level along and up: cubics up the
-// columns of control points, then, of their coefficients, along the rows.
-static void sdv_quad_polynomial(const sdv_four *p, float hx2, float hy2, int linear,
-                                sdv_polynomial *q)
+// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
+// along the rows.
+static void sdv_quad_polynomial(const sdv_four *p, int linear, sdv_polynomial *q)
 {
     sdv_four up[4][4], x[4];
     q->degree = 3;
     for (int i = 0; i < 4; i++) {
         if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], hy2, up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], up[i]);
     }
     for (int j = 0; j < 4; j++) {
         if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], hx2, x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], x);
         for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
-    }
-}
-
-// The control points of a strip: across its crease, they are step apart, and lines of them next.
-SDV_INLINE void sdv_strip_points(const sdv_strips *strips, const sdv_strip *strip, int step,
-                                    int next, sdv_four *p)
-{
-    int low = strips->low > 0, high = strips->high > 0;
-    for (int i = 0; i < 4 && (low || high); i++, p += next) {
-        sdv_four p0 = p[0], p1 = p[step], p2 = p[2 * step], p3 = p[3 * step];
-        if (!strip->smooth && low) p[0] = sdv_mirror(p1, p2);
-        if (!strip->smooth && high) p[3 * step] = sdv_mirror(p2, p1);
-        for (int j = 0; j < 4 && strip->smooth; j++) {
-            const float *w = strip->rows[j];
-            sdv_four outer = sdv_plus(sdv_times(sdv_all(w[0]), p0), sdv_times(sdv_all(w[3]), p3));
-            sdv_four inner = sdv_plus(sdv_times(sdv_all(w[1]), p1), sdv_times(sdv_all(w[2]), p2));
-            p[j * step] = sdv_plus(outer, inner);
-        }
     }
 }
 
@@ -7009,16 +6320,9 @@ SDV_INLINE sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
     return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
 }
 
-// The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial q of its
-// 12 control points, numbered as in sdv_gather_triangle; here relative to point 4, which is 0. As
-// for the cubic above, the control points of level k lie on a polynomial, too:
-//
-//     q - h^2/12 S q      S = 2 (Dx Dx - Dx Dy + Dy Dy),  h = 2^-k
-//
-// Summing box splines of width h multiplies by (sinh(hD/2) / (hD/2))^2 = 1 + h^2 D^2 / 12 + ... for
-// each direction D of the grid. S is the sum of the three D^2, and the term in h^4 is a multiple of
-// S S q = 0: S S / 4 is the sum of the products of two of the D^2, and each makes q vanish.
-static void sdv_box_spline(const sdv_four *p, float hh, sdv_polynomial *q)
+// The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial of its 12
+// control points, numbered as in sdv_gather_triangle; here relative to point 4, which is 0.
+static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
 {
     sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
     sdv_four (*c)[5] = q->c;
@@ -7042,15 +6346,6 @@ static void sdv_box_spline(const sdv_four *p, float hh, sdv_polynomial *q)
     minus = sdv_plus(sdv_sum3(p[1], p[3], p[8]), sdv_plus(p[9], p[11]));
     plus = sdv_sum3(sdv_twice(sdv_plus(p[5], p[6])), p[0], p[10]);
     c[0][4] = sdv_times(twelfth, sdv_minus(plus, minus));
-
-    sdv_four h2 = sdv_all(hh), third = sdv_all(hh / 3), mixed = sdv_minus(c[1][2], c[2][1]);
-    c[0][0] = sdv_minus(c[0][0], sdv_times(third, sdv_minus(sdv_plus(c[2][0], c[0][2]),
-                                                            sdv_times(half, c[1][1]))));
-    c[1][0] = sdv_minus(c[1][0], sdv_plus(sdv_times(h2, c[3][0]), sdv_times(third, mixed)));
-    c[0][1] = sdv_minus(c[0][1], sdv_minus(sdv_times(h2, c[0][3]), sdv_times(third, mixed)));
-    c[2][0] = sdv_minus(c[2][0], sdv_times(h2, c[4][0]));
-    c[0][2] = sdv_minus(c[0][2], sdv_times(h2, c[0][4]));
-    c[1][1] = sdv_minus(c[1][1], sdv_times(h2, sdv_twice(sdv_plus(c[4][0], c[0][4]))));
     c[3][1] = sdv_twice(c[4][0]);
     c[1][3] = sdv_twice(c[0][4]);
 }
@@ -7064,7 +6359,7 @@ static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
     q->c[0][1] = p[8];
 }
 
-static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, float hh, int linear,
+static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int linear,
                                     const float *work, sdv_polynomial *q)
 {
     sdv_four p[12];
@@ -7074,113 +6369,11 @@ static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, f
     for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
     sdv_mirror_triangle(patch, p);
     if (linear) sdv_plane(p, q);
-    else sdv_box_spline(p, hh, q);
+    else sdv_box_spline(p, q);
 }
 
-// What a part writes of what its patch does: of its sides those that are the patch's, and the lines
-// to its right and above it.
-static unsigned char sdv_part_owned(int owned, int first, int last, int bottom, int top)
-{
-    int left = first ? owned & SDV_LEFT : 0, right = last ? owned & SDV_RIGHT : SDV_RIGHT;
-    int below = bottom ? owned & SDV_BOTTOM : 0, above = top ? owned & SDV_TOP : SDV_TOP;
-    int made = left | right | below | above;
-    if (first && bottom) made |= owned & SDV_BOTTOM_LEFT;
-    if (bottom && (last ? owned & SDV_BOTTOM_RIGHT : below)) made |= SDV_BOTTOM_RIGHT;
-    if (first && (top ? owned & SDV_TOP_LEFT : left)) made |= SDV_TOP_LEFT;
-    if (last && top ? owned & SDV_TOP_RIGHT : last ? right : above) made |= SDV_TOP_RIGHT;
-    return (unsigned char)made;
-}
-
-// The parts of a patch, in the limit or, with h > 0, on the last level.
-typedef struct sdv_parts {
-    const subdiv_surface *surface;
-    const sdv_patch *patch;
-    const sdv_strips *along, *up;       // of a patch that is cut, or NULL
-    int      count, depth;
-    sdv_four points[16];                // of a quad
-} sdv_parts;
-
-static void sdv_begin_parts(const subdiv_surface *surface, const sdv_patches *patches, int i,
-                            const float *work, sdv_parts *parts, sdv_part *part)
-{
-    const sdv_rules *rules = &surface->rules;
-    const sdv_patch *patch = &patches->items[i];
-    int room[16];
-    const int *points = sdv_patch_points(surface, patches, i, patch->sharp, room);
-    float h = 1.0f / (float)(1 << patches->depth), hh = rules->limit ? 0 : h * h;
-    parts->up = NULL;
-    parts->count = 1;
-    part->patch = *patch;
-    part->columns = part->rows = 1 << patches->depth;
-    part->x = part->y = 0;
-    part->dx = part->dy = h;
-    if (rules->loop) {
-        sdv_triangle_polynomial(patch, points, hh, rules->linear, work, &part->q);
-        return;
-    }
-    part->q.origin = sdv_load_quad(patch, points, work, parts->points);
-    if (!patch->up) {
-        sdv_quad_polynomial(parts->points, hh, hh, rules->linear, &part->q);
-        return;
-    }
-    parts->surface = surface;
-    parts->patch = patch;
-    parts->along = &surface->strips[patch->along - 1];
-    parts->up = &surface->strips[patch->up - 1];
-    parts->count = parts->along->count * parts->up->count;
-}
-
-// Part i. One that is not cut is there already.
-static void sdv_make_part(const sdv_parts *parts, int i, sdv_part *part)
-{
-    const sdv_patch *patch = parts->patch;
-    if (!parts->up) return;
-    int columns = parts->along->count, rows = parts->up->count, column = i % columns;
-    int row = i / columns;
-    const sdv_strip *along = &parts->along->items[column], *up = &parts->up->items[row];
-    sdv_four p[16];
-    part->patch.column = patch->column + along->from;
-    part->patch.row = patch->row + up->from;
-    part->patch.owned = sdv_part_owned(patch->owned, column == 0, column + 1 == columns, row == 0,
-                                       row + 1 == rows);
-    part->columns = along->to - along->from;
-    part->rows = up->to - up->from;
-    part->dx = 1.0f / (float)along->unit;
-    part->dy = 1.0f / (float)up->unit;
-    part->x = (float)(along->from - along->origin) * part->dx;
-    part->y = (float)(up->from - up->origin) * part->dy;
-    float hx = parts->surface->rules.limit ? 0 : part->dx;
-    float hy = parts->surface->rules.limit ? 0 : part->dy;
-    for (int k = 0; k < 16; k++) p[k] = parts->points[k];
-    sdv_strip_points(parts->along, along, 1, 4, p);
-    sdv_strip_points(parts->up, up, 4, 1, p);
-    sdv_quad_polynomial(p, hx * hx, hy * hy, 0, &part->q);
-}
-
-// The points that the patches of a level make for cage faces face to end - 1.
-static void sdv_make_patches(const subdiv_surface *surface, const sdv_patches *patches,
-                             const float *work, int face, int end, const sdv_window *out)
-{
-    const sdv_order *order = &surface->order;
-    int h = -1;
-    int last = sdv_first_patch(order, patches, end);
-    sdv_grid grid = { 0, 0, 0, 0, {0}, {{0, 0}} };
-    sdv_parts parts;
-    sdv_part part;
-    for (int i = sdv_first_patch(order, patches, face); i < last; i++) {
-        const sdv_patch *patch = &patches->items[i];
-        if (patch->h != h) sdv_grid_at(order, h = patch->h, &grid);
-        sdv_begin_parts(surface, patches, i, work, &parts, &part);
-        for (int j = 0; j < parts.count; j++) {
-            sdv_make_part(&parts, j, &part);
-            sdv_put_outer_row(out, &grid, &part, 0);
-            sdv_put_inner_rows(out, &grid, &part);
-            sdv_put_outer_row(out, &grid, &part, 1);
-        }
-    }
-}
-
-// Writes four points, channel by channel as above, to where they stand in the window, if they do.
+// Writes four points, of which lane i of x[k] is channel k of point i, to where they stand in the
+// window, if they do.
 SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
                                 const int *at, int count)
 {
@@ -7328,26 +6521,6 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
 }
 
-// Those of a run of points, see sdv_put_run: four by four, and the others wait.
-static void sdv_put_tangent_run(const sdv_window *out, int at, int count, const sdv_curve *row,
-                                float x, float h)
-{
-    const sdv_tangents *tangents = out->tangents;
-    sdv_four t = sdv_all(x), step = sdv_all(h);
-    int i = 0;
-    for (; i + 4 <= count && !tangents->tangents; i += 4) {
-        sdv_four a[4], b[4];
-        for (int k = 0; k < 4; k++, t = sdv_plus(t, step)) {
-            a[k] = sdv_horner3(row->along, t);
-            b[k] = sdv_horner3(row->across, t);
-        }
-        sdv_put_normals(tangents, at + i, a, b);
-    }
-    for (; i < count; i++, t = sdv_plus(t, step))
-        sdv_put_tangents(out, out->first + at + i, sdv_horner3(row->along, t),
-                         sdv_horner3(row->across, t));
-}
-
 static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
                              int end, int target, const sdv_window *out);
 static void sdv_make_batches(const sdv_batches *batches, const float *work, int face, int end,
@@ -7370,11 +6543,6 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
         sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
         return;
     }
-    sdv_apply_result(&surface->masks, &surface->copies, work, face, end, out);
-    for (int i = 0; i < surface->levels; i++)
-        sdv_make_patches(surface, &surface->patches[i], work, face, end, out);
-    sdv_apply_result(&surface->masks, &surface->last, work, face, end, out);
-    sdv_apply_limit(surface, work, face, end, out);
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
@@ -8318,8 +7486,7 @@ static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int j
     int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         size_t at = (size_t)c * (size_t)e->surface->work_count;
-        if (e->doubles) sdv_exact_rows(&e->surface->masks, rows, block, end, e->doubles + at);
-        else sdv_apply(&e->surface->masks, rows, block, end, e->work + at);
+        sdv_exact_rows(&e->surface->masks, rows, block, end, e->doubles + at);
     }
 }
 
@@ -9220,7 +8387,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     mesh.corner_vertices = crease;
     mesh.crease_sharpness = mesh.corner_sharpness = forever;
     if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
-    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &scratch, &cage, &mesh);
+    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
     if (!context->result && loop && n == 2 && kind->ring)
         sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
     if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
@@ -9228,8 +8395,6 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
     if (!context->result) {
         for (int f = 0; f < 4 * n; f++) cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
-        memset(cage.level.vertex_done, 0, (size_t)kind->points);
-        memset(cage.level.edge_done, 0, (size_t)cage.level.face_vertex_count);
         sdv_find_active(&cage.level, &split);
         sdv_number_faces(&cage.level, &split, loop);
         sdv_number_points(&cage.level, &split, loop);
@@ -9240,7 +8405,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
         sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
     if (!context->result) {
         kind->work_count = next.first_point + next.vertex_count;
-        sdv_find_patches(maker->writer, &scratch, &next, rules, SDV_FOREVER, &kind->patches);
+        sdv_find_patches(maker->writer, &scratch, &next, rules, &kind->patches);
     }
     if (!context->result) {
         sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
@@ -9288,7 +8453,7 @@ static int sdv_vertex_settled(const sdv_level *level, int v)
 // Is the vertex of h regular as seen from its face, with nothing semi-sharp?
 static sdv_fan sdv_fan_at(const sdv_level *level, const sdv_rules *rules, int h)
 {
-    sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h], SDV_FOREVER);
+    sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h]);
     return kind == SDV_LINED ? SDV_FAN_ROUGH : sdv_find_fan(level, kind, h, rules->loop);
 }
 
@@ -9459,7 +8624,7 @@ static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *leve
     subdiv_surface *surface = maker->surface;
     const sdv_patches *patches = &surface->patches[depth];
     const sdv_patch *patch;
-    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, SDV_FOREVER,
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules,
                      &surface->patches[depth]);
     patch = patches->items;
     for (int f = 0; f < level->face_count && !maker->writer->context->result; f++)
@@ -10043,8 +9208,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     sdv_append(context, &maker.nodes, (size_t)level.face_vertex_count, sizeof(int));
     if (!context->result) {
         memset(level.core, 1, (size_t)level.face_count);
-        memset(level.edge_done, 0, (size_t)level.face_vertex_count);
-        memset(level.vertex_done, 0, (size_t)level.vertex_count);
         for (int f = 0; f < level.face_count; f++)
             maker.slots[f] = sdv_face_node(&level, surface->rules.loop, f, 0);
         sdv_level_fade(&level);
@@ -10119,7 +9282,7 @@ static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high
     if (low || (!strip->smooth && strips->low > 0)) memcpy(mirror[0], below, sizeof below);
     if (high || (!strip->smooth && strips->high > 0)) memcpy(mirror[3], above, sizeof above);
     sdv_combine(p, step, next, (const double (*)[4])mirror);
-    if (strip->smooth) sdv_combine(p, step, next, (const double (*)[4])strip->exact);
+    if (strip->smooth) sdv_combine(p, step, next, (const double (*)[4])strip->rows);
 }
 
 // From control points to the coefficients of the limit's polynomial, see sdv_cubic.
@@ -10174,12 +9337,12 @@ static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynom
         for (int c = 0; c < 4; c++)
             points[4 * k + c] = (float)(sdv_double_point(from, k)[c] - origin[c]);
     if (from->rules->loop) {
-        sdv_triangle_polynomial(from->patch, same, 0, from->rules->linear, points, q);
+        sdv_triangle_polynomial(from->patch, same, from->rules->linear, points, q);
         return;
     }
     sdv_load_points(same, count, points, p);
     if (from->patch->sharp) sdv_mirror_quad(from->patch, p);
-    sdv_quad_polynomial(p, 0, 0, from->rules->linear, q);
+    sdv_quad_polynomial(p, from->rules->linear, q);
 }
 
 // Where a patch is, of those of all levels, one level's behind the other's.
@@ -11601,129 +10764,6 @@ static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_s
     *stencils = made;
 }
 
-// Who makes the points of a refined surface: a row, a patch, or else it is one of the cage's, where
-// it stays. A patch evaluates unit vectors for all its points at once, into the points' records:
-// which patch it is, then the weights of its control points, some lanes after the other.
-typedef struct sdv_makers {
-    const subdiv_surface *surface;
-    int    first, end;                  // points
-    int    width, lanes;                // control points of a patch, unit vectors at once
-    size_t record, group;               // floats of a record and of the lanes in it
-    float *records;                     // [record * points]
-    const int **rows;                   // [points] or NULL
-    int    points[16];                  // 0, 1, 2, ...
-    float  units[6 * 64];               // the unit vectors: 16 control points, 4 lanes a pass
-} sdv_makers;
-
-enum { SDV_RECORD_NAME = 4 };           // floats: a patch's level + 1, and number in two halves
-
-static void sdv_makers_new(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
-                           int first, int count, sdv_makers *makers)
-{
-    int limit = surface->rules.limit;
-    memset(makers, 0, sizeof *makers);
-    makers->surface = surface;
-    makers->first = first;
-    makers->end = first + count;
-    makers->width = sdv_control_points(&surface->rules);
-    makers->lanes = limit ? 3 : 4;
-    makers->group = limit ? 9 : 4;
-    int passes = (makers->width + makers->lanes - 1) / makers->lanes;
-    makers->record = SDV_RECORD_NAME + makers->group * (size_t)passes;
-    for (int i = 0; i < 16; i++) {
-        int pass = i / makers->lanes, lane = i % makers->lanes;
-        makers->points[i] = i;
-        makers->units[64 * pass + 4 * i + lane] = 1;
-    }
-    makers->records = SDV_NEW(context, arena, float, makers->record * (size_t)count);
-    makers->rows = SDV_NEW(context, arena, const int *, count);
-    for (int i = 0; i < count && !context->result; i++) {
-        makers->records[makers->record * (size_t)i] = 0;
-        makers->rows[i] = NULL;
-    }
-}
-
-// One patch, whose control points have these values, writes into its points' records at this place.
-static void sdv_push_units(const sdv_makers *makers, const sdv_patches *patch, int face,
-                           const float *values, size_t at, int with_tangents)
-{
-    float *out = makers->records + at;
-    sdv_tangents tangents;
-    sdv_window window = { out, makers->record, makers->lanes, makers->first,
-                          makers->end - makers->first, 1, NULL };
-    memset(&tangents, 0, sizeof tangents);
-    tangents.tangents = out + 3;
-    tangents.tangent_stride = makers->record;
-    if (with_tangents && makers->surface->rules.limit) window.tangents = &tangents;
-    sdv_make_patches(makers->surface, patch, values, face, face + 1, &window);
-    sdv_flush_tangents(&tangents);
-}
-
-// Each patch of a face: first its name, as a constant goes through unchanged.
-static void sdv_push_patches(sdv_makers *makers, int face)
-{
-    const subdiv_surface *surface = makers->surface;
-    for (int level = 0; level < surface->levels; level++) {
-        const sdv_patches *patches = &surface->patches[level];
-        int last = sdv_first_patch(&surface->order, patches, face + 1);
-        for (int i = sdv_first_patch(&surface->order, patches, face); i < last; i++) {
-            float names[16 * 4];
-            sdv_patches one = *patches;
-            one.count = 1;
-            one.items += i;
-            one.points = makers->points;
-            for (int k = 0; k < 16; k++) {
-                names[4 * k] = (float)(level + 1);
-                names[4 * k + 1] = (float)(i >> 16);
-                names[4 * k + 2] = (float)(i & 65535);
-                names[4 * k + 3] = 0;
-            }
-            sdv_push_units(makers, &one, face, names, 0, 0);
-            for (int k = 0; k * makers->lanes < makers->width; k++)
-                sdv_push_units(makers, &one, face, makers->units + 64 * k,
-                               SDV_RECORD_NAME + makers->group * (size_t)k, 1);
-        }
-    }
-}
-
-static void sdv_note_rows(sdv_makers *makers, int face)
-{
-    const subdiv_surface *surface = makers->surface;
-    int limit = surface->rules.limit;
-    const sdv_rows *rows = limit ? &surface->limit.rows : &surface->last;
-    if (rows->count == 0) return;
-    const int *row = rows->items + rows->starts[face], *end = rows->items + rows->starts[face + 1];
-    while (row < end) {
-        if (row[1] >= makers->first && row[1] < makers->end)
-            makers->rows[row[1] - makers->first] = row;
-        row += 2 + (limit ? surface->limit.masks[row[0]].count
-                          : surface->masks.items[row[0]].count);
-    }
-}
-
-// Has a cage face points from first to end - 1, inside, on an edge or at a vertex?
-static int sdv_face_has(const sdv_order *order, int f, int first, int end)
-{
-    const sdv_level *cage = &order->cage;
-    int has = sdv_first_inside(order, f) < end && sdv_first_inside(order, f + 1) > first;
-    for (int h = sdv_face_start(cage, f); h < sdv_face_end(cage, f) && !has; h++) {
-        int v = cage->face_vertices[h], on = cage->face_edges[h] * (order->n - 1);
-        int edge = order->first_edge_point + on;
-        has = (v >= first && v < end) || (edge < end && edge + order->n - 1 > first);
-    }
-    return has;
-}
-
-static void sdv_find_makers(sdv_makers *makers)
-{
-    const subdiv_surface *surface = makers->surface;
-    for (int f = 0; f < surface->cage_face_count && surface->levels > 0; f++) {
-        if (!sdv_face_has(&surface->order, f, makers->first, makers->end)) continue;
-        sdv_push_patches(makers, f);
-        sdv_note_rows(makers, f);
-    }
-}
-
 // Adds the points of a limit row of these weights [3][count], as sdv_limit_sums does: the first one's
 // weight is what is left.
 static void sdv_add_limit_weights(sdv_stencil_maker *make, const float *weights, int count,
@@ -11774,6 +10814,10 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
     const subdiv_surface *surface = make->surface;
     const double one[3] = { 1, 0, 0 };
     sdv_stencil_row *row = &make->room[surface->levels + 1];
+    if (surface->levels == 0) {
+        sdv_add_work_point(make, i, one);
+        return;
+    }
     if (surface->rules.limit) {
         sdv_add_limit_point(make, i);
         return;
@@ -11793,62 +10837,15 @@ static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int coun
         sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
 }
 
-// Adds the control points of a patch.
-static void sdv_add_patch(sdv_stencil_maker *make, const sdv_makers *makers, const float *record)
-{
-    const sdv_patches *patches = &make->surface->patches[(int)record[0] - 1];
-    int i = (int)record[1] * 65536 + (int)record[2], room[16];
-    const int *points = sdv_patch_points(make->surface, patches, i, patches->items[i].sharp, room);
-    double weights[3 * 16];
-    for (int j = 0; j < makers->width; j++) {
-        size_t group = makers->group * (size_t)(j / makers->lanes);
-        const float *w = record + SDV_RECORD_NAME + group + j % makers->lanes;
-        for (int k = 0; k < 3; k++)
-            weights[3 * j + k] = k < make->parts ? (double)w[makers->lanes * k] : 0;
-    }
-    sdv_add_rounded(make, points, makers->width, weights);
-}
-
-static void sdv_make_refined_stencil(sdv_stencil_maker *make, const sdv_makers *makers, int i)
-{
-    const subdiv_surface *surface = make->surface;
-    const int *row = makers->rows[i];
-    const float *record = makers->records + makers->record * (size_t)i;
-    const double one[3] = { 1, 0, 0 };
-    if (row && surface->rules.limit) {
-        const sdv_limit_weights *mask = &surface->limit.masks[row[0]];
-        sdv_add_limit_weights(make, mask->weights, mask->count, row + 2);
-    } else if (row) {
-        const sdv_weights *mask = &surface->masks.items[row[0]];
-        sdv_compose_all(make, row + 2, mask->count);
-        sdv_mask_row(&surface->masks, mask, row + 2, &make->room[1]);
-        if (!make->context->result) sdv_add_row(make, &make->room[1], one);
-    } else if (record[0] > 0) {
-        sdv_add_patch(make, makers, record);
-    } else {
-        sdv_add_work_point(make, makers->first + i, one);
-    }
-    if (!make->context->result) sdv_write_stencil(make, i);
-}
-
 static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
                                  const subdiv_surface *surface, int first, int count)
 {
     sdv_stencil_maker make;
-    sdv_makers makers;
     sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
-    if (surface->refine) {
-        for (int i = 0; i < count && !context->result; i++) {
-            sdv_add_point(&make, first + i);
-            if (!context->result) sdv_write_stencil(&make, i);
-        }
-        sdv_copy_stencils(&make, count, stencils);
-        sdv_stencil_maker_free(&make);
-        return;
+    for (int i = 0; i < count && !context->result; i++) {
+        sdv_add_point(&make, first + i);
+        if (!context->result) sdv_write_stencil(&make, i);
     }
-    sdv_makers_new(context, &make.arena, surface, first, count, &makers);
-    if (!context->result) sdv_find_makers(&makers);
-    for (int i = 0; i < count && !context->result; i++) sdv_make_refined_stencil(&make, &makers, i);
     sdv_copy_stencils(&make, count, stencils);
     sdv_stencil_maker_free(&make);
 }
@@ -13315,7 +12312,7 @@ static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cag
 {
     subdiv_mesh shape = *mesh;
     shape.crease_count = shape.corner_count = shape.hole_count = 0;
-    sdv_cage_build(context, arena, arena, arena, cage, &shape);
+    sdv_cage_build(context, arena, arena, cage, &shape);
 }
 
 static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
@@ -13608,7 +12605,7 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     sdv_cage cage;
     subdiv_mesh shape = *mesh;
     shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
-    sdv_cage_build(&context, &arena, &arena, &arena, &cage, &shape);
+    sdv_cage_build(&context, &arena, &arena, &cage, &shape);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
     if (!context.result) sdv_count_sharp(&context, &arena, info, &cage.level, mesh);
     if (!context.result) {
@@ -16454,7 +15451,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     x.rules.triangles = cage->triangles;
     if (cut) sdv_copy_faces(&context, cut, &work, cage);
-    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.arena, &x.cage, &work);
+    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
     if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
     if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
@@ -16482,11 +15479,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_BLOCK_FACES
 #undef SDV_RUNS
 #undef SDV_PIECE
-#undef SDV_MOST_ROW_LEVELS
 #undef SDV_KNOWN_MASKS
-#undef SDV_QUAD_PATCH_DEPTH
-#undef SDV_LOOP_PATCH_DEPTH
-#undef SDV_FOREVER
 #undef SDV_STRIP_LEVELS
 #undef SDV_WAITING
 #undef SDV_MOST_JOBS
