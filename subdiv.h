@@ -2944,34 +2944,16 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 // all levels, stand in one array, the work points: level 0, then level 1, and so on. So a row's
 // points are work points, and evaluation need not know what a level is.
 //
-// Rows stand one behind the other as a stream of ints: the number of a mask, where the row makes a
-// point of the result its target, and the points. As weights sum to 1, a row's sum is
+// As weights sum to 1, a row's sum is
 //
 //     p0 + w1 (p1 - p0) + w2 (p2 - p0) + ...
 //
-// whose rounding errors are those of the small differences: exact wherever the mesh stands. And
-// for most masks the weights but the first are all the same, w: p0 + w ((p1 - p0) + ...).
-
-typedef struct sdv_weights {            // the mask of a row
-    int   count;                        // points
-    float even;                         // the weight of all points but the first;
-    int   first;                        // or, if >= 0: where in a list of weights theirs start
-} sdv_weights;
-
-typedef struct sdv_masks {              // of all rows of a surface
-    size_t       count;
-    sdv_weights *items;
-    float       *weights;
-} sdv_masks;
-
-#define SDV_ROW_BLOCK 64                // rows between two starts
-
-typedef struct sdv_rows {
-    int     count;
-    int     first;                      // row i makes work point first + i
-    size_t *starts;                     // [i / 64] where row i stands, for i a multiple of 64
-    int    *items;                      // the stream
-} sdv_rows;
+// whose rounding errors are those of the small differences: exact wherever the mesh stands. Most
+// masks have one or two weights beside the first: p0 + w ((p1 - p0) + (p2 - p0) + ..).
+//
+// Rows stand in batches of those that look alike, whose loop needs no branch for a point and keeps
+// its weights in registers. Batches stand in blocks, each of the rows of so many cage faces, so that
+// any range of faces can be made alone.
 
 // Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
 #define SDV_RUNS 4
@@ -2981,17 +2963,6 @@ typedef struct sdv_runs {
     int   count[SDV_RUNS];
     int   blend;                        // of two rules, by weights that hardly any other row has
 } sdv_runs;
-
-static int sdv_run_points(const sdv_runs *runs)
-{
-    return runs->count[0] + runs->count[1] + runs->count[2] + runs->count[3];
-}
-
-// Batches.
-// The same rows for a whole level at once, side by side with those that look alike: a batch has
-// rows of one shape, whose loop needs no branch for a point and keeps its weights in registers.
-// Batches stand in blocks, each of the rows of so many cage faces, so that any range of faces can
-// be made alone.
 
 #define SDV_BLOCK_FACES 128
 
@@ -3026,28 +2997,46 @@ typedef struct sdv_open_batch {
     unsigned char *faces;
 } sdv_open_batch;
 
-typedef struct sdv_batcher {
+// Writes rows: one at a time into points, and from there into the batch of its shape.
+typedef struct sdv_writer {
     sdv_context *context;
     sdv_arena   *arena;                 // what is written goes there
     sdv_arena    scratch;               // of open batches
     sdv_array    open;                  // sdv_open_batch: one of each shape that there was
     int          known[256];            // numbers of these by the hash of their shape, or -1
     sdv_array    batches, starts;       // sdv_batch, int
+    sdv_array    strips;                // sdv_strips: see >>patches
     int          rows, face;            // face: the rows that follow belong to it
+    int          target;                // the point that the next row makes
     int         *points;                // room for those of a row
+    sdv_shape    shape;                 // of the last row that was looked up
     int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
     int          most;                  // with so many faces; or -1
     int          crease, corner, middle;        // the same for vertices and edges that stay sharp
-} sdv_batcher;
+} sdv_writer;
 
-static void sdv_begin_batches(sdv_context *context, sdv_arena *arena, sdv_batcher *batcher)
+// For rows of a cage, or of levels that are made of it.
+static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
+                           sdv_writer *writer)
 {
-    memset(batcher, 0, sizeof *batcher);
-    batcher->context = context;
-    batcher->arena = arena;
-    batcher->scratch = sdv_scratch();
-    batcher->crease = batcher->corner = batcher->middle = -1;
-    for (int i = 0; i < 256; i++) batcher->known[i] = -1;
+    int most = 6;                                   // Loop: around any new vertex
+    for (int v = 0; v < cage->vertex_count; v++)
+        if (cage->vertex_faces[v] > most) most = cage->vertex_faces[v];
+    for (int f = 0; f < cage->face_count && !cage->face_size; f++) {
+        int size = sdv_face_end(cage, f) - sdv_face_start(cage, f);
+        if (size > most) most = size;
+    }
+    memset(writer, 0, sizeof *writer);
+    writer->context = context;
+    writer->arena = arena;
+    writer->scratch = sdv_scratch();
+    writer->most = most;
+    // A vertex, its faces and, on a crease or not manifold, up to twice as many neighbours.
+    writer->points = SDV_NEW(context, &writer->scratch, int, 16 + 4 * (size_t)most);
+    writer->smooth = SDV_NEW(context, &writer->scratch, int, (size_t)most + 1);
+    writer->crease = writer->corner = writer->middle = -1;
+    for (int i = 0; i < 256; i++) writer->known[i] = -1;
+    for (int i = 0; i <= most && !context->result; i++) writer->smooth[i] = -1;
 }
 
 static int sdv_row_points(const sdv_shape *shape)
@@ -3063,30 +3052,30 @@ static int sdv_same_shape(const sdv_shape *a, const sdv_shape *b)
 
 // The number of the open batch for rows of a shape or, with limit, of these weights. A shape whose
 // place is taken takes it over. -1: out of memory.
-static int sdv_find_open(sdv_batcher *batcher, const sdv_shape *shape, const float *limit)
+static int sdv_find_open(sdv_writer *writer, const sdv_shape *shape, const float *limit)
 {
     uint32_t bits[3] = { 0, 0, 0 }, hash = 0;
-    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open);
+    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&writer->open);
     if (!shape->own) memcpy(bits, shape->weight, sizeof bits);
     if (limit) memcpy(&hash, limit, sizeof hash);
     for (int i = 0; i < 3; i++) hash = (hash ^ bits[i] ^ (uint32_t)shape->count[i]) * 2654435761u;
-    int *known = &batcher->known[hash >> 24];
+    int *known = &writer->known[hash >> 24];
     if (*known >= 0 && open[*known].limit == limit && sdv_same_shape(&open[*known].shape, shape))
         return *known;
-    open = (sdv_open_batch *)sdv_append(batcher->context, &batcher->open, 1, sizeof *open);
+    open = (sdv_open_batch *)sdv_append(writer->context, &writer->open, 1, sizeof *open);
     if (!open) return -1;
     open->shape = *shape;
     open->limit = limit;
     open->stride = 1 + sdv_row_points(shape) + 3 * shape->own;
-    return *known = (int)batcher->open.count - 1;
+    return *known = (int)writer->open.count - 1;
 }
 
-static void sdv_grow_open(sdv_batcher *batcher, sdv_open_batch *open)
+static void sdv_grow_open(sdv_writer *writer, sdv_open_batch *open)
 {
     size_t room = open->room ? 2 * (size_t)open->room : 64, stride = (size_t)open->stride;
-    int *items = SDV_NEW(batcher->context, &batcher->scratch, int, room * stride);
-    unsigned char *faces = SDV_NEW(batcher->context, &batcher->scratch, unsigned char, room);
-    if (batcher->context->result) return;
+    int *items = SDV_NEW(writer->context, &writer->scratch, int, room * stride);
+    unsigned char *faces = SDV_NEW(writer->context, &writer->scratch, unsigned char, room);
+    if (writer->context->result) return;
     sdv_copy(items, open->items, (size_t)open->rows * stride, sizeof *items);
     sdv_copy(faces, open->faces, (size_t)open->rows, 1);
     open->items = items;
@@ -3095,33 +3084,33 @@ static void sdv_grow_open(sdv_batcher *batcher, sdv_open_batch *open)
 }
 
 // Adds a row to an open batch: where it goes; and returns the place for its points.
-SDV_INLINE int *sdv_put_row(sdv_batcher *batcher, int number, int target)
+SDV_INLINE int *sdv_put_row(sdv_writer *writer, int number, int target)
 {
-    if (number < 0) return batcher->points;
-    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open) + number;
-    if (open->rows == open->room) sdv_grow_open(batcher, open);
-    if (open->rows == open->room) return batcher->points;       // out of memory
+    if (number < 0) return writer->points;
+    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&writer->open) + number;
+    if (open->rows == open->room) sdv_grow_open(writer, open);
+    if (open->rows == open->room) return writer->points;       // out of memory
     int *row = open->items + (size_t)open->stride * (size_t)open->rows;
-    open->faces[open->rows++] = (unsigned char)(batcher->face % SDV_BLOCK_FACES);
+    open->faces[open->rows++] = (unsigned char)(writer->face % SDV_BLOCK_FACES);
     row[0] = target;
     return row + 1;
 }
 
-// Adds a row of a shape, whose points are in batcher->points, to its open batch.
-static void sdv_copy_row(sdv_batcher *batcher, int number, const sdv_shape *shape, int target)
+// Adds a row of a shape, whose points are in writer->points, to its open batch.
+static void sdv_copy_row(sdv_writer *writer, int number, const sdv_shape *shape, int target)
 {
-    int points = sdv_row_points(shape), *row = sdv_put_row(batcher, number, target);
-    if (row == batcher->points) return;
-    for (int i = 0; i < points; i++) row[i] = batcher->points[i];
+    int points = sdv_row_points(shape), *row = sdv_put_row(writer, number, target);
+    if (row == writer->points) return;
+    for (int i = 0; i < points; i++) row[i] = writer->points[i];
     if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
 }
 
 // The same, and returns the number of the batch.
-static int sdv_add_shape(sdv_batcher *batcher, const sdv_shape *shape, const float *limit,
+static int sdv_add_shape(sdv_writer *writer, const sdv_shape *shape, const float *limit,
                          int target)
 {
-    int number = sdv_find_open(batcher, shape, limit);
-    sdv_copy_row(batcher, number, shape, target);
+    int number = sdv_find_open(writer, shape, limit);
+    sdv_copy_row(writer, number, shape, target);
     return number;
 }
 
@@ -3150,27 +3139,28 @@ static sdv_shape sdv_shape_of(const sdv_runs *runs)
     return shape;
 }
 
-static int sdv_add_runs(sdv_batcher *batcher, const sdv_runs *runs, int target)
+// Adds the row whose points are in writer->points. Returns the number of its batch.
+static int sdv_add_runs(sdv_writer *writer, const sdv_runs *runs, int target)
 {
-    sdv_shape shape = sdv_shape_of(runs);
-    return sdv_add_shape(batcher, &shape, NULL, target);
+    writer->shape = sdv_shape_of(runs);
+    return sdv_add_shape(writer, &writer->shape, NULL, target);
 }
 
 // Writes the batches of a block.
-static void sdv_end_block(sdv_batcher *batcher)
+static void sdv_end_block(sdv_writer *writer)
 {
-    sdv_context *context = batcher->context;
-    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&batcher->open);
-    int *start = (int *)sdv_array_room(context, &batcher->starts, 1, sizeof *start);
+    sdv_context *context = writer->context;
+    sdv_open_batch *open = (sdv_open_batch *)sdv_items(&writer->open);
+    int *start = (int *)sdv_array_room(context, &writer->starts, 1, sizeof *start);
     if (!start) return;
-    *start = (int)batcher->batches.count;
-    batcher->starts.count++;
-    for (size_t i = 0; i < batcher->open.count && !context->result; i++) {
+    *start = (int)writer->batches.count;
+    writer->starts.count++;
+    for (size_t i = 0; i < writer->open.count && !context->result; i++) {
         size_t rows = (size_t)open[i].rows, size = rows * (size_t)open[i].stride;
         if (rows == 0) continue;
-        int *items = SDV_NEW(context, batcher->arena, int, size);
-        unsigned char *faces = SDV_NEW(context, batcher->arena, unsigned char, rows);
-        sdv_batch *batch = (sdv_batch *)sdv_append(context, &batcher->batches, 1, sizeof *batch);
+        int *items = SDV_NEW(context, writer->arena, int, size);
+        unsigned char *faces = SDV_NEW(context, writer->arena, unsigned char, rows);
+        sdv_batch *batch = (sdv_batch *)sdv_append(context, &writer->batches, 1, sizeof *batch);
         if (!batch || context->result) return;
         sdv_copy(items, open[i].items, size, sizeof *items);
         sdv_copy(faces, open[i].faces, rows, 1);
@@ -3179,169 +3169,47 @@ static void sdv_end_block(sdv_batcher *batcher)
         batch->rows = open[i].rows;
         batch->items = items;
         batch->faces = faces;
-        batcher->rows += open[i].rows;
+        writer->rows += open[i].rows;
         open[i].rows = 0;
     }
 }
 
 // The rows that follow belong to this cage face.
-static void sdv_batch_face(sdv_batcher *batcher, int face)
+static void sdv_batch_face(sdv_writer *writer, int face)
 {
-    if (face / SDV_BLOCK_FACES != batcher->face / SDV_BLOCK_FACES) sdv_end_block(batcher);
-    batcher->face = face;
+    if (face / SDV_BLOCK_FACES != writer->face / SDV_BLOCK_FACES) sdv_end_block(writer);
+    writer->face = face;
 }
 
-static void sdv_end_batches(sdv_batcher *batcher, sdv_batches *made)
+static void sdv_end_batches(sdv_writer *writer, sdv_batches *made)
 {
-    sdv_context *context = batcher->context;
-    sdv_end_block(batcher);
-    made->blocks = (int)batcher->starts.count;
-    made->rows = batcher->rows;
-    sdv_end_block(batcher);                                     // an empty one: where the last ends
-    made->starts = (int *)sdv_keep_array(context, batcher->arena, &batcher->starts, sizeof(int));
-    made->items = (sdv_batch *)sdv_keep_array(context, batcher->arena, &batcher->batches,
+    sdv_context *context = writer->context;
+    sdv_end_block(writer);
+    made->blocks = (int)writer->starts.count;
+    made->rows = writer->rows;
+    sdv_end_block(writer);                                     // an empty one: where the last ends
+    made->starts = (int *)sdv_keep_array(context, writer->arena, &writer->starts, sizeof(int));
+    made->items = (sdv_batch *)sdv_keep_array(context, writer->arena, &writer->batches,
                                               sizeof(sdv_batch));
-    memset(&batcher->starts, 0, sizeof batcher->starts);
-    memset(&batcher->batches, 0, sizeof batcher->batches);
-    batcher->rows = batcher->face = 0;
+    memset(&writer->starts, 0, sizeof writer->starts);
+    memset(&writer->batches, 0, sizeof writer->batches);
+    writer->rows = writer->face = 0;
 }
-
-static void sdv_batcher_free(sdv_batcher *batcher)
-{
-    sdv_array_free(&batcher->open);
-    sdv_arena_free(&batcher->scratch);
-}
-
-typedef struct sdv_known_mask {
-    sdv_runs runs;
-    int      mask;
-} sdv_known_mask;
-
-#define SDV_KNOWN_MASKS 256
-
-// Writes rows.
-typedef struct sdv_writer {
-    sdv_context *context;
-    sdv_array    masks, weights;        // sdv_weights, floats: grow, and are copied at the end,
-    sdv_array    strips;                // as are sdv_strips
-    sdv_known_mask  last;               // the mask of the last row
-    sdv_known_mask *known;              // [SDV_KNOWN_MASKS] by their hash
-    sdv_arena    arena;
-    sdv_rows    *rows;                  // being written
-    int         *row;                   // the next one
-    struct sdv_batcher *batcher;        // where rows go that have a target, or NULL
-    int          target;
-} sdv_writer;
 
 static void sdv_writer_free(sdv_writer *writer)
 {
-    sdv_array_free(&writer->masks);
-    sdv_array_free(&writer->weights);
+    sdv_array_free(&writer->open);
     sdv_array_free(&writer->strips);
-    sdv_arena_free(&writer->arena);
-}
-
-static void sdv_writer_new(sdv_context *context, sdv_writer *writer)
-{
-    memset(writer, 0, sizeof *writer);
-    writer->context = context;
-    writer->last.mask = -1;
-    writer->known = SDV_NEW(context, &writer->arena, sdv_known_mask, SDV_KNOWN_MASKS);
-    for (int i = 0; i < SDV_KNOWN_MASKS && writer->known; i++) writer->known[i].mask = -1;
-}
-
-static int sdv_new_mask(sdv_writer *writer, const sdv_runs *runs)
-{
-    int count = sdv_run_points(runs), even = 1, n = 0;
-    sdv_weights *mask = (sdv_weights *)sdv_array_room(writer->context, &writer->masks, 1,
-                                                      sizeof *mask);
-    float *weights = (float *)sdv_array_room(writer->context, &writer->weights, (size_t)count,
-                                             sizeof(float));
-    if (!mask || !weights) return 0;
-    for (int i = 0; i < SDV_RUNS; i++)
-        for (int j = 0; j < runs->count[i]; j++) weights[n++] = runs->weight[i];
-    for (int i = 2; i < n; i++) even &= weights[i] == weights[1];
-    mask->count = n;
-    mask->even = even && n > 1 ? weights[1] : 0;
-    mask->first = even ? -1 : (int)writer->weights.count;
-    if (!even) writer->weights.count += (size_t)n;
-    return (int)writer->masks.count++;
-}
-
-static int sdv_same_runs(const sdv_runs *a, const sdv_runs *b)
-{
-    return memcmp(a, b, sizeof *a) == 0;
-}
-
-// The number of a mask. Most have been there before.
-static int sdv_mask_number(sdv_writer *writer, const sdv_runs *runs)
-{
-    uint32_t bits[SDV_RUNS], hash = 0;
-    if (writer->last.mask >= 0 && sdv_same_runs(&writer->last.runs, runs)) return writer->last.mask;
-    memcpy(bits, runs->weight, sizeof bits);
-    for (int i = 0; i < SDV_RUNS; i++)
-        hash = (hash ^ bits[i] ^ (uint32_t)runs->count[i]) * 2654435761u;
-    sdv_known_mask *known = &writer->known[hash >> 24];
-    if (known->mask < 0 || !sdv_same_runs(&known->runs, runs)) {
-        known->mask = sdv_new_mask(writer, runs);
-        known->runs = *runs;
-    }
-    writer->last = *known;
-    return known->mask;
-}
-
-// So many rows at most of size ints in all, each the mask, the points and, if it has one, the
-// target. starts: for blocks of rows or for cage faces.
-static void sdv_begin_rows(sdv_writer *writer, sdv_arena *arena, sdv_rows *rows, size_t size,
-                           size_t starts, int first)
-{
-    memset(rows, 0, sizeof *rows);
-    rows->first = first;
-    rows->items = SDV_NEW(writer->context, arena, int, size);
-    rows->starts = SDV_NEW(writer->context, arena, size_t, starts);
-    writer->rows = rows;
-    writer->row = rows->items;
-}
-
-// Where the points of the next row go.
-static int *sdv_begin_row(sdv_writer *writer)
-{
-    return writer->batcher ? writer->batcher->points : writer->row + 1;
-}
-
-// Returns the number of its batch, or -1.
-static int sdv_end_row(sdv_writer *writer, const sdv_runs *runs)
-{
-    if (writer->batcher) return sdv_add_runs(writer->batcher, runs, writer->target);
-    sdv_rows *rows = writer->rows;
-    int *row = writer->row, points = sdv_run_points(runs);
-    if (rows->count % SDV_ROW_BLOCK == 0)
-        rows->starts[rows->count / SDV_ROW_BLOCK] = (size_t)(row - rows->items);
-    row[0] = sdv_mask_number(writer, runs);
-    writer->row = row + 1 + points;
-    rows->count++;
-    return -1;
-}
-
-// The most ints of a vertex's row: itself, its neighbours, its faces. Without a crease, there are
-// as many neighbours as faces.
-static size_t sdv_vertex_row_size(const sdv_level *level, int v, int loop)
-{
-    return 3 + (size_t)level->vertex_faces[v] * (size_t)((loop ? 1 : 2) + level->creased[v]);
-}
-
-static size_t sdv_edge_row_size(const sdv_level *level, int h)
-{
-    return 4 + (size_t)sdv_edge_faces(level, h);
+    sdv_arena_free(&writer->scratch);
 }
 
 static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-    int *point = sdv_begin_row(writer);
+    int *point = writer->points;
     sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0, 0 }, { end - start, 0, 0, 0 }, 0 };
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
-    sdv_end_row(writer, &runs);
+    sdv_add_runs(writer, &runs, writer->target);
 }
 
 // From weights of face points to weights of what they are the mean of.
@@ -3415,11 +3283,11 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
 // Without a crease each edge at v lies between two faces. The cage on a later level has no face
 // points: see >>lines.
 // Where the number of the batch of such vertices is kept; NULL: of a blend of two rules.
-static int *sdv_known_batch(sdv_batcher *batcher, sdv_fading fading, int faces)
+static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
 {
-    if (fading.rule < SDV_CREASE) return &batcher->smooth[faces];
+    if (fading.rule < SDV_CREASE) return &writer->smooth[faces];
     if (fading.rule != fading.next) return NULL;
-    return fading.rule == SDV_CREASE ? &batcher->crease : &batcher->corner;
+    return fading.rule == SDV_CREASE ? &writer->crease : &writer->corner;
 }
 
 // The points around a smooth vertex: its neighbours, then those of its faces.
@@ -3446,10 +3314,9 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 {
     int faces = level->vertex_faces[v], spread = level->order && !rules->loop;
     sdv_fading fading = sdv_vertex_fading(level, v);
-    int *known = writer->batcher ? sdv_known_batch(writer->batcher, fading, faces) : NULL;
-    if (rules->linear) known = NULL;
+    int *known = rules->linear ? NULL : sdv_known_batch(writer, fading, faces);
     if (known && *known >= 0) {
-        int *row = sdv_put_row(writer->batcher, *known, writer->target);
+        int *row = sdv_put_row(writer, *known, writer->target);
         row[0] = level->first_point + v;
         if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, rules->loop, row + 1);
         if (fading.rule == SDV_CREASE) sdv_add_neighbours(level, v, SDV_CREASE, 1, row + 1);
@@ -3457,7 +3324,7 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     }
     sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
     if (spread) mask = sdv_spread_vertex(mask, faces);
-    int *start = sdv_begin_row(writer), *point = start, *run = start;
+    int *point = writer->points, *run = point;
     sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
                         (float)mask.face },
                       { 0, 0, 0, 0 }, fading.rule != fading.next && fading.rule >= SDV_CREASE };
@@ -3479,7 +3346,7 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
             *point++ = spread ? sdv_point_across(level, h)
                               : level->face_point[sdv_face_of(level, h)];
     runs.count[3] = (int)(point - run);
-    int number = sdv_end_row(writer, &runs);
+    int number = sdv_add_runs(writer, &runs, writer->target);
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
 
@@ -3492,10 +3359,9 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
     sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
-    int *point = sdv_begin_row(writer), *known = NULL;
-    if (writer->batcher && stays_sharp) known = &writer->batcher->middle;
+    int *point = writer->points, *known = stays_sharp ? &writer->middle : NULL;
     if (known && *known >= 0) {
-        int *row = sdv_put_row(writer->batcher, *known, writer->target);
+        int *row = sdv_put_row(writer, *known, writer->target);
         row[0] = level->first_point + level->face_vertices[h];
         row[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
         return;
@@ -3508,7 +3374,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
         point[2 + i] = rules->loop ?
             level->first_point + level->face_vertices[sdv_previous(level, k)] :
             level->face_point[sdv_face_of(level, k)];
-    int number = sdv_end_row(writer, &runs);
+    int number = sdv_add_runs(writer, &runs, writer->target);
     if (known) *known = number;
 }
 
@@ -3536,7 +3402,7 @@ typedef struct sdv_last_row {
 
 // The rows from one level to the next.
 typedef struct sdv_filler {
-    sdv_batcher  batcher;
+    sdv_writer  writer;
     sdv_level   *level;                 // the cage, with the sharpness that is left on this level
     const sdv_rules *rules;
     sdv_order    from, to;
@@ -3656,18 +3522,18 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
 {
     int at = target.first + target.step;
     for (int j = 0; j < n; j++, at += 2 * target.step)
-        sdv_points_at_piece(fill, loop, j, sdv_put_row(&fill->batcher, fill->odd, at));
+        sdv_points_at_piece(fill, loop, j, sdv_put_row(&fill->writer, fill->odd, at));
     at = target.first + 2 * target.step;
     for (int t = 1; t < n; t++, at += 2 * target.step)
-        sdv_points_around(fill, loop, t, sdv_put_row(&fill->batcher, fill->even, at));
+        sdv_points_around(fill, loop, t, sdv_put_row(&fill->writer, fill->even, at));
 }
 
 // Adds a row on a sharp edge; runs say what it is if it is not like the last one.
 static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
 {
     memcpy(row->key, key, sizeof row->key);
-    row->batch = sdv_find_open(&fill->batcher, &row->shape, NULL);
-    sdv_copy_row(&fill->batcher, row->batch, &row->shape, target);
+    row->batch = sdv_find_open(&fill->writer, &row->shape, NULL);
+    sdv_copy_row(&fill->writer, row->batch, &row->shape, target);
 }
 
 // The odd points of a line that is sharp, or was.
@@ -3679,9 +3545,9 @@ static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side t
         float s = line->now ? line->now[j] : line->sharpness;
         int stays = line->next ? line->next[2 * j] > 0 && line->next[2 * j + 1] > 0 : s > 0;
         const float key[5] = { s, (float)stays, 0, 0, 0 };
-        sdv_points_at_piece(fill, loop, j, fill->batcher.points);
+        sdv_points_at_piece(fill, loop, j, fill->writer.points);
         if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
-            sdv_copy_row(&fill->batcher, row->batch, &row->shape, at);
+            sdv_copy_row(&fill->writer, row->batch, &row->shape, at);
             continue;
         }
         sdv_mask mask = sdv_edge_mask(fill->rules, s, stays, 2, 0);
@@ -3706,9 +3572,9 @@ static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side 
                          straight ? SDV_IMPLIED : 0 };
         if (line->now) memcpy(key, line->now + t - 1, 2 * sizeof *key);
         if (line->next) memcpy(key + 2, line->next + 2 * t - 1, 2 * sizeof *key);
-        sdv_points_around(fill, loop, t, fill->batcher.points);
+        sdv_points_around(fill, loop, t, fill->writer.points);
         if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
-            sdv_copy_row(&fill->batcher, row->batch, &row->shape, at);
+            sdv_copy_row(&fill->writer, row->batch, &row->shape, at);
             continue;
         }
         for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
@@ -3764,7 +3630,7 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
 {
     const sdv_level *cage = &fill->from.cage;
     int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
-    int centre = fill->target + sdv_first_inside(&fill->to, f), *points = fill->batcher.points;
+    int centre = fill->target + sdv_first_inside(&fill->to, f), *points = fill->writer.points;
     for (int i = 0; i < sides; i++) {
         sdv_spoke_points(fill, f, i);
         sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
@@ -3780,7 +3646,7 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
         points[1 + i] = fill->line[m - 1];
         points[1 + sides + i] = fill->left[m - 1];
     }
-    sdv_add_runs(&fill->batcher, &runs, centre);
+    sdv_add_runs(&fill->writer, &runs, centre);
 }
 
 // --------------------------------------------------------------------------------- >>split
@@ -4868,11 +4734,6 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 
 // ------------------------------------------------------------------------------- >>prepare
 
-// From a level to the next: face points first, as the others are made from them.
-typedef struct sdv_step {
-    sdv_rows faces, vertices, edges;
-} sdv_step;
-
 // Rows that make points of the limit and their tangents from the last level: see sdv_limit_row.
 typedef struct sdv_limit_weights {
     int    count;                       // points
@@ -4900,11 +4761,8 @@ struct subdiv_surface {
     int       levels;
     int       cage_vertex_count, cage_face_count;
     sdv_rules rules;
-    sdv_step    *steps;                 // [levels] the last makes face points alone, but of a limit
-    sdv_patches *patches;               // [levels]
-    sdv_strips  *strips;                // of semi-sharp patches, counted from 1
-    sdv_masks masks;                    // of all rows
-    sdv_batches *refine;                // [levels] the rows to each next level; NULL: as above
+    sdv_batches *refine;                // [levels] the rows to each next level; of SUBDIV_EXACT
+                                        // [2 levels]: to face points, to the others
     sdv_batches limit_rows;             // of a limit: from the last level to it
     int      *bases;                    // [levels + 2] where each level starts among work points
 
@@ -5160,53 +5018,6 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     sdv_arena_free(&scratch);
 }
 
-static size_t sdv_row_blocks(int rows)
-{
-    return ((size_t)rows + SDV_ROW_BLOCK - 1) / SDV_ROW_BLOCK;
-}
-
-// Face points become work points: behind the vertex points of the next level, or alone if the
-// next level is the last.
-static void sdv_step_faces(subdiv_surface *surface, sdv_level *level, const sdv_split *split,
-                           sdv_writer *writer, sdv_step *step)
-{
-    int next = level->first_point + level->vertex_count;
-    size_t size = 0;
-    for (int f = 0; f < level->face_count; f++)
-        if (split->face[f] >= 0)
-            size += 1 + (size_t)(sdv_face_end(level, f) - sdv_face_start(level, f));
-    sdv_begin_rows(writer, &surface->points, &step->faces, size,
-                   sdv_row_blocks(split->face_points), next + split->vertex_points);
-    for (int f = 0; f < level->face_count && !writer->context->result; f++) {
-        level->face_point[f] = next + split->face[f];
-        if (split->face[f] >= 0) sdv_face_row(level, f, writer);
-    }
-}
-
-// Rows for the vertex and edge points of the next level.
-static void sdv_step_points(subdiv_surface *surface, const sdv_level *level,
-                            const sdv_split *split, sdv_writer *writer, sdv_step *step)
-{
-    const sdv_rules *rules = &surface->rules;
-    int next = level->first_point + level->vertex_count;
-    size_t size = 0;
-    for (int v = 0; v < level->vertex_count; v++)
-        if (split->active[v]) size += sdv_vertex_row_size(level, v, rules->loop);
-    sdv_begin_rows(writer, &surface->points, &step->vertices, size,
-                   sdv_row_blocks(split->vertex_points), next);
-    for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
-        if (split->active[v]) sdv_vertex_row(level, rules, v, writer);
-
-    size = 0;
-    next += split->vertex_points + split->face_points;
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (split->edge[h] >= 0 && sdv_is_edge(level, h)) size += sdv_edge_row_size(level, h);
-    sdv_begin_rows(writer, &surface->points, &step->edges, size,
-                   sdv_row_blocks(split->edge_points), next);
-    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
-        if (split->edge[h] >= 0 && sdv_is_edge(level, h)) sdv_edge_row(level, rules, h, writer);
-}
-
 // What the weights of a limit row depend on, with the number of faces: all those around a smooth
 // vertex; those between the two edges of a crease; of a corner none. Tips have the tangents of one
 // face's edges: a corner and, loose, a crease or smooth vertex whose faces are no such fan, which
@@ -5220,10 +5031,7 @@ typedef struct sdv_limit_writer {
     sdv_writer *writer;
     const sdv_level *level;             // the last
     const sdv_rules *rules;
-    sdv_arena  *arena;                  // of weights
     sdv_array   masks;                  // sdv_limit_weights
-    struct sdv_batcher *batcher;        // where the rows go, or NULL
-    int         most;                   // faces at a vertex
     int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
     double     *tangents;               // [2 * (2 most + 2)]
 } sdv_limit_writer;
@@ -5238,7 +5046,7 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
     sdv_limit_weights made = { first + edges + across, NULL };
     double *t0 = limit->tangents, *t1 = t0 + made.count;
-    float *weights = SDV_NEW(limit->writer->context, limit->arena, float, 3 * (size_t)made.count);
+    float *weights = SDV_NEW(limit->writer->context, limit->writer->arena, float, 3 * (size_t)made.count);
     if (!weights) return made;
     made.weights = weights;
     for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
@@ -5258,7 +5066,7 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
 // The number of a mask.
 static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
-    int *known = &limit->known[(int)kind * (limit->most + 1) + faces];
+    int *known = &limit->known[(int)kind * (limit->writer->most + 1) + faces];
     if (*known >= 0) return *known;
     sdv_limit_weights made = sdv_new_limit_mask(limit, kind, faces);
     sdv_limit_weights *mask = (sdv_limit_weights *)sdv_array_room(limit->writer->context,
@@ -5320,7 +5128,7 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
     memset(&shape, 0, sizeof shape);
     shape.count[0] = mask->count - 1;
     shape.regular = kind == SDV_RING && faces == (limit->rules->loop ? 6 : 4);
-    sdv_add_shape(limit->batcher, &shape, mask->weights, target);
+    sdv_add_shape(limit->writer, &shape, mask->weights, target);
 }
 
 // The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
@@ -5331,7 +5139,7 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     const sdv_level *level = limit->level;
     int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
     int faces = level->vertex_faces[v], span = 0;
-    int *point = limit->batcher->points;
+    int *point = limit->writer->points;
     sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     sdv_limit_kind kind = SDV_TIP;
     if (rule == SDV_CREASE) {
@@ -5348,32 +5156,17 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     sdv_limit_batch_row(limit, kind, faces, target);
 }
 
-static void sdv_begin_limit(sdv_context *context, sdv_arena *scratch, sdv_limit_writer *limit,
-                            sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
-                            int most, sdv_arena *arena)
+static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
+                            sdv_limit_writer *limit)
 {
+    size_t most = (size_t)writer->most, known = SDV_LIMIT_KINDS * (most + 1);
     memset(limit, 0, sizeof *limit);
     limit->writer = writer;
     limit->level = level;
     limit->rules = rules;
-    limit->most = most;
-    limit->arena = arena;
-    size_t known = SDV_LIMIT_KINDS * ((size_t)most + 1);
-    limit->known = SDV_NEW(context, scratch, int, known);
-    limit->tangents = SDV_NEW(context, scratch, double, 4 * (size_t)most + 8);
-    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
-}
-
-// The masks that were written.
-static void sdv_keep_masks(sdv_context *context, subdiv_surface *surface, const sdv_writer *writer)
-{
-    size_t masks = writer->masks.count, weights = writer->weights.count;
-    surface->masks.count = masks;
-    surface->masks.items = SDV_NEW(context, &surface->points, sdv_weights, masks);
-    surface->masks.weights = SDV_NEW(context, &surface->points, float, weights);
-    if (context->result) return;
-    sdv_copy(surface->masks.items, sdv_items(&writer->masks), masks, sizeof(sdv_weights));
-    sdv_copy(surface->masks.weights, sdv_items(&writer->weights), weights, sizeof(float));
+    limit->known = SDV_NEW(writer->context, &writer->scratch, int, known);
+    limit->tangents = SDV_NEW(writer->context, &writer->scratch, double, 4 * most + 8);
+    for (size_t i = 0; i < known && !writer->context->result; i++) limit->known[i] = -1;
 }
 
 // Where the points of a level stand, for a cage that is known.
@@ -5472,13 +5265,13 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     sdv_runs even = { { (float)vertex.self, 0, (float)vertex.edge, (float)vertex.face },
                       { 1, 0, loop ? 6 : 4, loop ? 0 : 4 }, 0 };
     sdv_shape shape = sdv_shape_of(&odd);
-    fill->odd = sdv_find_open(&fill->batcher, &shape, NULL);
+    fill->odd = sdv_find_open(&fill->writer, &shape, NULL);
     shape = sdv_shape_of(&even);
-    fill->even = sdv_find_open(&fill->batcher, &shape, NULL);
+    fill->even = sdv_find_open(&fill->writer, &shape, NULL);
     edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
     sdv_runs smooth_edge = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, 2 }, 0 };
     shape = sdv_shape_of(&smooth_edge);
-    fill->edge = sdv_find_open(&fill->batcher, &shape, NULL);
+    fill->edge = sdv_find_open(&fill->writer, &shape, NULL);
     fill->from = sdv_order_at(surface, level);
     fill->to = sdv_order_at(surface, level + 1);
     fill->base = fill->level->first_point = surface->bases[level];
@@ -5486,20 +5279,20 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     fill->level->order = level ? &fill->from : NULL;
     fill->sharp[0].batch = fill->sharp[1].batch = -1;
     fill->edges = 0;
-    for (int i = 0; i <= fill->batcher.most && level <= 1; i++) fill->batcher.smooth[i] = -1;
+    for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
-static void sdv_fill_vertex(sdv_filler *fill, sdv_writer *writer, int v)
+static void sdv_fill_vertex(sdv_filler *fill, int v)
 {
-    writer->target = fill->target + v;
-    sdv_vertex_row(fill->level, fill->rules, v, writer);
+    fill->writer.target = fill->target + v;
+    sdv_vertex_row(fill->level, fill->rules, v, &fill->writer);
 }
 
 // The edge point of a smooth edge of the cage, from h to next and on the other side q.
 static void sdv_fill_edge(sdv_filler *fill, int target, int h, int next, int f)
 {
     const sdv_level *level = fill->level;
-    int q = level->across[h], *row = sdv_put_row(&fill->batcher, fill->edge, target);
+    int q = level->across[h], *row = sdv_put_row(&fill->writer, fill->edge, target);
     row[0] = level->face_vertices[h];
     row[1] = level->face_vertices[next];
     row[2] = fill->rules->loop ? level->face_vertices[sdv_previous(level, h)] : level->face_point[f];
@@ -5509,16 +5302,17 @@ static void sdv_fill_edge(sdv_filler *fill, int target, int h, int next, int f)
 
 // The rows that belong to face f: of the vertices and edges that no face before it has, and those
 // inside it that are not on a grid.
-static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f)
+static void sdv_fill_face(sdv_filler *fill, int f)
 {
+    sdv_writer *writer = &fill->writer;
     const sdv_level *level = fill->level;
     const sdv_rules *rules = fill->rules;
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f), cage = !level->order;
     int plain = !rules->linear && rules->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK;
-    sdv_batch_face(&fill->batcher, f);
+    sdv_batch_face(writer, f);
     for (int h = start; h < end; h++) {
         int v = level->face_vertices[h], e = level->face_edges[h];
-        if (level->vertex_first[v] == h) sdv_fill_vertex(fill, writer, v);
+        if (level->vertex_first[v] == h) sdv_fill_vertex(fill, v);
         if (e != fill->edges) continue;
         fill->edges++;
         writer->target = fill->target + fill->to.first_edge_point + e;
@@ -5529,14 +5323,14 @@ static void sdv_fill_face(sdv_filler *fill, sdv_writer *writer, int f)
     if (!cage && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
 }
 
-static void sdv_fill_level(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface, int level)
+static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
 {
     sdv_begin_fill(fill, surface, level, level + 1 == surface->levels && !surface->rules.limit);
     for (int v = 0; v < fill->level->vertex_count; v++)
-        if (fill->level->vertex_first[v] < 0) sdv_fill_vertex(fill, writer, v);
-    for (int f = 0; f < fill->level->face_count && !writer->context->result; f++)
-        sdv_fill_face(fill, writer, f);
-    sdv_end_batches(&fill->batcher, &surface->refine[level]);
+        if (fill->level->vertex_first[v] < 0) sdv_fill_vertex(fill, v);
+    for (int f = 0; f < fill->level->face_count && !fill->writer.context->result; f++)
+        sdv_fill_face(fill, f);
+    sdv_end_batches(&fill->writer, &surface->refine[level]);
 }
 
 // The limit of point t of a line: on a crease that of the surface on its left; linear, where the
@@ -5545,7 +5339,7 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
                                int target)
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
-    int loop = fill->rules->loop, *points = limit->batcher->points, n = 0;
+    int loop = fill->rules->loop, *points = limit->writer->points, n = 0;
     sdv_limit_kind kind = fill->rules->linear ? SDV_TIP : sharp == 2 ? SDV_SPAN : SDV_RING;
     points[n++] = p[t];
     points[n++] = p[t + 1];
@@ -5583,7 +5377,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
 {
     const sdv_level *cage = &fill->from.cage;
     int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
-    int centre = sdv_first_inside(&fill->to, f), *points = limit->batcher->points;
+    int centre = sdv_first_inside(&fill->to, f), *points = limit->writer->points;
     for (int i = 0; i < sides; i++) {
         sdv_side target = sdv_seen_side(centre + 1 + i * (m - 1), m, 1);
         sdv_spoke_points(fill, f, i);
@@ -5604,30 +5398,27 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
                       centre);
 }
 
-static void sdv_fill_limit(sdv_filler *fill, sdv_writer *writer, subdiv_surface *surface, int most,
-                           sdv_arena *scratch)
+static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
 {
     static const float stay[3] = { 1, 0, 0 };
-    sdv_context *context = writer->context;
+    sdv_context *context = fill->writer.context;
     sdv_level *level = fill->level;
     sdv_limit_writer limit;
     sdv_shape alone;
     memset(&alone, 0, sizeof alone);
-    sdv_begin_limit(context, scratch, &limit, writer, &surface->rules, level, most,
-                    &surface->points);
-    limit.batcher = &fill->batcher;
+    sdv_begin_limit(&fill->writer, &surface->rules, level, &limit);
     fill->from = fill->to = surface->order;
     fill->base = level->first_point = surface->bases[surface->levels];
     fill->target = 0;
     level->order = &fill->from;
     for (int v = 0; v < level->vertex_count && !context->result; v++) {
         if (level->vertex_first[v] >= 0) continue;
-        fill->batcher.points[0] = fill->base + v;
-        sdv_add_shape(&fill->batcher, &alone, stay, v);
+        fill->writer.points[0] = fill->base + v;
+        sdv_add_shape(&fill->writer, &alone, stay, v);
     }
     for (int f = 0; f < level->face_count && !context->result; f++) {
         int end = sdv_face_end(level, f);
-        sdv_batch_face(&fill->batcher, f);
+        sdv_batch_face(&fill->writer, f);
         for (int h = sdv_face_start(level, f); h < end && !context->result; h++) {
             int v = level->face_vertices[h];
             if (level->vertex_first[v] == h) sdv_limit_row(&limit, h, v);
@@ -5635,7 +5426,7 @@ static void sdv_fill_limit(sdv_filler *fill, sdv_writer *writer, subdiv_surface 
         }
         if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
     }
-    sdv_end_batches(&fill->batcher, &surface->limit_rows);
+    sdv_end_batches(&fill->writer, &surface->limit_rows);
     sdv_array_free(&limit.masks);
 }
 
@@ -5650,67 +5441,51 @@ static int sdv_is_semi(const sdv_level *cage)
     return semi;
 }
 
-// The most points of a row: of a face, of a vertex with its neighbours and faces.
-static size_t sdv_longest_row(const sdv_level *cage, int *most)
+// Where each level starts among the work points. The last one is there for a limit alone.
+static void sdv_find_bases(sdv_context *context, subdiv_surface *surface)
 {
-    *most = 6;                                              // on edges under Loop
-    for (int v = 0; v < cage->vertex_count; v++)
-        if (cage->vertex_faces[v] > *most) *most = cage->vertex_faces[v];
-    for (int f = 0; f < cage->face_count && !cage->face_size; f++) {
-        int size = sdv_face_end(cage, f) - sdv_face_start(cage, f);
-        if (size > *most) *most = size;
+    int levels = surface->levels, faces = surface->rules.loop ? 0 : surface->order.cage.face_count;
+    surface->bases = SDV_NEW(context, &surface->points, int, levels + 2);
+    if (!context->result) surface->bases[0] = 0;
+    for (int i = 0; i <= levels && !context->result; i++) {
+        int last = i == levels && !surface->rules.limit;
+        double count = !last ? (double)sdv_order_at(surface, i).count : i == 1 ? (double)faces : 0;
+        if (surface->bases[i] + count > INT_MAX)
+            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                     "the levels of this mesh have too many points");
+        else surface->work_count = surface->bases[i + 1] = surface->bases[i] + (int)count;
     }
-    return 16 + 4 * (size_t)*most;
 }
 
 static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                              sdv_arena *scratch)
 {
-    int levels = surface->levels, limit = surface->rules.limit, most;
+    int levels = surface->levels, limit = surface->rules.limit;
     size_t n = (size_t)1 << levels;
     sdv_pieces pieces;
     sdv_filler fill;
-    sdv_writer writer;
     memset(&fill, 0, sizeof fill);
-    sdv_begin_batches(context, &surface->points, &fill.batcher);
-    fill.batcher.points = SDV_NEW(context, scratch, int, sdv_longest_row(cage, &most));
-    fill.batcher.most = most;
-    fill.batcher.smooth = SDV_NEW(context, scratch, int, (size_t)most + 1);
+    sdv_writer_new(context, &surface->points, cage, &fill.writer);
     fill.line = SDV_NEW(context, scratch, int, n + 1);
     fill.left = SDV_NEW(context, scratch, int, n + 1);
     fill.right = SDV_NEW(context, scratch, int, n + 1);
-    surface->bases = SDV_NEW(context, &surface->points, int, levels + 2);
     surface->refine = SDV_NEW(context, &surface->points, sdv_batches, levels);
     sdv_new_pieces(context, scratch, cage, (int)n, &pieces);
-    if (context->result) return;
-    memset(&writer, 0, sizeof writer);
-    writer.context = context;
-    writer.batcher = &fill.batcher;
     fill.level = cage;
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
-    surface->bases[0] = 0;
-    for (int i = 0; i <= levels; i++) {
-        double count = i < levels || limit ? (double)sdv_order_at(surface, i).count :
-                       i == 1 && !surface->rules.loop ? (double)cage->face_count : 0;
-        if (surface->bases[i] + count > INT_MAX)
-            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh have too many points");
-        else surface->bases[i + 1] = surface->bases[i] + (int)count;
-        if (context->result) return;
-    }
-    surface->work_count = surface->bases[levels + 1];
-    int semi = sdv_is_semi(cage);
-    int point = sdv_first_face_point(surface);
+    sdv_find_bases(context, surface);
+    int semi = sdv_is_semi(cage), point = context->result ? 0 : sdv_first_face_point(surface);
     for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = point + f;
     for (int i = 0; i < levels && !context->result; i++) {
         if (semi) sdv_level_fade(cage);
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
-        sdv_fill_level(&fill, &writer, surface, i);
+        sdv_fill_level(&fill, surface, i);
         if (semi) sdv_fade_cage(cage);
     }
     pieces.now = pieces.next;
-    if (limit && !context->result) sdv_fill_limit(&fill, &writer, surface, most, scratch);
-    sdv_batcher_free(&fill.batcher);
+    if (limit && !context->result) sdv_fill_limit(&fill, surface);
+    sdv_writer_free(&fill.writer);
 }
 
 // The first fine face of face f, or how many there are before any.
@@ -5795,17 +5570,6 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, int levels,
     return surface;
 }
 
-// Steps and patches of every level, still empty.
-static void sdv_new_levels(sdv_context *context, subdiv_surface *surface)
-{
-    size_t levels = (size_t)surface->levels;
-    surface->steps = SDV_NEW(context, &surface->arena, sdv_step, levels);
-    surface->patches = SDV_NEW(context, &surface->arena, sdv_patches, levels);
-    if (context->result) return;
-    memset(surface->steps, 0, levels * sizeof *surface->steps);
-    memset(surface->patches, 0, levels * sizeof *surface->patches);
-}
-
 // The rules that all values share with the positions, and the faces that they are seen on.
 static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_surface *surface)
 {
@@ -5835,7 +5599,6 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.value_count = values->count;
     seams.rule = values->rule;
     sdv_like(context, made, surface);
-    sdv_new_levels(context, made);
     if (!context->result)
         sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
@@ -5970,7 +5733,6 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
     sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
     if (!surface->exact)
         sdv_check_size(context, &work, surface->levels, built.level.edge_count);
-    sdv_new_levels(context, surface);
     if (!context->result) {
         sdv_set_rules(context, surface, cage, &built, opt);
         if (made && !context->result)
@@ -6111,33 +5873,6 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     int i = index - out->first;
     if (i >= 0 && i < out->count && out->values)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
-}
-
-// A row, in doubles. Returns the next one.
-SDV_INLINE const int *sdv_exact_row(const sdv_masks *masks, const int *row, const double *work,
-                                       double *out)
-{
-    const sdv_weights *mask = &masks->items[row[0]];
-    const double *p0 = work + 4 * (size_t)row[1];
-    double sum[4] = { 0, 0, 0, 0 };
-    for (int j = 1; j < mask->count; j++) {
-        const double *p = work + 4 * (size_t)row[1 + j];
-        double w = mask->first < 0 ? (double)mask->even : (double)masks->weights[mask->first + j];
-        for (int c = 0; c < 4; c++) sum[c] += w * (p[c] - p0[c]);
-    }
-    for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
-    return row + 1 + mask->count;
-}
-
-static void sdv_exact_rows(const sdv_masks *masks, const sdv_rows *rows, int block, int end,
-                           double *work)
-{
-    if (block == end) return;
-    int first = block * SDV_ROW_BLOCK, last = end * SDV_ROW_BLOCK;
-    const int *row = rows->items + rows->starts[block];
-    double *out = work + 4 * (size_t)(rows->first + first);
-    if (last > rows->count) last = rows->count;
-    for (int i = first; i < last; i++, out += 4) row = sdv_exact_row(masks, row, work, out);
 }
 
 // The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline, from
@@ -6532,17 +6267,14 @@ static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, cons
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
 {
-    if (surface->refine && surface->rules.limit) {
+    if (surface->rules.limit) {
         sdv_make_batches(&surface->limit_rows, work, face, end, out);
         sdv_limit_grids(&surface->rules, &surface->order,
                         work + 4 * (size_t)surface->bases[surface->levels], face,
                         end < surface->cage_face_count ? end : surface->cage_face_count, out);
         return;
     }
-    if (surface->refine) {
-        sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
-        return;
-    }
+    sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
 }
 
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
@@ -7414,9 +7146,8 @@ typedef struct sdv_evaluation {
     int          channels;
     const float *in;                    // channels a vertex
     size_t       in_stride;
-    float       *work;                  // [4 * work_count] for every four channels; or
-    double      *doubles;               // the same of SUBDIV_EXACT: points of a fine level differ
-    float       *out;                   // in their last digits alone
+    float       *work;                  // [4 * work_count] for every four channels
+    float       *out;
     size_t       out_stride;
     int          first_point, end_point;
     int          first_face, end_face;
@@ -7468,39 +7199,10 @@ static void sdv_input_job(void *context, int job)
         for (int i = v; i < end; i++, at += 4) {
             int from = e->surface->source ? e->surface->source[i] : i;
             const float *in = e->in + e->in_stride * (size_t)from + c;
-            if (lanes >= 3 && !e->doubles) {
-                sdv_store(e->work + at, sdv_of(in[0], in[1], in[2], lanes > 3 ? in[3] : 0));
-                continue;
-            }
-            for (int k = 0; k < 4 && !e->doubles; k++)
-                e->work[at + (size_t)k] = k < lanes ? in[k] : 0;
-            for (int k = 0; k < 4 && e->doubles; k++)
-                e->doubles[at + (size_t)k] = k < lanes ? (double)in[k] : 0;
+            sdv_store(e->work + at, sdv_of(in[0], lanes > 1 ? in[1] : 0, lanes > 2 ? in[2] : 0,
+                                           lanes > 3 ? in[3] : 0));
         }
     }
-}
-
-static void sdv_apply_share(const sdv_evaluation *e, const sdv_rows *rows, int job)
-{
-    int blocks = (int)sdv_row_blocks(rows->count);
-    int block = sdv_share(blocks, job, e->jobs), end = sdv_share(blocks, job + 1, e->jobs);
-    for (int c = 0; c < e->channels; c += 4) {
-        size_t at = (size_t)c * (size_t)e->surface->work_count;
-        sdv_exact_rows(&e->surface->masks, rows, block, end, e->doubles + at);
-    }
-}
-
-static void sdv_face_point_job(void *context, int job)
-{
-    const sdv_evaluation *e = (const sdv_evaluation *)context;
-    sdv_apply_share(e, &e->surface->steps[e->step].faces, job);
-}
-
-static void sdv_point_job(void *context, int job)
-{
-    const sdv_evaluation *e = (const sdv_evaluation *)context;
-    sdv_apply_share(e, &e->surface->steps[e->step].vertices, job);
-    sdv_apply_share(e, &e->surface->steps[e->step].edges, job);
 }
 
 // Steps of the general step, in shares of cage faces.
@@ -7519,34 +7221,18 @@ static void sdv_level_job(void *context, int job)
     }
 }
 
-static void sdv_make_level_points(sdv_evaluation *e, const subdiv_options *opt)
+// The work points: those of level 0 from the input, the others level by level.
+static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
     int last = surface->rules.limit ? surface->levels : surface->levels - 1;
+    e->jobs = sdv_jobs(opt, surface->cage_vertex_count, 4096);
+    sdv_run(opt, sdv_input_job, e, e->jobs);
     for (e->step = surface->rules.loop ? 0 : -1; e->step < last; e->step++) {
         int level = e->step < 0 ? 0 : e->step + 1;
         e->jobs = sdv_jobs(opt, surface->bases[level + 1] - surface->bases[level],
                            SDV_JOB_POINTS);
         sdv_run(opt, sdv_level_job, e, e->jobs);
-    }
-}
-
-// The work points: those of level 0 from the input, the others step by step.
-static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
-{
-    const subdiv_surface *surface = e->surface;
-    e->jobs = sdv_jobs(opt, surface->cage_vertex_count, 4096);
-    sdv_run(opt, sdv_input_job, e, e->jobs);
-    if (surface->refine) {
-        sdv_make_level_points(e, opt);
-        return;
-    }
-    for (e->step = 0; e->step < surface->levels; e->step++) {
-        const sdv_step *step = &surface->steps[e->step];
-        e->jobs = sdv_jobs(opt, step->faces.count, 4096);
-        sdv_run(opt, sdv_face_point_job, e, e->jobs);
-        e->jobs = sdv_jobs(opt, step->vertices.count + step->edges.count, 4096);
-        sdv_run(opt, sdv_point_job, e, e->jobs);
     }
 }
 
@@ -8120,7 +7806,7 @@ typedef struct sdv_nest_kind {
     sdv_rule rule;                      // of the vertex; a dart's ring starts at its sharp edge
     int      points;
     int      work_count;                // the points, and those of the next level
-    sdv_step step;                      // which its rows make
+    sdv_batches refine[2];              // the rows: to face points, to the others
     int     *below;                     // [points] the same points of the next level's nest
     int     *children;                  // [4 * faces] their patches; -1: in the nest
     int      turns, width;              // patches: of each turn of the face; control points of each
@@ -8166,6 +7852,8 @@ SDV_INLINE int sdv_leaf_number(int node)
 }
 
 typedef struct sdv_exact {
+    sdv_patches *patches;               // [levels]
+    sdv_strips *strips;                 // of semi-sharp patches, counted from 1
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
     int *nodes;                         // first those of faces, or of an n-gon's quads
@@ -8201,6 +7889,105 @@ static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
     const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
     for (int k = 0; k < SDV_SLOTS; k++)
         slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
+}
+
+// The rows from a level to the next: face points first, as the others are made from them. They stand
+// behind the vertex points of the next level, and edge points behind them.
+static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_split *split,
+                           sdv_writer *writer, sdv_batches *refine)
+{
+    int next = level->first_point + level->vertex_count, faces = next + split->vertex_points;
+    int edges = faces + split->face_points;
+    for (int f = 0; f < level->face_count && !rules->loop && !writer->context->result; f++) {
+        level->face_point[f] = next + split->face[f];
+        writer->target = level->face_point[f];
+        if (split->face[f] >= 0) sdv_face_row(level, f, writer);
+    }
+    sdv_end_batches(writer, &refine[0]);
+    writer->target = next;
+    for (int v = 0; v < level->vertex_count && !writer->context->result; v++) {
+        if (!split->active[v]) continue;
+        sdv_vertex_row(level, rules, v, writer);
+        writer->target++;
+    }
+    writer->target = edges;
+    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++) {
+        if (split->edge[h] < 0 || !sdv_is_edge(level, h)) continue;
+        sdv_edge_row(level, rules, h, writer);
+        writer->target++;
+    }
+    sdv_end_batches(writer, &refine[1]);
+}
+
+// A row, in doubles: those points of fine levels differ in their last digits alone.
+SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const float *weights,
+                              double *work)
+{
+    const double *p0 = work + 4 * (size_t)row[1];
+    double *out = work + 4 * (size_t)row[0], sum[4] = { 0, 0, 0, 0 };
+    row += 2;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < shape->count[k]; i++) {
+            const double *p = work + 4 * (size_t)*row++;
+            for (int c = 0; c < 4; c++) sum[c] += (double)weights[k] * (p[c] - p0[c]);
+        }
+    for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
+}
+
+// Job number job's share of the rows.
+static void sdv_make_exact_rows(const sdv_batches *batches, double *work, int job, int jobs)
+{
+    for (int b = 0; b < batches->starts[batches->blocks]; b++) {
+        const sdv_batch *batch = &batches->items[b];
+        int points = sdv_row_points(&batch->shape), own = batch->shape.own;
+        int i = sdv_share(batch->rows, job, jobs), end = sdv_share(batch->rows, job + 1, jobs);
+        size_t stride = 1 + (size_t)points + 3 * (size_t)own;
+        const int *row = batch->items + stride * (size_t)i;
+        for (float w[3]; i < end; i++, row += stride) {
+            memcpy(w, own ? (const void *)(row + 1 + points) : batch->shape.weight, sizeof w);
+            sdv_exact_row(&batch->shape, row, w, work);
+        }
+    }
+}
+
+// The work points of an exact surface: those of the cage from the input, the others step by step.
+typedef struct sdv_exact_work {
+    const subdiv_surface *surface;
+    int          channels;
+    const float *in;
+    size_t       in_stride;
+    double      *points;                // [4 * work_count] for every four channels
+    int          step, jobs;
+} sdv_exact_work;
+
+static void sdv_exact_input(const sdv_exact_work *e)
+{
+    const int *source = e->surface->source;
+    for (int c = 0; c < e->channels; c += 4) {
+        double *out = e->points + (size_t)c * (size_t)e->surface->work_count;
+        for (int v = 0; v < e->surface->cage_vertex_count; v++, out += 4) {
+            const float *in = e->in + e->in_stride * (size_t)(source ? source[v] : v) + c;
+            for (int k = 0; k < 4; k++) out[k] = k < e->channels - c ? (double)in[k] : 0;
+        }
+    }
+}
+
+static void sdv_exact_step_job(void *context, int job)
+{
+    const sdv_exact_work *e = (const sdv_exact_work *)context;
+    for (int c = 0; c < e->channels; c += 4)
+        sdv_make_exact_rows(&e->surface->refine[e->step],
+                            e->points + (size_t)c * (size_t)e->surface->work_count, job, e->jobs);
+}
+
+static void sdv_make_exact_work(sdv_exact_work *e, const subdiv_options *opt)
+{
+    sdv_exact_input(e);
+    for (e->step = 0; e->step < 2 * SDV_EXACT_LEVELS; e->step++) {
+        if (e->surface->refine[e->step].rows == 0) continue;
+        e->jobs = sdv_jobs(opt, e->surface->refine[e->step].rows, 4096);
+        sdv_run(opt, sdv_exact_step_job, e, e->jobs);
+    }
 }
 
 // --------------------------------------------------------------------------------- >>nests
@@ -8398,8 +8185,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
         sdv_find_active(&cage.level, &split);
         sdv_number_faces(&cage.level, &split, loop);
         sdv_number_points(&cage.level, &split, loop);
-        if (!loop) sdv_step_faces(surface, &cage.level, &split, maker->writer, &kind->step);
-        sdv_step_points(surface, &cage.level, &split, maker->writer, &kind->step);
+        sdv_exact_rows(&cage.level, rules, &split, maker->writer, kind->refine);
     }
     if (!context->result)
         sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
@@ -8622,10 +8408,10 @@ static int sdv_patch_leaf(sdv_exact_maker *maker, const sdv_patch *patch)
 static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *level)
 {
     subdiv_surface *surface = maker->surface;
-    const sdv_patches *patches = &surface->patches[depth];
+    const sdv_patches *patches = &surface->exact->patches[depth];
     const sdv_patch *patch;
     sdv_find_patches(maker->writer, &surface->points, level, &surface->rules,
-                     &surface->patches[depth]);
+                     &surface->exact->patches[depth]);
     patch = patches->items;
     for (int f = 0; f < level->face_count && !maker->writer->context->result; f++)
         if (level->core[f] && !level->rough[f])
@@ -8655,8 +8441,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
         sdv_find_active(level, &split);
         sdv_number_faces(level, &split, loop);
         sdv_number_points(level, &split, loop);
-        if (!loop) sdv_step_faces(surface, level, &split, maker->writer, &surface->steps[depth]);
-        sdv_step_points(surface, level, &split, maker->writer, &surface->steps[depth]);
+        sdv_exact_rows(level, &surface->rules, &split, maker->writer, &surface->refine[2 * depth]);
     }
     if (!context->result)
         sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
@@ -8697,7 +8482,7 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
                                                         sizeof(sdv_nest_face));
-    surface->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
+    surface->exact->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
                                                    sizeof(sdv_strips));
     for (int i = 0; i < exact->kind_count && !context->result; i++)
         if (exact->kinds[i].work_count > exact->most_work)
@@ -8824,8 +8609,8 @@ SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale
 SDV_INLINE void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
 {
     const sdv_cut_patch *cut = &surface->exact->cuts[number];
-    const sdv_strips *along = &surface->strips[cut->along - 1];
-    int row = sdv_find_strip(&surface->strips[cut->up - 1], &leaf->y, &leaf->sy);
+    const sdv_strips *along = &surface->exact->strips[cut->along - 1];
+    int row = sdv_find_strip(&surface->exact->strips[cut->up - 1], &leaf->y, &leaf->sy);
     int column = sdv_find_strip(along, &leaf->x, &leaf->sx);
     leaf->polynomial = (size_t)(cut->polynomial + row * along->count + column);
 }
@@ -9188,9 +8973,16 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
 // Preparing an exact surface: its tree level by level, then its cells.
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
 {
+    sdv_exact *exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
+    sdv_patches *patches = SDV_NEW(context, &surface->arena, sdv_patches, SDV_EXACT_LEVELS);
     surface->levels = SDV_EXACT_LEVELS;
-    surface->exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
-    if (surface->exact) memset(surface->exact, 0, sizeof *surface->exact);
+    surface->refine = SDV_NEW(context, &surface->points, sdv_batches, 2 * SDV_EXACT_LEVELS);
+    if (context->result) return;
+    memset(exact, 0, sizeof *exact);
+    memset(patches, 0, SDV_EXACT_LEVELS * sizeof *patches);
+    memset(surface->refine, 0, 2 * SDV_EXACT_LEVELS * sizeof *surface->refine);
+    exact->patches = patches;
+    surface->exact = exact;
 }
 
 static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -9201,7 +8993,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     sdv_writer writer;
     sdv_exact_maker maker;
     memset(&maker, 0, sizeof maker);
-    sdv_writer_new(context, &writer);
+    sdv_writer_new(context, &surface->points, cage, &writer);
     maker.writer = &writer;
     maker.surface = surface;
     maker.slots = SDV_NEW(context, arena, int, level.face_count);
@@ -9223,7 +9015,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     }
     sdv_keep_exact(context, &maker);
     if (!context->result && !surface->borrows) sdv_make_all_cells(context, surface);
-    sdv_keep_masks(context, surface, &writer);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -9244,8 +9035,8 @@ static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const
                                const int *points, const double *work)
 {
     sdv_double_patch from = { &surface->rules, patch, points, work, NULL, NULL };
-    if (patch->up) from.along = &surface->strips[patch->along - 1];
-    if (patch->up) from.up = &surface->strips[patch->up - 1];
+    if (patch->up) from.along = &surface->exact->strips[patch->along - 1];
+    if (patch->up) from.up = &surface->exact->strips[patch->up - 1];
     return from;
 }
 
@@ -9352,8 +9143,8 @@ typedef struct sdv_patch_at {
 
 static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
 {
-    while (at->level < surface->levels && at->i >= surface->patches[at->level].count)
-        at->i -= surface->patches[at->level++].count;
+    while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
+        at->i -= surface->exact->patches[at->level++].count;
 }
 
 static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
@@ -9366,7 +9157,7 @@ static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
 static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
                                      const int **points)
 {
-    const sdv_patches *patches = &surface->patches[at.level];
+    const sdv_patches *patches = &surface->exact->patches[at.level];
     *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
     return &patches->items[at.i];
 }
@@ -9411,10 +9202,7 @@ static void sdv_nest_resume(sdv_nest_state *s, const subdiv_surface *surface, in
 // Makes the points of the next level.
 static void sdv_nest_refine(sdv_nest_state *s)
 {
-    const sdv_step *step = &s->kind->step;
-    const sdv_rows *rows[3] = { &step->faces, &step->vertices, &step->edges };
-    for (int i = 0; i < 3; i++)
-        sdv_exact_rows(&s->surface->masks, rows[i], 0, (int)sdv_row_blocks(rows[i]->count), s->w);
+    for (int i = 0; i < 2; i++) sdv_make_exact_rows(&s->kind->refine[i], s->w, 0, 1);
 }
 
 // Takes those that continue the nest for its points.
@@ -9635,7 +9423,7 @@ static int sdv_more_polynomials(const subdiv_surface *surface, int i)
     const sdv_cut_patch *cut = i < 0 ? NULL : &surface->exact->cuts[i];
     if (!cut) return 0;
     return cut->polynomial - cut->patch - 1 +
-           surface->strips[cut->along - 1].count * surface->strips[cut->up - 1].count;
+           surface->exact->strips[cut->along - 1].count * surface->exact->strips[cut->up - 1].count;
 }
 
 static void sdv_exact_patches_job(void *context, int job)
@@ -9673,17 +9461,14 @@ static void sdv_exact_nests_job(void *context, int job)
 static void sdv_exact_begin(const subdiv_surface *surface, int channels, const float *in,
                             size_t in_stride, void *scratch, const subdiv_options *opt)
 {
-    sdv_evaluation work;
+    sdv_exact_work work = { surface, channels, in, in_stride, NULL, 0, 1 };
     sdv_exact_evaluation e;
     memset(&e, 0, sizeof e);
-    memset(&work, 0, sizeof work);
-    e.surface = work.surface = surface;
-    e.channels = work.channels = channels;
+    e.surface = surface;
+    e.channels = channels;
     e.memory = sdv_exact_parts(surface, channels, scratch);
-    work.in = in;
-    work.in_stride = in_stride;
-    work.doubles = e.memory.work;
-    sdv_make_work(&work, opt);
+    work.points = e.memory.work;
+    sdv_make_exact_work(&work, opt);
     const sdv_exact *exact = e.surface->exact;
     e.jobs = sdv_jobs(opt, exact->patch_count, 256);
     sdv_run(opt, sdv_exact_patches_job, &e, e.jobs);
@@ -10249,41 +10034,56 @@ typedef struct sdv_stencil_maker {
     double    *sums;                    // [work_count * parts] weights, and where
     int       *places;                  // [work_count] each stands, or -1
 
-    const sdv_batch **batches;          // [work_count] of a surface of batches: where the row of
-    const int **rows;                   // each work point is; NULL: on a grid
+    const sdv_batch **batches;          // [work_count, then the result's points] where the row of
+    const int **rows;                   // each point is; NULL: on a grid, or a face point of the cage
+    unsigned char *steps;               // [work_count] made before those with a higher one
     int        longest;                 // points of a row at most
-    sdv_stencil_row *room;              // [levels + 2] rows: one for each level
+    sdv_stencil_row *room;              // rows: one for each step, and one for the result's points
 
     size_t    *offsets;                 // [points + 1] what is made
     sdv_array  indices, weights;        // ints, floats [parts] each
 } sdv_stencil_maker;
 
-// Notes where the rows are: of work points, or of the last level's behind them.
-static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int base)
+// Notes where the rows are: of a step's work points, or of the result's points behind all those.
+static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int base, int step)
 {
-    for (int b = 0; b < batches->starts[batches->blocks]; b++) {
+    for (int b = 0; b < (batches->rows ? batches->starts[batches->blocks] : 0); b++) {
         const sdv_batch *batch = &batches->items[b];
         const int *row = batch->items, points = sdv_row_points(&batch->shape);
         if (points > make->longest) make->longest = points;
         for (int i = 0; i < batch->rows; i++, row += 1 + points + 3 * batch->shape.own) {
             make->batches[base + row[0]] = batch;
             make->rows[base + row[0]] = row;
+            if (base == 0) make->steps[row[0]] = (unsigned char)step;
         }
     }
 }
 
-static void sdv_note_rows_of(sdv_stencil_maker *make)
+// Level i is step 2 i, and face points of the cage are step 1. Of SUBDIV_EXACT, face points have a
+// step of their own on all levels.
+static void sdv_note_rows(sdv_stencil_maker *make)
 {
     const subdiv_surface *surface = make->surface;
-    size_t count = (size_t)surface->work_count + (size_t)surface->fine.vertex_count;
-    int last = surface->levels - 1, limit = surface->rules.limit;
+    int levels = surface->levels, limit = surface->rules.limit, work = surface->work_count;
+    size_t count = (size_t)work + (size_t)surface->fine.vertex_count;
     make->batches = SDV_NEW(make->context, &make->arena, const sdv_batch *, count);
     make->rows = SDV_NEW(make->context, &make->arena, const int *, count);
+    make->steps = SDV_NEW(make->context, &make->arena, unsigned char, work);
     if (make->context->result) return;
     for (size_t i = 0; i < count; i++) make->rows[i] = NULL;
-    for (int i = 0; i <= last; i++)
-        sdv_note_batches(make, &surface->refine[i], i == last && !limit ? surface->work_count : 0);
-    if (limit) sdv_note_batches(make, &surface->limit_rows, surface->work_count);
+    for (int i = 0; i < 2 * levels && surface->exact; i++)
+        sdv_note_batches(make, &surface->refine[i], 0, i + 1);
+    if (surface->exact || levels == 0) return;
+    for (int i = 0; i <= levels; i++)
+        memset(make->steps + surface->bases[i], 2 * i,
+               (size_t)surface->bases[i + 1] - (size_t)surface->bases[i]);
+    for (int i = 0; i < levels; i++) {
+        int last = i + 1 == levels && !limit;
+        sdv_note_batches(make, &surface->refine[i], last ? work : 0, 2 * i + 2);
+    }
+    if (limit) sdv_note_batches(make, &surface->limit_rows, work, 0);
+    if (!surface->rules.loop)
+        memset(make->steps + sdv_first_face_point(surface), 1, (size_t)surface->cage_face_count);
 }
 
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
@@ -10310,12 +10110,9 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
         int size = sdv_face_end(&surface->order.cage, f) - sdv_face_start(&surface->order.cage, f);
         if (size > make->longest) make->longest = size;
     }
-    if (surface->refine) sdv_note_rows_of(make);
-    for (size_t i = 0; i < (size_t)(surface->refine ? 0 : surface->masks.count); i++)
-        if (surface->masks.items[i].count > make->longest)
-            make->longest = surface->masks.items[i].count;
-    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, surface->levels + 2);
-    for (int i = 0; i < surface->levels + 2 && !context->result; i++) {
+    sdv_note_rows(make);
+    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, 2 * surface->levels + 2);
+    for (int i = 0; i < 2 * surface->levels + 2 && !context->result; i++) {
         make->room[i].points = SDV_NEW(context, &make->arena, int, make->longest);
         make->room[i].weights = SDV_NEW(context, &make->arena, double, make->longest);
     }
@@ -10360,48 +10157,11 @@ static void sdv_end_sum(sdv_stencil_maker *make)
     make->size = 0;
 }
 
-// The weight of point i of a row with this mask. They are asked for from the last one to the first,
-// which has what the others left of 1.
-static double sdv_row_weight(const float *weights, const sdv_weights *mask, int i, double *left)
-{
-    if (i == 0) return *left;
-    double weight = (double)(mask->first < 0 ? mask->even : weights[mask->first + i]);
-    *left -= weight;
-    return weight;
-}
-
-static void sdv_mask_row(const sdv_masks *masks, const sdv_weights *mask, const int *points,
-                         sdv_stencil_row *out)
-{
-    double left = 1;
-    out->count = mask->count;
-    for (int i = mask->count - 1; i >= 0; i--) {
-        out->points[i] = points[i];
-        out->weights[i] = sdv_row_weight(masks->weights, mask, i, &left);
-    }
-}
-
 // The weights of a row whose mask has these. The first point has what the others leave of 1.
 static void sdv_fill_weights(sdv_stencil_row *row)
 {
     row->weights[0] = 1;
     for (int i = row->count - 1; i > 0; i--) row->weights[0] -= row->weights[i];
-}
-
-static const int *sdv_find_row(const subdiv_surface *surface, int point)
-{
-    const int *row = NULL;
-    for (int i = 0; i < surface->levels && !row; i++) {
-        const sdv_step *step = &surface->steps[i];
-        const sdv_rows *three[3] = { &step->faces, &step->vertices, &step->edges };
-        for (int k = 0; k < 3; k++) {
-            int at = point - three[k]->first;
-            if (at < 0 || at >= three[k]->count) continue;
-            row = three[k]->items + three[k]->starts[at / SDV_ROW_BLOCK];
-            for (at %= SDV_ROW_BLOCK; at > 0; at--) row += 1 + surface->masks.items[row[0]].count;
-        }
-    }
-    return row;
 }
 
 static void sdv_batch_row(const sdv_batch *batch, const int *row, sdv_stencil_row *out)
@@ -10534,23 +10294,14 @@ static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, s
     else sdv_face_stencil(surface, index - sdv_order_at(surface, 1).first_face_point, out);
 }
 
-// The row of a work point, in the room of its level. The face points of the cage have one of their
-// own, as other points of level 1 are made of them.
+// The row of a work point, in the room of its step.
 static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int point)
 {
     const subdiv_surface *surface = make->surface;
-    int level = 1;
-    if (!surface->refine) {
-        const int *row = sdv_find_row(surface, point);
-        sdv_mask_row(&surface->masks, &surface->masks.items[row[0]], row + 1, make->room);
-        return make->room;
-    }
-    while (point >= surface->bases[level + 1]) level++;
-    int faces = surface->rules.loop ? 0 : surface->cage_face_count;
-    int face = level == 1 && faces ? point - sdv_first_face_point(surface) : -1;
-    sdv_stencil_row *room = &make->room[face < 0 ? level : 0];
-    if (face >= 0) sdv_face_stencil(surface, face, room);
-    else if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
+    int step = make->steps[point], level = step / 2;
+    sdv_stencil_row *room = &make->room[step];
+    if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
+    else if (step == 1) sdv_face_stencil(surface, point - sdv_first_face_point(surface), room);
     else sdv_grid_row_of(surface, level, point - surface->bases[level], room);
     return room;
 }
@@ -10591,17 +10342,10 @@ static void sdv_compose(sdv_stencil_maker *make, int point)
 {
     const subdiv_surface *surface = make->surface;
     if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
-    const sdv_stencil_row *row = NULL;
+    const sdv_stencil_row *row = sdv_work_row(make, point);
     const double one[3] = { 1, 0, 0 };
     int any_long = 0;
-    if (surface->refine) {
-        row = sdv_work_row(make, point);
-        sdv_compose_all(make, row->points, row->count);
-    } else {
-        const int *stream = sdv_find_row(surface, point);
-        sdv_compose_all(make, stream + 1, surface->masks.items[stream[0]].count);
-        row = sdv_work_row(make, point);        // after those, as there is room for one
-    }
+    sdv_compose_all(make, row->points, row->count);
     if (make->context->result) return;
     for (int i = 0; i < row->count; i++) any_long |= make->sizes[row->points[i]] == SDV_LONG;
     if (!any_long) sdv_add_row(make, row, one);
@@ -10624,42 +10368,25 @@ static void sdv_take_from_sum(sdv_stencil_maker *make, int i, double *w)
     make->vertices[i] = make->vertices[last];
 }
 
-// Long points from first to end - 1 become those that they are made of.
-static void sdv_expand_rows(sdv_stencil_maker *make, int first, int end)
-{
-    for (int i = 0; i < make->size; ) {
-        int point = make->vertices[i];
-        double w[3];
-        if (point < first || point >= end) {
-            i++;
-            continue;
-        }
-        const sdv_stencil_row *row = sdv_work_row(make, point);
-        sdv_take_from_sum(make, i, w);
-        sdv_add_row(make, row, w);
-    }
-}
-
-// Each long point is expanded once: when all that are made of it have been.
+// Each long point becomes what it is made of, once: when all that are made of it have been.
 static void sdv_expand_sum(sdv_stencil_maker *make)
 {
-    const subdiv_surface *surface = make->surface;
-    int any_long = 0;
+    int step = 0;
     for (int i = 0; i < make->size; i++)
-        any_long |= make->vertices[i] >= surface->cage_vertex_count;
-    for (int i = any_long && surface->refine ? surface->levels : 0; i > 0; i--) {
-        int first = surface->bases[i], end = surface->bases[i + 1];
-        if (i == 1 && !surface->rules.loop)             // face points come last
-            sdv_expand_rows(make, first, end - surface->cage_face_count);
-        sdv_expand_rows(make, first, end);
-    }
-    for (int i = any_long && !surface->refine ? surface->levels : 0; i-- > 0; ) {
-        const sdv_step *step = &surface->steps[i];
-        const sdv_rows *rows[3] = { &step->edges, &step->vertices, &step->faces };
-        for (int k = 0; k < 3; k++)
-            if (rows[k]->count)
-                sdv_expand_rows(make, rows[k]->first, rows[k]->first + rows[k]->count);
-    }
+        if (make->vertices[i] >= make->surface->cage_vertex_count &&
+            make->steps[make->vertices[i]] > step) step = make->steps[make->vertices[i]];
+    for (; step > 0; step--)
+        for (int i = 0; i < make->size; ) {
+            int point = make->vertices[i];
+            double w[3];
+            if (point < make->surface->cage_vertex_count || make->steps[point] != step) {
+                i++;
+                continue;
+            }
+            const sdv_stencil_row *row = sdv_work_row(make, point);
+            sdv_take_from_sum(make, i, w);
+            sdv_add_row(make, row, w);
+        }
 }
 
 // Gives what is missing from the total to the largest of count weights.
@@ -10813,7 +10540,7 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
 {
     const subdiv_surface *surface = make->surface;
     const double one[3] = { 1, 0, 0 };
-    sdv_stencil_row *row = &make->room[surface->levels + 1];
+    sdv_stencil_row *row = &make->room[2 * surface->levels + 1];
     if (surface->levels == 0) {
         sdv_add_work_point(make, i, one);
         return;
@@ -10908,20 +10635,33 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // then of those of the next level.
 
 // sdv_nest_refine backwards, from the next level's points.
-static void sdv_unrefine_nest(const sdv_masks *masks, const sdv_step *step, double *w)
+static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights, double *w)
 {
-    const sdv_rows *rows[3] = { &step->edges, &step->vertices, &step->faces };
-    for (int k = 0; k < 3; k++) {
-        const int *row = rows[k]->items;
-        const double *from = w + 3 * (size_t)rows[k]->first;
-        for (int i = 0; i < rows[k]->count; i++, from += 3) {
-            const sdv_weights *mask = &masks->items[row[0]];
-            double left = 1;
-            for (int j = mask->count - 1; j >= 0; j--) {
-                double weight = sdv_row_weight(masks->weights, mask, j, &left);
-                for (int c = 0; c < 3; c++) w[3 * row[1 + j] + c] += weight * from[c];
+    const double *from = w + 3 * (size_t)row[0];
+    const int *point = row + sdv_row_points(shape);         // the last one
+    double left = 1;
+    for (int k = 3; k-- > 0; ) {
+        for (int i = 0; i < shape->count[k]; i++, point--)
+            for (int c = 0; c < 3; c++) w[3 * *point + c] += (double)weights[k] * from[c];
+        left -= shape->count[k] * (double)weights[k];
+    }
+    for (int c = 0; c < 3; c++) w[3 * *point + c] += left * from[c];
+}
+
+static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
+{
+    for (int k = 2; k-- > 0; ) {
+        const sdv_batches *batches = &kind->refine[k];
+        for (int b = 0; b < batches->starts[batches->blocks]; b++) {
+            const sdv_batch *batch = &batches->items[b];
+            int points = sdv_row_points(&batch->shape), own = batch->shape.own;
+            const int *row = batch->items;
+            float weights[3];
+            for (int i = 0; i < batch->rows; i++, row += 1 + points + 3 * own) {
+                memcpy(weights, own ? (const void *)(row + 1 + points) : batch->shape.weight,
+                       sizeof weights);
+                sdv_unrefine_row(&batch->shape, row, weights, w);
             }
-            row += 1 + mask->count;
         }
     }
 }
@@ -10980,10 +10720,10 @@ static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *k
     } else {
         sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), 0, 3, w);
     }
-    sdv_unrefine_nest(&surface->masks, &kind->step, w);
+    sdv_unrefine_nest(kind, w);
     for (int i = 0; i < down; i++) {
         sdv_ascend_nest(kind, w);
-        sdv_unrefine_nest(&surface->masks, &kind->step, w);
+        sdv_unrefine_nest(kind, w);
     }
 }
 
@@ -11394,15 +11134,10 @@ static sdv_source sdv_begin_source(sdv_context *context, sdv_arena *arena,
                                    const subdiv_options *opt)
 {
     sdv_source source = { surface, channels, in, NULL };
-    sdv_evaluation evaluation;
-    memset(&evaluation, 0, sizeof evaluation);
-    source.work = (double *)sdv_new(context, arena, sdv_exact_work_size(surface, channels), 1);
-    evaluation.surface = surface;
-    evaluation.channels = channels;
-    evaluation.in = in;
-    evaluation.in_stride = (size_t)channels;
-    evaluation.doubles = source.work;
-    if (source.work) sdv_make_work(&evaluation, opt);
+    sdv_exact_work work = { surface, channels, in, (size_t)channels, NULL, 0, 1 };
+    work.points = (double *)sdv_new(context, arena, sdv_exact_work_size(surface, channels), 1);
+    source.work = work.points;
+    if (source.work) sdv_make_exact_work(&work, opt);
     return source;
 }
 
@@ -11765,8 +11500,8 @@ static void sdv_put_patch_points(const sdv_tile_points *s, const sdv_window *out
         sdv_put_area(&l);
         return;
     }
-    const sdv_strips *along = &surface->strips[patch->along - 1];
-    const sdv_strips *up = &surface->strips[patch->up - 1];
+    const sdv_strips *along = &surface->exact->strips[patch->along - 1];
+    const sdv_strips *up = &surface->exact->strips[patch->up - 1];
     for (; l.number < along->count * up->count; l.number++) {
         l.area = sdv_area_of_strips(area, &along->items[l.number % along->count],
                                     &up->items[l.number / along->count]);
@@ -14966,15 +14701,18 @@ static const char *sdv_float_text(float number, char *text)
 
 // ---- the mask
 
-// The row of a point goes to the weights of vertices and face points, factor times.
-static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, const int *row,
-                           double factor)
+// The last row goes to the weights of vertices and face points, factor times.
+static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double factor)
 {
-    const sdv_weights *mask = (const sdv_weights *)sdv_items(&writer->masks) + row[0];
-    const float *weights = (const float *)sdv_items(&writer->weights);
-    double left = 1;
-    for (int i = mask->count - 1; i >= 0; i--)
-        x->weights[row[1 + i]] += factor * sdv_row_weight(weights, mask, i, &left);
+    const sdv_shape *shape = &writer->shape;
+    const int *point = writer->points + sdv_row_points(shape) - 1;
+    double left = factor;
+    for (int k = 3; k-- > 0; )
+        for (int i = 0; i < shape->count[k]; i++, point--) {
+            x->weights[*point] += factor * (double)shape->weight[k];
+            left -= factor * (double)shape->weight[k];
+        }
+    x->weights[*point] += left;
 }
 
 // How many vertices from place i of the order on weigh the same.
@@ -15012,28 +14750,21 @@ static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
 {
     sdv_level *level = &x->cage.level;
     size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
-    size_t size = (size_t)level->face_vertex_count + 1;         // of any face's row
     sdv_writer writer;
-    sdv_rows rows;
-    if (v >= 0) size += sdv_vertex_row_size(level, v, x->rules.loop);
-    if (h >= 0) size += sdv_edge_row_size(level, h);
-    sdv_writer_new(x->context, &writer);
+    sdv_writer_new(x->context, &x->arena, level, &writer);
     x->weights = SDV_NEW(x->context, &x->arena, double, points);
     x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
-    sdv_begin_rows(&writer, &x->arena, &rows, size, 1, 0);
     for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
     for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
     if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
     if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
     if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
-    if (!x->context->result) sdv_spread_row(x, &writer, rows.items, 1);
+    if (!x->context->result) sdv_spread_row(x, &writer, 1);
     for (int i = 0; i < level->face_count && !x->context->result; i++) {
         double weight = x->weights[level->vertex_count + i];
         if (!(fabs(weight) > 0)) continue;
-        writer.row = rows.items;
-        rows.count = 0;
         sdv_face_row(level, i, &writer);
-        if (!x->context->result) sdv_spread_row(x, &writer, rows.items, weight);
+        if (!x->context->result) sdv_spread_row(x, &writer, weight);
     }
     if (!x->context->result) sdv_find_order(x);
     sdv_writer_free(&writer);
@@ -15475,11 +15206,9 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_HUGE
 #undef SDV_IMPLIED
 #undef SDV_DROPPED
-#undef SDV_ROW_BLOCK
 #undef SDV_BLOCK_FACES
 #undef SDV_RUNS
 #undef SDV_PIECE
-#undef SDV_KNOWN_MASKS
 #undef SDV_STRIP_LEVELS
 #undef SDV_WAITING
 #undef SDV_MOST_JOBS
