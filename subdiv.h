@@ -1804,13 +1804,6 @@ static int sdv_size_of(const sdv_level *level, int h)
     return sdv_face_end(level, face) - sdv_face_start(level, face);
 }
 
-// Is h the face-vertex that stands for its edge where each edge is meant once? The last of its
-// ring does.
-static int sdv_is_edge(const sdv_level *level, int h)
-{
-    return level->across[h] <= h;
-}
-
 static int sdv_edge_faces(const sdv_level *level, int h)
 {
     int count = 1;
@@ -1827,12 +1820,6 @@ static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
     if (q != h && level->across[q] == h && level->face_vertices[q] != level->face_vertices[h])
         return outgoing;
     return q <= h;
-}
-
-static sdv_place sdv_first_place(int h)
-{
-    sdv_place place = { h, 0, 0, 1 };
-    return place;
 }
 
 // The arrays that each level has besides face_vertices and across; chaikin: and half_sharpness.
@@ -1852,18 +1839,6 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
     level->core = SDV_NEW(context, arena, unsigned char, faces);
     level->rough = SDV_NEW(context, arena, unsigned char, faces);
     if (!context->result) memset(level->creased, 0, vertices);
-}
-
-// Lists the face-vertices at each vertex, in rising order.
-static void sdv_level_lists(sdv_level *level)
-{
-    const int *vertices = level->face_vertices;
-    int *first = level->vertex_first, *next = level->vertex_next;
-    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
-    for (int h = level->face_vertex_count - 1; h >= 0; h--) {
-        next[h] = first[vertices[h]];
-        first[vertices[h]] = h;
-    }
 }
 
 // The same, and counts them: on level 0, which has all faces.
@@ -2373,6 +2348,54 @@ static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
     fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
     if (waits) fading.next = fading.rule;
     return fading;
+}
+
+// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge. -1 if there
+// is none.
+static int sdv_around(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h), across = level->across[before];
+    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
+                                                                                       : across;
+}
+
+// Do as many faces close around the vertex of h as it has?
+static int sdv_ring_closes(const sdv_level *level, int h)
+{
+    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
+    for (int i = 1; i < faces; i++) {
+        at = sdv_around(level, at);
+        if (at < 0 || at == h) return 0;
+    }
+    return sdv_around(level, at) == h;
+}
+
+// The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
+// back. -1 across a sharp edge.
+static int sdv_across(const sdv_level *level, int h)
+{
+    int q = level->across[h];
+    return level->sharpness[h] > 0 || q == h ? -1 : q;
+}
+
+static int sdv_same_edge(const sdv_level *level, int h, int other)
+{
+    int k = h;
+    while (k != other && level->across[k] != h) k = level->across[k];
+    return k == other;
+}
+
+// The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
+static int sdv_clockwise(const sdv_level *level, int h)
+{
+    int across = sdv_across(level, h);
+    return across < 0 ? -1 : sdv_next(level, across);
+}
+
+static int sdv_counter_clockwise(const sdv_level *level, int h)
+{
+    int before = sdv_previous(level, h), q = level->across[before];
+    return q == before || sdv_sharpness_before(level, before) > 0 ? -1 : q;
 }
 
 // --------------------------------------------------------------------------------- >>masks
@@ -3203,6 +3226,7 @@ static void sdv_writer_free(sdv_writer *writer)
     sdv_arena_free(&writer->scratch);
 }
 
+#if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
 static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
@@ -3211,6 +3235,7 @@ static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
     sdv_add_runs(writer, &runs, writer->target);
 }
+#endif
 
 // From weights of face points to weights of what they are the mean of.
 static sdv_mask sdv_spread_vertex(sdv_mask mask, int faces)
@@ -3647,787 +3672,6 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
         points[1 + sides + i] = fill->left[m - 1];
     }
     sdv_add_runs(&fill->writer, &runs, centre);
-}
-
-// --------------------------------------------------------------------------------- >>split
-// The next level, of which only a part is made: what touches an active vertex. All of it would do;
-// but once a region is regular, patches take it to the last level at once (see >>patches). Active
-// are the vertices of the faces that are not yet regular. A face-vertex makes a child face if its
-// vertex is active: the children of such a face and the ring of faces around them.
-
-typedef struct sdv_split {
-    unsigned char *active;              // [vertex_count]
-    int *vertex, *face, *edge;          // [vertices, faces, face-vertices] their points as vertices
-                                        //      of the next level, or -1
-    int *child;                         // [face-vertices; Loop: and one per face] of each child the
-                                        //      face-vertex that stands for its parent's, or -1
-    int vertex_points, face_points, edge_points, faces;
-} sdv_split;
-
-// What face points need, and what the next level needs besides.
-static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                          sdv_split *split)
-{
-    memset(split, 0, sizeof *split);
-    split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
-    split->face = SDV_NEW(context, arena, int, level->face_count);
-}
-
-static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                           sdv_split *split)
-{
-    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
-    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
-    split->vertex = SDV_NEW(context, arena, int, vertices);
-    split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
-    split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
-}
-
-static void sdv_find_active(const sdv_level *level, sdv_split *split)
-{
-    memset(split->active, 0, (size_t)level->vertex_count);
-    for (int f = 0; f < level->face_count; f++) {
-        int end = level->rough[f] ? sdv_face_end(level, f) : 0;
-        for (int h = sdv_face_start(level, f); h < end; h++)
-            split->active[level->face_vertices[h]] = 1;
-    }
-    for (int v = 0; v < level->vertex_count && level->partner; v++)
-        if (split->active[v] && level->partner[v] >= 0) split->active[level->partner[v]] = 1;
-}
-
-// Numbers the face points, of the faces that have an active vertex, from first on.
-static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
-{
-    int next = first;
-    for (int f = 0; f < level->face_count; f++) {
-        int active = 0, end = sdv_face_end(level, f);
-        for (int h = sdv_face_start(level, f); h < end; h++)
-            active |= split->active[level->face_vertices[h]];
-        split->face[f] = active ? next++ : -1;
-    }
-    split->face_points = next - first;
-}
-
-// Numbers the children: each face-vertex has one where its vertex is active, and knows the
-// face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
-// that all descendants have their parent's orientation, and so with triangles; of any other polygon
-// it becomes vertex 0. The middle child of a triangle is there for two active vertices.
-static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
-{
-    int face = 0, size = loop ? 3 : 4;
-    for (int f = 0; f < level->face_count; f++) {
-        int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
-        int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
-        for (int i = 0; i < end - start; i++) {
-            child[i] = -1;
-            if (!split->active[level->face_vertices[start + i]]) continue;
-            child[i] = size * face++ + (turn ? i : 0);
-            active++;
-        }
-        if (loop) child[3] = active >= 2 ? size * face++ : -1;
-    }
-    split->faces = face;
-}
-
-// Numbers what the next level will have: vertex points, face points (none under Loop), edge points.
-static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
-{
-    int next = 0;
-    for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
-    split->vertex_points = next;
-    if (!loop) sdv_number_face_points(level, split, next);
-    next += split->face_points;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (!sdv_is_edge(level, h)) continue;
-        int active = split->active[level->face_vertices[h]] |
-                     split->active[level->face_vertices[sdv_next(level, h)]];
-        int point = active ? next++ : -1, k = h;
-        do split->edge[k] = point;
-        while ((k = level->across[k]) != h);
-    }
-    split->edge_points = next - split->vertex_points - split->face_points;
-}
-
-// What vertex, edge and face points inherit; each child has 2 (Loop: 3) faces at an edge point.
-static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
-                             const sdv_rules *rules)
-{
-    for (int v = 0; v < level->vertex_count; v++) {
-        int point = split->vertex[v];
-        if (point < 0) continue;
-        next->vertex_sharpness[point] = sdv_fade(level->vertex_sharpness[v]);
-        next->vertex_faces[point] = level->vertex_faces[v];
-    }
-    for (int f = 0; f < level->face_count && !rules->loop; f++) {
-        int point = split->face[f];
-        if (point < 0) continue;
-        next->vertex_sharpness[point] = 0;
-        next->vertex_faces[point] = sdv_face_end(level, f) - sdv_face_start(level, f);
-    }
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        int point = split->edge[h];
-        if (point < 0 || !sdv_is_edge(level, h)) continue;
-        int straight = rules->straight && level->across[h] == h;
-        next->vertex_sharpness[point] = straight ? level->sharpness[h] : 0;
-        next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
-    }
-}
-
-// What only surfaces of values have: partners and origins, of vertex points alone.
-static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                               const sdv_split *split, sdv_level *next)
-{
-    if (level->partner) next->partner = SDV_NEW(context, arena, int, next->vertex_count);
-    if (level->partner) next->seam = SDV_NEW(context, arena, float, next->vertex_count);
-    if (level->origin) next->origin = SDV_NEW(context, arena, int, next->vertex_count);
-    if (context->result) return;
-    next->origin_count = level->origin_count;
-    next->sums = level->sums ? level->sums + 2 * (size_t)level->origin_count : NULL;
-    for (int i = 0; i < next->vertex_count; i++) {
-        if (next->partner) next->partner[i] = -1;
-        if (next->origin) next->origin[i] = -1;
-    }
-    for (int v = 0; v < level->vertex_count; v++) {
-        int point = split->vertex[v];
-        if (point < 0) continue;
-        if (next->origin) next->origin[point] = level->origin[v];
-        if (!next->partner || level->partner[v] < 0) continue;
-        next->partner[point] = split->vertex[level->partner[v]];
-        next->seam[point] = sdv_seam_left(level, v);
-    }
-}
-
-// The face-vertex of a quad or triangle that stands i places behind h.
-static inline int sdv_turn(int size, int h, int i)
-{
-    if (size == 4) return (h & ~3) | ((h + i) & 3);
-    int at = (int)((unsigned)h % 3), to = at + i;
-    return h - at + (to < 3 ? to : to - 3);
-}
-
-// The child at h. Its face-vertex 0 places behind vertex h leads along the edge of h, the last one
-// back along the edge before; they are where the next level meets the neighbours.
-//
-//     Catmull-Clark           Loop        2          child at vertex 0:
-//     3-----2                            /2\                vertex
-//     | 3|2 |  F face point            e2---e1              edge point of edge 0
-//     |--F--|                          /0\3/1\              (Catmull-Clark: face point)
-//     | 0|1 |                         0---e0--1             edge point of the edge before
-//     0-----1
-static void sdv_split_vertex(const sdv_level *level, const sdv_split *split, sdv_level *next,
-                             int size, int h, int child)
-{
-    const int *own = split->child, *vertices = level->face_vertices;
-    int loop = size == 3, before = sdv_previous(level, h), v = vertices[h];
-    int q = level->across[h], p = level->across[before], last = sdv_turn(size, child, size - 1);
-    int on_q = vertices[q] == v ? q : sdv_next(level, q);        // the face-vertices at v across
-    int on_p = vertices[p] == v ? p : sdv_next(level, p);
-    int child_q = own[loop ? on_q + sdv_face_of(level, on_q) : on_q];
-    int child_p = own[loop ? on_p + sdv_face_of(level, on_p) : on_p];
-    float ahead = sdv_half(level, h), behind = sdv_half_before(level, before);
-
-    next->face_vertices[child] = split->vertex[v];
-    next->face_vertices[sdv_turn(size, child, 1)] = split->edge[h];
-    next->face_vertices[last] = split->edge[before];
-    if (on_q != q) child_q = sdv_turn(size, child_q, size - 1);
-    if (on_p != p) child_p = sdv_turn(size, child_p, size - 1);
-    next->across[child] = q == h ? child : child_q;
-    next->across[last] = p == before ? last : child_p;
-    next->sharpness[child] = ahead;
-    next->sharpness[last] = behind;
-    if (ahead > 0) next->creased[split->vertex[v]] = next->creased[split->edge[h]] = 1;
-    if (behind > 0) next->creased[split->vertex[v]] = next->creased[split->edge[before]] = 1;
-}
-
-// An edge inside a face, between siblings: smooth and new. other < 0: there is only one.
-static void sdv_split_inside(sdv_level *next, int at, int other)
-{
-    next->across[at] = other < 0 ? at : other;
-    next->sharpness[at] = 0;
-}
-
-// The place of the child at the vertex that is so far from vertex 0.
-static sdv_place sdv_child_place(sdv_place place, int up, int right)
-{
-    place.row = 2 * place.row + place.step * up;
-    place.column = 2 * place.column + place.step * right;
-    return place;
-}
-
-static void sdv_split_quads(const sdv_level *level, const sdv_split *split, sdv_level *next)
-{
-    for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), quad = end - start == 4;
-        if (split->face[f] < 0) continue;
-        for (int h = start; h < end; h++) {
-            int child = split->child[h], i = quad ? h - start : 0;
-            if (child < 0) continue;
-            int after = split->child[h + 1 < end ? h + 1 : start];
-            int before = split->child[h > start ? h - 1 : end - 1];
-            sdv_split_vertex(level, split, next, 4, h, child);
-            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
-            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
-            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
-            sdv_place place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
-            next->places[child >> 2] = sdv_child_place(place, i >> 1, i == 1 || i == 2);
-            next->core[child >> 2] = level->rough[f];
-        }
-    }
-}
-
-// The middle child is e1 e2 e0: its edge i lies across from child i + 2.
-static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
-{
-    const int *child = split->child + 4 * (size_t)f, *edge = split->edge + 3 * (size_t)f;
-    for (int i = 0; i < 3; i++) {
-        int at = child[3] + i, beside = child[(i + 2) % 3];
-        next->face_vertices[at] = edge[(i + 1) % 3];
-        sdv_split_inside(next, at, beside < 0 ? -1 : sdv_turn(3, beside, 1));
-    }
-}
-
-static void sdv_split_triangles(const sdv_level *level, const sdv_split *split, sdv_level *next)
-{
-    for (int f = 0; f < level->face_count; f++) {
-        const int *child = split->child + 4 * (size_t)f;
-        sdv_place place = level->places ? level->places[f] : sdv_first_place(3 * f);
-        for (int i = 0; i < 4; i++) {
-            if (child[i] < 0) continue;
-            if (i == 3) {
-                sdv_split_middle(split, next, f);
-            } else {
-                int middle = child[3] < 0 ? -1 : child[3] + (i + 1) % 3;
-                sdv_split_vertex(level, split, next, 3, 3 * f + i, child[i]);
-                sdv_split_inside(next, sdv_turn(3, child[i], 1), middle);
-            }
-            int face = child[i] / 3;
-            next->places[face] = sdv_child_place(place, i >= 2, i & 1);
-            if (i == 3) next->places[face].step = -place.step;
-            next->core[face] = level->rough[f];
-        }
-    }
-}
-
-static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                            const sdv_split *split, sdv_level *next, const sdv_rules *rules)
-{
-    int loop = rules->loop;
-    memset(next, 0, sizeof *next);
-    next->face_size = loop ? 3 : 4;
-    next->face_count = split->faces;
-    next->face_vertex_count = next->face_count * next->face_size;
-    next->vertex_count = split->vertex_points + split->face_points + split->edge_points;
-    next->first_point = level->first_point + level->vertex_count;
-    sdv_level_new(context, arena, next, level->half_sharpness != NULL);
-    next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
-    next->across = SDV_NEW(context, arena, int, next->face_vertex_count);
-    next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
-    sdv_split_partners(context, arena, level, split, next);
-    if (context->result) return;
-    sdv_split_points(level, split, next, rules);
-    if (loop) sdv_split_triangles(level, split, next);
-    else sdv_split_quads(level, split, next);
-    sdv_level_lists(next);
-    sdv_level_fade(next);
-}
-
-// ------------------------------------------------------------------------------- >>patches
-// A face whose surroundings are regular, and stay so, refines in closed form: all its points on the
-// last level follow from the 4 x 4 control points around it (Loop: 12 points). An edge that stays
-// sharp to the last level parts the surface; beyond it the control points are mirrored, so that a
-// face beside a boundary or crease is regular too:
-//
-//     Catmull-Clark   outside = 2 edge - inside            Loop   outside = a + b - inside
-//
-// This gives the B-spline curve along the edge, on every level: the masks of a crease.
-
-typedef struct sdv_patch {
-    int h;                              // the cage face-vertex of its grid (see >>order)
-    int row, column;                    // of vertex 0 on that grid, in segments of the last level
-    signed char step;                   // -1 for a triangle that is turned by half
-    unsigned char sharp;                // bit i: edge i is sharp
-    unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
-    unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
-} sdv_patch;
-
-// Which control points the vertices of a face are (see the gathering functions).
-static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
-
-typedef struct sdv_patches {            // of one level
-    int        count;
-    sdv_patch *items;                   // [count] in the order of cage faces
-    int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
-} sdv_patches;                          //      work points; for those that are mirrored, any
-
-static int sdv_control_points(const sdv_rules *rules)
-{
-    return rules->loop ? 12 : 16;
-}
-
-// A quad whose edge is semi-sharp, as the crease goes straight on with the same sharpness, is still
-// a product of curves. Across the crease, of sharpness s, the rows of control points
-//
-//     low      p0 | p1   p2   p3     the crease is row p1; high: p0   p1   p2 | p3, it is p2
-//
-// stay those of a sharp edge for c = ceil(s) levels, from where on they are a smooth B-spline's:
-// inside, those beside a mirrored row; outside, p1 + (p0 - p1) / 2^c, as the row beside the edge
-// goes half the way to it on each level; and the edge itself, p1, but for a fraction f of the
-// last level (c - 1 levels before it) that blends:
-//
-//     p1 + (1 - f)/8 (inside - 2 p1 + outside)       of level c - 1
-//
-// So the quad is cut into strips: beside the crease those of level c whose control rows it changes,
-// one segment wide (two if there is a fraction), and the rest, which does not know that the edge
-// will ever be smooth. (A triangle is no such product: along the crease, what is beside it in
-// Loop is not one polynomial but one for each segment of level c.)
-//
-// Strips are measured in segments of so many levels, as semi-sharp creases are smooth by then.
-#define SDV_STRIP_LEVELS 10
-
-typedef struct sdv_strip {
-    int    from, to;                    // segments that it covers
-    int    origin, unit;                // its own segment: where it starts, how long it is
-    int    smooth;                      // beside a crease that is smooth by then; others: mirrored
-    double rows[4][4];                  // smooth: its control rows, as sums of the patch's
-} sdv_strip;
-
-typedef struct sdv_strips {
-    float low, high;                    // sharpness of the two edges, 0: not semi-sharp
-    int   count;
-    sdv_strip items[5];
-} sdv_strips;
-
-// Point t of the control points of the level with segments of length h, as a sum of p0 to p3: the
-// polynomial of sdv_cubic.
-static void sdv_cubic_weights(double t, double h, double *w)
-{
-    double s = (1 - h * h) / 6 + t * t / 2, c = t * (t * t - h * h) / 6;
-    w[0] = s - t / 2 - c;
-    w[1] = 1 - 2 * s + 3 * c;
-    w[2] = s + t / 2 - 3 * c;
-    w[3] = c;
-}
-
-// Row i of level c while the edges are sharp, counted from the low one, as a sum of p0 to p3.
-static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
-{
-    double h = ldexp(1, -c), *w = row;
-    sdv_cubic_weights(i * h, h, w);
-    if (strips->low > 0) {                              // p0 = 2 p1 - p2
-        w[1] += 2 * w[0];
-        w[2] -= w[0];
-        w[0] = 0;
-    }
-    if (strips->high > 0) {                             // p3 = 2 p2 - p1
-        w[2] += 2 * w[3];
-        w[1] -= w[3];
-        w[3] = 0;
-    }
-}
-
-// The row outside of row p[edge], seen from inside.
-static void sdv_outside_row(int c, int edge, double *row)
-{
-    double h = ldexp(1, -c);
-    for (int k = 0; k < 4; k++) row[k] = 0;
-    row[edge] = 1 - h;
-    row[edge == 1 ? 0 : 3] = h;
-}
-
-// Row i of level c, on which the edges are smooth.
-static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
-{
-    int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
-    double s = (double)(low ? strips->low : strips->high), fraction = s - floor(s);
-    double outside[4], inside[4];
-    sdv_sharp_row(strips, c, i, row);
-    if (s <= 0 || (i > 0 && i < last)) return;
-    if (i < 0 || i > last) sdv_outside_row(c, edge, row);
-    if (i < 0 || i > last || fraction <= 0) return;
-    sdv_outside_row(c - 1, edge, outside);
-    sdv_sharp_row(strips, c - 1, low ? 1 : last / 2 - 1, inside);
-    for (int k = 0; k < 4; k++)
-        row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
-}
-
-// The strip from segment first to last of level c. A smooth one is its own segment, another a part
-// of the patch's.
-static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
-{
-    sdv_strip *strip = &strips->items[strips->count++];
-    int length = 1 << (SDV_STRIP_LEVELS - c);
-    strip->smooth = smooth;
-    strip->from = first * length;
-    strip->to = (last + 1) * length;
-    strip->unit = smooth ? length : 1 << SDV_STRIP_LEVELS;
-    strip->origin = smooth ? strip->from : 0;
-    for (int j = 0; j < 4 && smooth; j++) sdv_strip_row(strips, c, first + j - 1, strip->rows[j]);
-}
-
-static sdv_strips sdv_cut_strips(float low, float high)
-{
-    double s = (double)(low > high ? low : high);
-    int c = (int)ceil(s), width = s > floor(s) ? 2 : 1;
-    int end = 1 << c, left = c && low > 0 ? width : 0, right = end - (c && high > 0 ? width : 0);
-    sdv_strips strips;
-    memset(&strips, 0, sizeof strips);
-    strips.low = low;
-    strips.high = high;
-    if (left > right) left = right = end;
-    for (int i = 0; i < left; i++) sdv_add_strip(&strips, c, i, i, 1);
-    if (left < right) sdv_add_strip(&strips, c, left, right - 1, 0);
-    for (int i = right; i < end; i++) sdv_add_strip(&strips, c, i, i, 1);
-    return strips;
-}
-
-// How the surface goes on at a vertex, on all levels. Bits, so that a face may have those
-// of all its vertices.
-typedef enum sdv_kind {
-    SDV_ROUGH = 1, SDV_FREE = 2, SDV_LINED = 4, SDV_EDGED = 8, SDV_PINNED = 16
-} sdv_kind;
-
-// Are all faces at v of the regular size, and so many?
-static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int size)
-{
-    if (level->vertex_faces[v] != count) return 0;
-    if (level->face_size) return level->face_size == size;
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        if (sdv_size_of(level, h) != size) return 0;
-    return 1;
-}
-
-// Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
-static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
-{
-    int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
-                              : sdv_has_regular_faces(level, v, 4, 4);
-    return regular ? SDV_FREE : SDV_ROUGH;
-}
-
-// The next face-vertex at the same vertex, counter-clockwise, also across a sharp edge. -1 if there
-// is none.
-static int sdv_around(const sdv_level *level, int h)
-{
-    int before = sdv_previous(level, h), across = level->across[before];
-    return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
-                                                                                       : across;
-}
-
-// Do as many faces close around the vertex of h as it has?
-static int sdv_ring_closes(const sdv_level *level, int h)
-{
-    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
-    for (int i = 1; i < faces; i++) {
-        at = sdv_around(level, at);
-        if (at < 0 || at == h) return 0;
-    }
-    return sdv_around(level, at) == h;
-}
-
-// Do two creases that cross fade each for itself? Then the blend of the vertex point, which is by
-// the mean of what ends on this level, is that of one crease, or there is none.
-static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
-{
-    int whole = a <= floorf(a) && b <= floorf(b);
-    if (a <= 0 || b <= 0 || a >= SUBDIV_INFINITE || b >= SUBDIV_INFINITE) return 1;
-    if (rules->creasing == SUBDIV_CREASING_CHAIKIN) return whole && a <= b && a >= b;
-    return whole || ceilf(a) < ceilf(b) || ceilf(a) > ceilf(b);
-}
-
-// Do creases go straight on through a regular vertex, with the same sharpness?
-static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
-{
-    int h = level->vertex_first[v];
-    float s[4];
-    if (rules->loop || level->vertex_sharpness[v] > 0) return 0;
-    if (!sdv_has_regular_faces(level, v, 4, 4) || !sdv_ring_closes(level, h)) return 0;
-    for (int i = 0; i < 4; i++, h = sdv_around(level, h)) {
-        if (level->across[level->across[h]] != h) return 0;
-        s[i] = level->sharpness[h];
-    }
-    return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
-}
-
-// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
-// creases that go straight on, or end where a crease that stays runs across. All else is rough.
-static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int dependent)
-{
-    int sharp = 0, stay = 0;
-    float s = level->vertex_sharpness[v];
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++) {
-            float t = level->sharpness[two[i]];
-            if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
-            sharp++;
-            stay += t >= SUBDIV_INFINITE;
-        }
-    }
-    if (stay > 2 || s >= SUBDIV_INFINITE) return SDV_PINNED;
-    int others = level->origin && level->origin[v] >= 0 &&      // across a seam
-                 level->sums[2 * (size_t)level->origin[v] + 1] > (float)(sharp - stay);
-    if (stay < sharp && !dependent && !others) {
-        int ends = stay == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
-        if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
-    }
-    return stay < sharp || s > 0 || sharp != 2 ? SDV_ROUGH : SDV_EDGED;
-}
-
-static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v)
-{
-    int dependent = level->partner && level->partner[v] >= 0;
-    if (rules->linear) return SDV_FREE;
-    if (dependent) v = level->partner[v];
-    if (level->vertex_sharpness[v] <= 0 && !level->creased[v])
-        return sdv_smooth_kind(level, rules, v);
-    return sdv_sharp_kind(level, rules, v, dependent);
-}
-
-// The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
-// back. -1 across a sharp edge.
-static int sdv_across(const sdv_level *level, int h)
-{
-    int q = level->across[h];
-    return level->sharpness[h] > 0 || q == h ? -1 : q;
-}
-
-static int sdv_same_edge(const sdv_level *level, int h, int other)
-{
-    int k = h;
-    while (k != other && level->across[k] != h) k = level->across[k];
-    return k == other;
-}
-
-// The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
-static int sdv_clockwise(const sdv_level *level, int h)
-{
-    int across = sdv_across(level, h);
-    return across < 0 ? -1 : sdv_next(level, across);
-}
-
-static int sdv_counter_clockwise(const sdv_level *level, int h)
-{
-    int before = sdv_previous(level, h), q = level->across[before];
-    return q == before || sdv_sharpness_before(level, before) > 0 ? -1 : q;
-}
-
-// Where a face stands among the faces between two sharp edges at its vertex, or without any: in a
-// ring; first, in the middle or last along a crease, counter-clockwise; alone in a corner.
-typedef enum sdv_fan { SDV_FAN_ROUGH, SDV_FAN_RING, SDV_FAN_FIRST, SDV_FAN_MIDDLE, SDV_FAN_LAST,
-                       SDV_FAN_CORNER } sdv_fan;
-
-static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int loop)
-{
-    int faces = loop ? 3 : 2, size = loop ? 3 : 4, right = h, left = h, count = 1;
-    if (kind == SDV_FREE) return SDV_FAN_RING;
-    if (kind == SDV_LINED)
-        return level->vertex_faces[level->face_vertices[h]] == 4 ? SDV_FAN_RING : SDV_FAN_FIRST;
-    if (kind == SDV_ROUGH) return SDV_FAN_ROUGH;
-    for (int i = sdv_clockwise(level, h); i >= 0 && count <= faces; i = sdv_clockwise(level, i)) {
-        right = i;
-        count += sdv_size_of(level, i) == size ? 1 : faces;
-    }
-    for (int i = sdv_counter_clockwise(level, h); i >= 0 && count <= faces;
-         i = sdv_counter_clockwise(level, i)) {
-        left = i;
-        count += sdv_size_of(level, i) == size ? 1 : faces;
-    }
-    if (kind == SDV_PINNED) return count == 1 ? SDV_FAN_CORNER : SDV_FAN_ROUGH;
-    // The two edges are the crease, unless a non-manifold edge is both.
-    int before = sdv_previous(level, left);
-    if (count != faces || sdv_same_edge(level, right, before)) return SDV_FAN_ROUGH;
-    return right == h ? SDV_FAN_FIRST : left == h ? SDV_FAN_LAST : SDV_FAN_MIDDLE;
-}
-
-static int sdv_point_at(const sdv_level *level, int h)
-{
-    return level->first_point + level->face_vertices[h];
-}
-
-// The 4 x 4 control points. Each open edge adds the two points of the face across it, and each
-// vertex between two of them, which is in a ring, the one diagonally across. Sharp edges are
-// closed, and those beyond which nothing is needed.
-//
-//     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
-//      8  9 10 11
-//      4  5  6  7
-//      0  1  2  3
-static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, int *points)
-{
-    static const signed char diagonal[4] = { 0, 3, 15, 12 };
-    static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
-    const int *vertices = level->face_vertices, *across = level->across;
-    int first = level->first_point;
-    for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
-    points[5] = first + vertices[h];
-    points[6] = first + vertices[h + 1];
-    points[10] = first + vertices[h + 2];
-    points[9] = first + vertices[h + 3];
-    for (int i = 0; i < 4; i++) {
-        if (closed >> i & 1) continue;
-        int q = across[h + i], quad = sdv_quad_start(level, q), turn = q - quad;
-        int corner = across[quad + ((turn + 1) & 3)];               // from vertex i on
-        points[beside[i]] = first + vertices[quad + ((turn + 2) & 3)];
-        points[next[i]] = first + vertices[quad + ((turn + 3) & 3)];
-        if (closed >> ((i + 3) & 3) & 1) continue;
-        quad = sdv_quad_start(level, corner);
-        points[diagonal[i]] = first + vertices[quad + ((corner - quad + 3) & 3)];
-    }
-}
-
-// The 12 control points. The neighbours of a point are to its right and left, above and below,
-// above left and below right.
-//
-//     row  2     9 10                vertices 0 1 2 are points 4 5 8
-//     row  1     6  8 11
-//     row  0     3  4  5  7
-//     row -1        0  1  2
-//       column  -1  0  1  2
-//
-// Those around vertex i, counter-clockwise: its two neighbours in the face, the one across edge
-// i-1, two more, the one across edge i.
-static const int sdv_triangle_ring[3][6] = {
-    { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
-
-static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch, int *points)
-{
-    const unsigned char *fan = patch->fan;
-    const int *vertices = level->face_vertices, *across = level->across;
-    const int first = level->first_point;
-    for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
-    for (int i = 0; i < 3; i++) {
-        int after = i < 2 ? i + 1 : 0, q = across[h + i];
-        points[sdv_triangle_own[i]] = first + vertices[h + i];
-        if (patch->sharp >> i & 1) continue;
-        int at = sdv_next(level, q), before = sdv_previous(level, q);
-        points[sdv_triangle_ring[i][5]] = first + vertices[before];
-        if (fan[i] == SDV_FAN_RING || fan[i] == SDV_FAN_LAST)
-            points[sdv_triangle_ring[i][4]] = first + vertices[sdv_previous(level, across[at])];
-        if (fan[after] == SDV_FAN_RING || fan[after] == SDV_FAN_FIRST)
-            points[sdv_triangle_ring[after][3]] =
-                first + vertices[sdv_previous(level, across[before])];
-    }
-}
-
-// Bilinear: the vertices of the face; the other control points have no weight.
-static void sdv_gather_linear(const sdv_level *level, int h, int size, int *points)
-{
-    const int *own = size == 4 ? sdv_quad_own : sdv_triangle_own;
-    for (int i = 0; i < (size == 4 ? 16 : 12); i++) points[i] = sdv_point_at(level, h);
-    for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
-}
-
-// The control points of a patch, whose face starts with face-vertex h.
-static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
-                              const sdv_patch *patch, int h, int *points)
-{
-    if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
-    else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
-    else sdv_gather_quad(level, h, patch->sharp, points);
-}
-
-// The number of the strips between two edges; 0 if they differ, or there are too many already.
-static int sdv_find_strips(sdv_writer *writer, float low, float high)
-{
-    sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
-    int count = (int)writer->strips.count;
-    if (low > 0 && high > 0 && (low < high || low > high)) return 0;
-    for (int i = count; i > 0; i--) {
-        float d = strips[i - 1].low - low, e = strips[i - 1].high - high;
-        if (d * d + e * e <= 0) return i;
-    }
-    strips = (sdv_strips *)sdv_array_room(writer->context, &writer->strips, 1, sizeof *strips);
-    if (!strips || count == UCHAR_MAX) return 0;
-    *strips = sdv_cut_strips(low, high);
-    return (int)++writer->strips.count;
-}
-
-// Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
-// which semi-sharp, and how its vertices' fans go on. Does it have a patch?
-static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                         const unsigned char *kinds, int h, int size, sdv_patch *patch)
-{
-    float semi[4] = { 0, 0, 0, 0 };
-    for (int i = 0; i < size; i++) {
-        float s = level->sharpness[h + i];
-        if (sdv_is_semi_sharp(s)) semi[i] = s;
-        else patch->sharp |= (unsigned char)((s > 0) << i);
-        sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
-        sdv_fan fan = sdv_find_fan(level, kind, h + i, rules->loop);
-        if (fan == SDV_FAN_ROUGH) return 0;
-        if (rules->loop) patch->fan[i] = (unsigned char)fan;
-    }
-    if (semi[0] + semi[1] + semi[2] + semi[3] <= 0) return 1;
-    for (int i = 0; i < size; i++) {
-        int at = h + i, next = h + (i + 1) % size;
-        if (semi[i] > 0 && (kinds[level->face_vertices[at]] != SDV_LINED ||
-                            kinds[level->face_vertices[next]] != SDV_LINED)) return 0;
-    }
-    patch->up = (unsigned char)sdv_find_strips(writer, semi[0], semi[2]);
-    patch->along = (unsigned char)sdv_find_strips(writer, semi[3], semi[1]);
-    return patch->up && patch->along;
-}
-
-// Where face f stands on its grid.
-static void sdv_set_place(const sdv_level *level, int f, sdv_patch *patch)
-{
-    sdv_place place = level->places ? level->places[f] : sdv_first_place(sdv_face_start(level, f));
-    patch->h = place.h;
-    patch->row = place.row;
-    patch->column = place.column;
-    patch->step = (signed char)place.step;
-}
-
-// Makes the patch of face f, if it has one. free: so are all its vertices.
-static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                          const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
-{
-    int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
-    memset(patch, 0, sizeof *patch);
-    memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, patch)) return 0;
-    sdv_set_place(level, f, patch);
-    return 1;
-}
-
-// The kinds of a face's vertices; rough if its size is not the regular one.
-static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
-                                 int size)
-{
-    int start = sdv_face_start(level, f);
-    const int *v = level->face_vertices + start;
-    if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
-    int found = kinds[v[0]] | kinds[v[1]] | kinds[v[2]];
-    return size == 4 ? found | kinds[v[3]] : found;
-}
-
-// Finds the patches of a level and marks the faces of the core that have none as rough. At most
-// there are as many as faces that are not rough by their vertices.
-static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
-                             const sdv_rules *rules, sdv_patches *patches)
-{
-    sdv_context *context = writer->context;
-    sdv_arena scratch = sdv_scratch();
-    int size = rules->loop ? 3 : 4, most = level->face_count;
-    size_t width = (size_t)sdv_control_points(rules);
-    memcpy(level->rough, level->core, (size_t)level->face_count);
-    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++)
-        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
-    for (int f = 0; f < level->face_count && !context->result; f++)
-        most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
-    patches->items = SDV_NEW(context, arena, sdv_patch, most);
-    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
-        sdv_patch *patch = &patches->items[patches->count];
-        if (!level->core[f] || (found & SDV_ROUGH)) continue;
-        if (!sdv_make_patch(writer, level, rules, kinds, f, found == SDV_FREE, patch)) continue;
-        sdv_gather(level, rules, patch, h, patches->points + width * (size_t)patches->count);
-        level->rough[f] = 0;
-        patches->count++;
-    }
-    sdv_arena_free(&scratch);
 }
 
 // ----------------------------------------------------------------------------- >>face-varying
@@ -5873,238 +5117,6 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     int i = index - out->first;
     if (i >= 0 && i < out->count && out->values)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
-}
-
-// The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline, from
-// t = 0 to 1. a[i] becomes the coefficient of t^i.
-//
-//     p1 + s / 6  +  (p2 - p0) / 2 t  +  s / 2 t^2  +  c t^3
-//     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
-static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, sdv_four *a)
-{
-    sdv_four d0 = sdv_minus(p1, p0), d1 = sdv_minus(p2, p1), d2 = sdv_minus(p3, p2);
-    sdv_four s = sdv_minus(d1, d0), sixth = sdv_all(1.0f / 6);
-    a[0] = sdv_plus(p1, sdv_times(sixth, s));
-    a[1] = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
-    a[2] = sdv_times(sdv_all(0.5f), s);
-    a[3] = sdv_times(sixth, sdv_minus(sdv_minus(d2, d1), s));
-}
-
-// Bilinear: from p1 to p2 straight on.
-SDV_INLINE void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
-{
-    a[0] = p1;
-    a[1] = sdv_minus(p2, p1);
-    a[2] = a[3] = sdv_all(0);
-}
-
-// a0 + a1 t + a2 t^2 + a3 t^3
-SDV_INLINE sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
-{
-    sdv_four p = sdv_plus(a[2], sdv_times(a[3], t));
-    p = sdv_plus(a[1], sdv_times(p, t));
-    return sdv_plus(a[0], sdv_times(p, t));
-}
-
-SDV_INLINE sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
-{
-    sdv_four p = sdv_plus(a[3], sdv_times(a[4], t));
-    p = sdv_plus(a[2], sdv_times(p, t));
-    p = sdv_plus(a[1], sdv_times(p, t));
-    return sdv_plus(a[0], sdv_times(p, t));
-}
-
-// A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
-SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
-{
-    p[2] = sdv_plus(sdv_times(p[2], t), p[1]);
-    p[1] = sdv_plus(sdv_times(p[1], t), p[0]);
-    p[0] = sdv_plus(sdv_times(p[0], t), next);
-}
-
-// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. Its first steps leave out
-// what is 0; what is not asked for below, the compiler leaves out.
-SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
-{
-    sdv_four highest = c[degree * step];
-    p[0] = sdv_plus(sdv_times(highest, t), c[(degree - 1) * step]);
-    p[1] = highest;
-    p[2] = sdv_all(0);
-    if (degree == 1) return;
-    p[2] = highest;
-    p[1] = sdv_plus(sdv_times(highest, t), p[0]);
-    p[0] = sdv_plus(sdv_times(p[0], t), c[(degree - 2) * step]);
-    if (degree >= 3) sdv_horner_step(p, t, c[(degree - 3) * step]);
-    if (degree == 4) sdv_horner_step(p, t, c[0]);
-}
-
-// The surface of a patch: origin + the sum of c[i][j] x^i y^j, where x runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
-// i + j <= 4, a triangle.
-typedef struct sdv_polynomial {
-    sdv_four origin, c[5][5];
-    int degree;
-} sdv_polynomial;
-
-// A row of it, a polynomial in x alone, and its derivatives in x and y; or, turned, a column.
-typedef struct sdv_curve {
-    sdv_four a[5], along[4], across[4];
-    int degree;
-} sdv_curve;
-
-// degree, turned and tangents are constants: what is not asked for, the compiler leaves out. The
-// coefficient of x^i y^j is c[5 i + j].
-SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
-                              float at, sdv_curve *curve)
-{
-    const sdv_four *c = (const sdv_four *)(const void *)q->c;
-    int step = turned ? 5 : 1, next = turned ? 1 : 5, quad = degree == 3;
-    sdv_four p[5][3], t = sdv_all(at);
-    sdv_horner(c, step, degree, t, p[0]);
-    sdv_horner(c + next, step, 3, t, p[1]);
-    sdv_horner(c + 2 * next, step, quad ? 3 : 1, t, p[2]);
-    sdv_horner(c + 3 * next, step, quad ? 3 : 1, t, p[3]);
-    p[4][0] = quad ? sdv_all(0) : c[4 * next];
-    curve->degree = degree;
-    curve->a[0] = sdv_plus(q->origin, p[0][0]);
-    for (int i = 1; i < 5; i++) curve->a[i] = p[i][0];
-    for (int i = 0; i < 4 && tangents; i++) {
-        curve->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
-        curve->across[i] = p[i][1];
-    }
-}
-
-// Beyond a sharp edge: outside = 2 edge - inside.
-SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
-{
-    return sdv_minus(sdv_plus(edge, edge), inside);
-}
-
-SDV_INLINE void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
-{
-    for (int i = 0; i < count; i++) p[i] = sdv_load(work + 4 * (size_t)points[i]);
-}
-
-// What lies beyond sharp edges is mirrored: first to the left and right in all rows that are known,
-// then below and above.
-static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
-{
-    for (int i = 0; i < 16; i += 4) {
-        if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
-        if (patch->sharp & 2) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
-    }
-    for (int i = 0; i < 4; i++) {
-        if (patch->sharp & 1) p[i] = sdv_mirror(p[4 + i], p[8 + i]);
-        if (patch->sharp & 4) p[12 + i] = sdv_mirror(p[8 + i], p[4 + i]);
-    }
-}
-
-// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
-// along the rows.
-static void sdv_quad_polynomial(const sdv_four *p, int linear, sdv_polynomial *q)
-{
-    sdv_four up[4][4], x[4];
-    q->degree = 3;
-    for (int i = 0; i < 4; i++) {
-        if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], up[i]);
-    }
-    for (int j = 0; j < 4; j++) {
-        if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], x);
-        for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
-    }
-}
-
-// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise,
-// stand r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4];
-// r[5] across the edge after.
-static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
-{
-    for (int i = 0; i < 3; i++) {
-        const int *r = sdv_triangle_ring[i];
-        sdv_four v = p[sdv_triangle_own[i]];
-        if (patch->fan[i] == SDV_FAN_RING) continue;
-        if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
-        if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
-        if (patch->fan[i] == SDV_FAN_FIRST) p[r[4]] = sdv_minus(sdv_plus(v, p[r[3]]), p[r[2]]);
-        if (patch->fan[i] == SDV_FAN_LAST) p[r[3]] = sdv_minus(sdv_plus(v, p[r[4]]), p[r[5]]);
-        if (patch->fan[i] == SDV_FAN_MIDDLE) {
-            p[r[3]] = sdv_minus(sdv_plus(v, p[r[2]]), p[r[1]]);
-            p[r[4]] = sdv_minus(sdv_plus(v, p[r[5]]), p[r[0]]);
-        }
-        if (patch->fan[i] == SDV_FAN_CORNER) {
-            p[r[3]] = sdv_mirror(v, p[r[0]]);
-            p[r[4]] = sdv_mirror(v, p[r[1]]);
-        }
-    }
-}
-
-// Sums for the formulas below: 2a, a + b, ...
-SDV_INLINE sdv_four sdv_twice(sdv_four a)
-{
-    return sdv_plus(a, a);
-}
-
-SDV_INLINE sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
-{
-    return sdv_plus(sdv_plus(a, b), c);
-}
-
-SDV_INLINE sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
-{
-    return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
-}
-
-// The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial of its 12
-// control points, numbered as in sdv_gather_triangle; here relative to point 4, which is 0.
-static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
-{
-    sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
-    sdv_four (*c)[5] = q->c;
-    sdv_four p35 = sdv_plus(p[3], p[5]), p08 = sdv_plus(p[0], p[8]), p16 = sdv_plus(p[1], p[6]);
-    sdv_four d53 = sdv_minus(p[5], p[3]), d80 = sdv_minus(p[8], p[0]), d16 = sdv_minus(p[1], p[6]);
-    c[0][0] = sdv_times(twelfth, sdv_sum3(p35, p08, p16));
-    c[1][0] = sdv_times(sixth, sdv_sum3(sdv_twice(d53), d80, d16));
-    c[0][1] = sdv_times(sixth, sdv_minus(sdv_plus(sdv_twice(d80), d53), d16));
-    c[2][0] = sdv_times(half, p35);
-    c[0][2] = sdv_times(half, p08);
-    c[1][1] = sdv_times(half, sdv_minus(sdv_plus(p35, p08), p16));
-    c[3][0] = sdv_times(sixth, sdv_minus(sdv_sum4(p[0], p[2], p[6], p[11]),
-                                         sdv_twice(sdv_sum3(p[1], p35, p[8]))));
-    c[2][1] = sdv_times(half, sdv_minus(sdv_plus(p[6], p[11]), sdv_plus(p35, sdv_twice(p[8]))));
-    c[1][2] = sdv_times(half, sdv_minus(sdv_plus(p[1], p[11]), sdv_plus(p08, sdv_twice(p[5]))));
-    c[0][3] = sdv_times(sixth, sdv_minus(sdv_sum4(p[1], p[3], p[9], p[11]),
-                                         sdv_twice(sdv_sum3(p[6], p[5], p08))));
-    sdv_four minus = sdv_plus(sdv_sum3(p[0], p[2], p[5]), sdv_plus(p[6], p[11]));
-    sdv_four plus = sdv_sum3(sdv_twice(sdv_plus(p[1], p[8])), p[3], p[7]);
-    c[4][0] = sdv_times(twelfth, sdv_minus(plus, minus));
-    minus = sdv_plus(sdv_sum3(p[1], p[3], p[8]), sdv_plus(p[9], p[11]));
-    plus = sdv_sum3(sdv_twice(sdv_plus(p[5], p[6])), p[0], p[10]);
-    c[0][4] = sdv_times(twelfth, sdv_minus(plus, minus));
-    c[3][1] = sdv_twice(c[4][0]);
-    c[1][3] = sdv_twice(c[0][4]);
-}
-
-// Linear: 0 at vertex 0.
-static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
-{
-    for (int i = 0; i < 5; i++)
-        for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
-    q->c[1][0] = p[5];
-    q->c[0][1] = p[8];
-}
-
-static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int linear,
-                                    const float *work, sdv_polynomial *q)
-{
-    sdv_four p[12];
-    q->degree = 4;
-    sdv_load_points(points, 12, work, p);
-    q->origin = p[4];
-    for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
-    sdv_mirror_triangle(patch, p);
-    if (linear) sdv_plane(p, q);
-    else sdv_box_spline(p, q);
 }
 
 // Writes four points, of which lane i of x[k] is channel k of point i, to where they stand in the
@@ -7765,6 +6777,764 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 }
 
 #ifndef SUBDIV_NO_EXACT
+// --------------------------------------------------------------------------------- >>split
+// The next level, of which only a part is made: what touches an active vertex. All of it would do;
+// but once a region is regular, patches take it to the last level at once (see >>patches). Active
+// are the vertices of the faces that are not yet regular. A face-vertex makes a child face if its
+// vertex is active: the children of such a face and the ring of faces around them.
+
+typedef struct sdv_split {
+    unsigned char *active;              // [vertex_count]
+    int *vertex, *face, *edge;          // [vertices, faces, face-vertices] their points as vertices
+                                        //      of the next level, or -1
+    int *child;                         // [face-vertices; Loop: and one per face] of each child the
+                                        //      face-vertex that stands for its parent's, or -1
+    int vertex_points, face_points, edge_points, faces;
+} sdv_split;
+
+// Is h the face-vertex that stands for its edge where each edge is meant once? The last of its
+// ring does.
+static int sdv_is_edge(const sdv_level *level, int h)
+{
+    return level->across[h] <= h;
+}
+
+static sdv_place sdv_first_place(int h)
+{
+    sdv_place place = { h, 0, 0, 1 };
+    return place;
+}
+
+// Lists the face-vertices at each vertex, in rising order.
+static void sdv_level_lists(sdv_level *level)
+{
+    const int *vertices = level->face_vertices;
+    int *first = level->vertex_first, *next = level->vertex_next;
+    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
+    for (int h = level->face_vertex_count - 1; h >= 0; h--) {
+        next[h] = first[vertices[h]];
+        first[vertices[h]] = h;
+    }
+}
+
+// What face points need, and what the next level needs besides.
+static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                          sdv_split *split)
+{
+    memset(split, 0, sizeof *split);
+    split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
+    split->face = SDV_NEW(context, arena, int, level->face_count);
+}
+
+static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                           sdv_split *split)
+{
+    size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
+    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
+    split->vertex = SDV_NEW(context, arena, int, vertices);
+    split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
+    split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
+}
+
+static void sdv_find_active(const sdv_level *level, sdv_split *split)
+{
+    memset(split->active, 0, (size_t)level->vertex_count);
+    for (int f = 0; f < level->face_count; f++) {
+        int end = level->rough[f] ? sdv_face_end(level, f) : 0;
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            split->active[level->face_vertices[h]] = 1;
+    }
+    for (int v = 0; v < level->vertex_count && level->partner; v++)
+        if (split->active[v] && level->partner[v] >= 0) split->active[level->partner[v]] = 1;
+}
+
+// Numbers the face points, of the faces that have an active vertex, from first on.
+static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
+{
+    int next = first;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - first;
+}
+
+// Numbers the children: each face-vertex has one where its vertex is active, and knows the
+// face-vertex in it that continues it. Of a quad, child i keeps vertex i as its own vertex i, so
+// that all descendants have their parent's orientation, and so with triangles; of any other polygon
+// it becomes vertex 0. The middle child of a triangle is there for two active vertices.
+static void sdv_number_faces(const sdv_level *level, sdv_split *split, int loop)
+{
+    int face = 0, size = loop ? 3 : 4;
+    for (int f = 0; f < level->face_count; f++) {
+        int active = 0, start = sdv_face_start(level, f), end = sdv_face_end(level, f);
+        int *child = split->child + start + (loop ? f : 0), turn = end - start == size;
+        for (int i = 0; i < end - start; i++) {
+            child[i] = -1;
+            if (!split->active[level->face_vertices[start + i]]) continue;
+            child[i] = size * face++ + (turn ? i : 0);
+            active++;
+        }
+        if (loop) child[3] = active >= 2 ? size * face++ : -1;
+    }
+    split->faces = face;
+}
+
+// Numbers what the next level will have: vertex points, face points (none under Loop), edge points.
+static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop)
+{
+    int next = 0;
+    for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
+    split->vertex_points = next;
+    if (!loop) sdv_number_face_points(level, split, next);
+    next += split->face_points;
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        if (!sdv_is_edge(level, h)) continue;
+        int active = split->active[level->face_vertices[h]] |
+                     split->active[level->face_vertices[sdv_next(level, h)]];
+        int point = active ? next++ : -1, k = h;
+        do split->edge[k] = point;
+        while ((k = level->across[k]) != h);
+    }
+    split->edge_points = next - split->vertex_points - split->face_points;
+}
+
+// What vertex, edge and face points inherit; each child has 2 (Loop: 3) faces at an edge point.
+static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                             const sdv_rules *rules)
+{
+    for (int v = 0; v < level->vertex_count; v++) {
+        int point = split->vertex[v];
+        if (point < 0) continue;
+        next->vertex_sharpness[point] = sdv_fade(level->vertex_sharpness[v]);
+        next->vertex_faces[point] = level->vertex_faces[v];
+    }
+    for (int f = 0; f < level->face_count && !rules->loop; f++) {
+        int point = split->face[f];
+        if (point < 0) continue;
+        next->vertex_sharpness[point] = 0;
+        next->vertex_faces[point] = sdv_face_end(level, f) - sdv_face_start(level, f);
+    }
+    for (int h = 0; h < level->face_vertex_count; h++) {
+        int point = split->edge[h];
+        if (point < 0 || !sdv_is_edge(level, h)) continue;
+        int straight = rules->straight && level->across[h] == h;
+        next->vertex_sharpness[point] = straight ? level->sharpness[h] : 0;
+        next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
+    }
+}
+
+// What only surfaces of values have: partners and origins, of vertex points alone.
+static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                               const sdv_split *split, sdv_level *next)
+{
+    if (level->partner) next->partner = SDV_NEW(context, arena, int, next->vertex_count);
+    if (level->partner) next->seam = SDV_NEW(context, arena, float, next->vertex_count);
+    if (level->origin) next->origin = SDV_NEW(context, arena, int, next->vertex_count);
+    if (context->result) return;
+    next->origin_count = level->origin_count;
+    next->sums = level->sums ? level->sums + 2 * (size_t)level->origin_count : NULL;
+    for (int i = 0; i < next->vertex_count; i++) {
+        if (next->partner) next->partner[i] = -1;
+        if (next->origin) next->origin[i] = -1;
+    }
+    for (int v = 0; v < level->vertex_count; v++) {
+        int point = split->vertex[v];
+        if (point < 0) continue;
+        if (next->origin) next->origin[point] = level->origin[v];
+        if (!next->partner || level->partner[v] < 0) continue;
+        next->partner[point] = split->vertex[level->partner[v]];
+        next->seam[point] = sdv_seam_left(level, v);
+    }
+}
+
+// The face-vertex of a quad or triangle that stands i places behind h.
+static inline int sdv_turn(int size, int h, int i)
+{
+    if (size == 4) return (h & ~3) | ((h + i) & 3);
+    int at = (int)((unsigned)h % 3), to = at + i;
+    return h - at + (to < 3 ? to : to - 3);
+}
+
+// The child at h. Its face-vertex 0 places behind vertex h leads along the edge of h, the last one
+// back along the edge before; they are where the next level meets the neighbours.
+//
+//     Catmull-Clark           Loop        2          child at vertex 0:
+//     3-----2                            /2\                vertex
+//     | 3|2 |  F face point            e2---e1              edge point of edge 0
+//     |--F--|                          /0\3/1\              (Catmull-Clark: face point)
+//     | 0|1 |                         0---e0--1             edge point of the edge before
+//     0-----1
+static void sdv_split_vertex(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                             int size, int h, int child)
+{
+    const int *own = split->child, *vertices = level->face_vertices;
+    int loop = size == 3, before = sdv_previous(level, h), v = vertices[h];
+    int q = level->across[h], p = level->across[before], last = sdv_turn(size, child, size - 1);
+    int on_q = vertices[q] == v ? q : sdv_next(level, q);        // the face-vertices at v across
+    int on_p = vertices[p] == v ? p : sdv_next(level, p);
+    int child_q = own[loop ? on_q + sdv_face_of(level, on_q) : on_q];
+    int child_p = own[loop ? on_p + sdv_face_of(level, on_p) : on_p];
+    float ahead = sdv_half(level, h), behind = sdv_half_before(level, before);
+
+    next->face_vertices[child] = split->vertex[v];
+    next->face_vertices[sdv_turn(size, child, 1)] = split->edge[h];
+    next->face_vertices[last] = split->edge[before];
+    if (on_q != q) child_q = sdv_turn(size, child_q, size - 1);
+    if (on_p != p) child_p = sdv_turn(size, child_p, size - 1);
+    next->across[child] = q == h ? child : child_q;
+    next->across[last] = p == before ? last : child_p;
+    next->sharpness[child] = ahead;
+    next->sharpness[last] = behind;
+    if (ahead > 0) next->creased[split->vertex[v]] = next->creased[split->edge[h]] = 1;
+    if (behind > 0) next->creased[split->vertex[v]] = next->creased[split->edge[before]] = 1;
+}
+
+// An edge inside a face, between siblings: smooth and new. other < 0: there is only one.
+static void sdv_split_inside(sdv_level *next, int at, int other)
+{
+    next->across[at] = other < 0 ? at : other;
+    next->sharpness[at] = 0;
+}
+
+// The place of the child at the vertex that is so far from vertex 0.
+static sdv_place sdv_child_place(sdv_place place, int up, int right)
+{
+    place.row = 2 * place.row + place.step * up;
+    place.column = 2 * place.column + place.step * right;
+    return place;
+}
+
+static void sdv_split_quads(const sdv_level *level, const sdv_split *split, sdv_level *next)
+{
+    for (int f = 0; f < level->face_count; f++) {
+        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), quad = end - start == 4;
+        if (split->face[f] < 0) continue;
+        for (int h = start; h < end; h++) {
+            int child = split->child[h], i = quad ? h - start : 0;
+            if (child < 0) continue;
+            int after = split->child[h + 1 < end ? h + 1 : start];
+            int before = split->child[h > start ? h - 1 : end - 1];
+            sdv_split_vertex(level, split, next, 4, h, child);
+            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
+            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
+            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
+            sdv_place place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
+            next->places[child >> 2] = sdv_child_place(place, i >> 1, i == 1 || i == 2);
+            next->core[child >> 2] = level->rough[f];
+        }
+    }
+}
+
+// The middle child is e1 e2 e0: its edge i lies across from child i + 2.
+static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
+{
+    const int *child = split->child + 4 * (size_t)f, *edge = split->edge + 3 * (size_t)f;
+    for (int i = 0; i < 3; i++) {
+        int at = child[3] + i, beside = child[(i + 2) % 3];
+        next->face_vertices[at] = edge[(i + 1) % 3];
+        sdv_split_inside(next, at, beside < 0 ? -1 : sdv_turn(3, beside, 1));
+    }
+}
+
+static void sdv_split_triangles(const sdv_level *level, const sdv_split *split, sdv_level *next)
+{
+    for (int f = 0; f < level->face_count; f++) {
+        const int *child = split->child + 4 * (size_t)f;
+        sdv_place place = level->places ? level->places[f] : sdv_first_place(3 * f);
+        for (int i = 0; i < 4; i++) {
+            if (child[i] < 0) continue;
+            if (i == 3) {
+                sdv_split_middle(split, next, f);
+            } else {
+                int middle = child[3] < 0 ? -1 : child[3] + (i + 1) % 3;
+                sdv_split_vertex(level, split, next, 3, 3 * f + i, child[i]);
+                sdv_split_inside(next, sdv_turn(3, child[i], 1), middle);
+            }
+            int face = child[i] / 3;
+            next->places[face] = sdv_child_place(place, i >= 2, i & 1);
+            if (i == 3) next->places[face].step = -place.step;
+            next->core[face] = level->rough[f];
+        }
+    }
+}
+
+static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_level *level,
+                            const sdv_split *split, sdv_level *next, const sdv_rules *rules)
+{
+    int loop = rules->loop;
+    memset(next, 0, sizeof *next);
+    next->face_size = loop ? 3 : 4;
+    next->face_count = split->faces;
+    next->face_vertex_count = next->face_count * next->face_size;
+    next->vertex_count = split->vertex_points + split->face_points + split->edge_points;
+    next->first_point = level->first_point + level->vertex_count;
+    sdv_level_new(context, arena, next, level->half_sharpness != NULL);
+    next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
+    next->across = SDV_NEW(context, arena, int, next->face_vertex_count);
+    next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
+    sdv_split_partners(context, arena, level, split, next);
+    if (context->result) return;
+    sdv_split_points(level, split, next, rules);
+    if (loop) sdv_split_triangles(level, split, next);
+    else sdv_split_quads(level, split, next);
+    sdv_level_lists(next);
+    sdv_level_fade(next);
+}
+
+// ------------------------------------------------------------------------------- >>patches
+// A face whose surroundings are regular, and stay so, refines in closed form: all its points on the
+// last level follow from the 4 x 4 control points around it (Loop: 12 points). An edge that stays
+// sharp to the last level parts the surface; beyond it the control points are mirrored, so that a
+// face beside a boundary or crease is regular too:
+//
+//     Catmull-Clark   outside = 2 edge - inside            Loop   outside = a + b - inside
+//
+// This gives the B-spline curve along the edge, on every level: the masks of a crease.
+
+typedef struct sdv_patch {
+    int h;                              // the cage face-vertex of its grid (see >>order)
+    int row, column;                    // of vertex 0 on that grid, in segments of the last level
+    signed char step;                   // -1 for a triangle that is turned by half
+    unsigned char sharp;                // bit i: edge i is sharp
+    unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
+    unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
+} sdv_patch;
+
+// Which control points the vertices of a face are (see the gathering functions).
+static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
+
+typedef struct sdv_patches {            // of one level
+    int        count;
+    sdv_patch *items;                   // [count] in the order of cage faces
+    int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
+} sdv_patches;                          //      work points; for those that are mirrored, any
+
+static int sdv_control_points(const sdv_rules *rules)
+{
+    return rules->loop ? 12 : 16;
+}
+
+// A quad whose edge is semi-sharp, as the crease goes straight on with the same sharpness, is still
+// a product of curves. Across the crease, of sharpness s, the rows of control points
+//
+//     low      p0 | p1   p2   p3     the crease is row p1; high: p0   p1   p2 | p3, it is p2
+//
+// stay those of a sharp edge for c = ceil(s) levels, from where on they are a smooth B-spline's:
+// inside, those beside a mirrored row; outside, p1 + (p0 - p1) / 2^c, as the row beside the edge
+// goes half the way to it on each level; and the edge itself, p1, but for a fraction f of the
+// last level (c - 1 levels before it) that blends:
+//
+//     p1 + (1 - f)/8 (inside - 2 p1 + outside)       of level c - 1
+//
+// So the quad is cut into strips: beside the crease those of level c whose control rows it changes,
+// one segment wide (two if there is a fraction), and the rest, which does not know that the edge
+// will ever be smooth. (A triangle is no such product: along the crease, what is beside it in
+// Loop is not one polynomial but one for each segment of level c.)
+//
+// Strips are measured in segments of so many levels, as semi-sharp creases are smooth by then.
+#define SDV_STRIP_LEVELS 10
+
+typedef struct sdv_strip {
+    int    from, to;                    // segments that it covers
+    int    origin, unit;                // its own segment: where it starts, how long it is
+    int    smooth;                      // beside a crease that is smooth by then; others: mirrored
+    double rows[4][4];                  // smooth: its control rows, as sums of the patch's
+} sdv_strip;
+
+typedef struct sdv_strips {
+    float low, high;                    // sharpness of the two edges, 0: not semi-sharp
+    int   count;
+    sdv_strip items[5];
+} sdv_strips;
+
+// Point t of the control points of the level with segments of length h, as a sum of p0 to p3: the
+// polynomial of sdv_cubic.
+static void sdv_cubic_weights(double t, double h, double *w)
+{
+    double s = (1 - h * h) / 6 + t * t / 2, c = t * (t * t - h * h) / 6;
+    w[0] = s - t / 2 - c;
+    w[1] = 1 - 2 * s + 3 * c;
+    w[2] = s + t / 2 - 3 * c;
+    w[3] = c;
+}
+
+// Row i of level c while the edges are sharp, counted from the low one, as a sum of p0 to p3.
+static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
+{
+    double h = ldexp(1, -c), *w = row;
+    sdv_cubic_weights(i * h, h, w);
+    if (strips->low > 0) {                              // p0 = 2 p1 - p2
+        w[1] += 2 * w[0];
+        w[2] -= w[0];
+        w[0] = 0;
+    }
+    if (strips->high > 0) {                             // p3 = 2 p2 - p1
+        w[2] += 2 * w[3];
+        w[1] -= w[3];
+        w[3] = 0;
+    }
+}
+
+// The row outside of row p[edge], seen from inside.
+static void sdv_outside_row(int c, int edge, double *row)
+{
+    double h = ldexp(1, -c);
+    for (int k = 0; k < 4; k++) row[k] = 0;
+    row[edge] = 1 - h;
+    row[edge == 1 ? 0 : 3] = h;
+}
+
+// Row i of level c, on which the edges are smooth.
+static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
+{
+    int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
+    double s = (double)(low ? strips->low : strips->high), fraction = s - floor(s);
+    double outside[4], inside[4];
+    sdv_sharp_row(strips, c, i, row);
+    if (s <= 0 || (i > 0 && i < last)) return;
+    if (i < 0 || i > last) sdv_outside_row(c, edge, row);
+    if (i < 0 || i > last || fraction <= 0) return;
+    sdv_outside_row(c - 1, edge, outside);
+    sdv_sharp_row(strips, c - 1, low ? 1 : last / 2 - 1, inside);
+    for (int k = 0; k < 4; k++)
+        row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
+}
+
+// The strip from segment first to last of level c. A smooth one is its own segment, another a part
+// of the patch's.
+static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
+{
+    sdv_strip *strip = &strips->items[strips->count++];
+    int length = 1 << (SDV_STRIP_LEVELS - c);
+    strip->smooth = smooth;
+    strip->from = first * length;
+    strip->to = (last + 1) * length;
+    strip->unit = smooth ? length : 1 << SDV_STRIP_LEVELS;
+    strip->origin = smooth ? strip->from : 0;
+    for (int j = 0; j < 4 && smooth; j++) sdv_strip_row(strips, c, first + j - 1, strip->rows[j]);
+}
+
+static sdv_strips sdv_cut_strips(float low, float high)
+{
+    double s = (double)(low > high ? low : high);
+    int c = (int)ceil(s), width = s > floor(s) ? 2 : 1;
+    int end = 1 << c, left = c && low > 0 ? width : 0, right = end - (c && high > 0 ? width : 0);
+    sdv_strips strips;
+    memset(&strips, 0, sizeof strips);
+    strips.low = low;
+    strips.high = high;
+    if (left > right) left = right = end;
+    for (int i = 0; i < left; i++) sdv_add_strip(&strips, c, i, i, 1);
+    if (left < right) sdv_add_strip(&strips, c, left, right - 1, 0);
+    for (int i = right; i < end; i++) sdv_add_strip(&strips, c, i, i, 1);
+    return strips;
+}
+
+// How the surface goes on at a vertex, on all levels. Bits, so that a face may have those
+// of all its vertices.
+typedef enum sdv_kind {
+    SDV_ROUGH = 1, SDV_FREE = 2, SDV_LINED = 4, SDV_EDGED = 8, SDV_PINNED = 16
+} sdv_kind;
+
+// Are all faces at v of the regular size, and so many?
+static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int size)
+{
+    if (level->vertex_faces[v] != count) return 0;
+    if (level->face_size) return level->face_size == size;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+        if (sdv_size_of(level, h) != size) return 0;
+    return 1;
+}
+
+// Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
+static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
+{
+    int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
+                              : sdv_has_regular_faces(level, v, 4, 4);
+    return regular ? SDV_FREE : SDV_ROUGH;
+}
+
+// Do two creases that cross fade each for itself? Then the blend of the vertex point, which is by
+// the mean of what ends on this level, is that of one crease, or there is none.
+static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
+{
+    int whole = a <= floorf(a) && b <= floorf(b);
+    if (a <= 0 || b <= 0 || a >= SUBDIV_INFINITE || b >= SUBDIV_INFINITE) return 1;
+    if (rules->creasing == SUBDIV_CREASING_CHAIKIN) return whole && a <= b && a >= b;
+    return whole || ceilf(a) < ceilf(b) || ceilf(a) > ceilf(b);
+}
+
+// Do creases go straight on through a regular vertex, with the same sharpness?
+static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
+{
+    int h = level->vertex_first[v];
+    float s[4];
+    if (rules->loop || level->vertex_sharpness[v] > 0) return 0;
+    if (!sdv_has_regular_faces(level, v, 4, 4) || !sdv_ring_closes(level, h)) return 0;
+    for (int i = 0; i < 4; i++, h = sdv_around(level, h)) {
+        if (level->across[level->across[h]] != h) return 0;
+        s[i] = level->sharpness[h];
+    }
+    return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
+}
+
+// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
+// creases that go straight on, or end where a crease that stays runs across. All else is rough.
+static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int dependent)
+{
+    int sharp = 0, stay = 0;
+    float s = level->vertex_sharpness[v];
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++) {
+            float t = level->sharpness[two[i]];
+            if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
+            sharp++;
+            stay += t >= SUBDIV_INFINITE;
+        }
+    }
+    if (stay > 2 || s >= SUBDIV_INFINITE) return SDV_PINNED;
+    int others = level->origin && level->origin[v] >= 0 &&      // across a seam
+                 level->sums[2 * (size_t)level->origin[v] + 1] > (float)(sharp - stay);
+    if (stay < sharp && !dependent && !others) {
+        int ends = stay == 2 && sharp == 3 && s <= 0 && sdv_has_regular_faces(level, v, 2, 4);
+        if (sdv_is_lined(level, rules, v) || (ends && !rules->loop)) return SDV_LINED;
+    }
+    return stay < sharp || s > 0 || sharp != 2 ? SDV_ROUGH : SDV_EDGED;
+}
+
+static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v)
+{
+    int dependent = level->partner && level->partner[v] >= 0;
+    if (rules->linear) return SDV_FREE;
+    if (dependent) v = level->partner[v];
+    if (level->vertex_sharpness[v] <= 0 && !level->creased[v])
+        return sdv_smooth_kind(level, rules, v);
+    return sdv_sharp_kind(level, rules, v, dependent);
+}
+
+// Where a face stands among the faces between two sharp edges at its vertex, or without any: in a
+// ring; first, in the middle or last along a crease, counter-clockwise; alone in a corner.
+typedef enum sdv_fan { SDV_FAN_ROUGH, SDV_FAN_RING, SDV_FAN_FIRST, SDV_FAN_MIDDLE, SDV_FAN_LAST,
+                       SDV_FAN_CORNER } sdv_fan;
+
+static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int loop)
+{
+    int faces = loop ? 3 : 2, size = loop ? 3 : 4, right = h, left = h, count = 1;
+    if (kind == SDV_FREE) return SDV_FAN_RING;
+    if (kind == SDV_LINED)
+        return level->vertex_faces[level->face_vertices[h]] == 4 ? SDV_FAN_RING : SDV_FAN_FIRST;
+    if (kind == SDV_ROUGH) return SDV_FAN_ROUGH;
+    for (int i = sdv_clockwise(level, h); i >= 0 && count <= faces; i = sdv_clockwise(level, i)) {
+        right = i;
+        count += sdv_size_of(level, i) == size ? 1 : faces;
+    }
+    for (int i = sdv_counter_clockwise(level, h); i >= 0 && count <= faces;
+         i = sdv_counter_clockwise(level, i)) {
+        left = i;
+        count += sdv_size_of(level, i) == size ? 1 : faces;
+    }
+    if (kind == SDV_PINNED) return count == 1 ? SDV_FAN_CORNER : SDV_FAN_ROUGH;
+    // The two edges are the crease, unless a non-manifold edge is both.
+    int before = sdv_previous(level, left);
+    if (count != faces || sdv_same_edge(level, right, before)) return SDV_FAN_ROUGH;
+    return right == h ? SDV_FAN_FIRST : left == h ? SDV_FAN_LAST : SDV_FAN_MIDDLE;
+}
+
+static int sdv_point_at(const sdv_level *level, int h)
+{
+    return level->first_point + level->face_vertices[h];
+}
+
+// The 4 x 4 control points. Each open edge adds the two points of the face across it, and each
+// vertex between two of them, which is in a ring, the one diagonally across. Sharp edges are
+// closed, and those beyond which nothing is needed.
+//
+//     12 13 14 15          vertices 0 to 3 are points 5 6 10 9
+//      8  9 10 11
+//      4  5  6  7
+//      0  1  2  3
+static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, int *points)
+{
+    static const signed char diagonal[4] = { 0, 3, 15, 12 };
+    static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
+    const int *vertices = level->face_vertices, *across = level->across;
+    int first = level->first_point;
+    for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
+    points[5] = first + vertices[h];
+    points[6] = first + vertices[h + 1];
+    points[10] = first + vertices[h + 2];
+    points[9] = first + vertices[h + 3];
+    for (int i = 0; i < 4; i++) {
+        if (closed >> i & 1) continue;
+        int q = across[h + i], quad = sdv_quad_start(level, q), turn = q - quad;
+        int corner = across[quad + ((turn + 1) & 3)];               // from vertex i on
+        points[beside[i]] = first + vertices[quad + ((turn + 2) & 3)];
+        points[next[i]] = first + vertices[quad + ((turn + 3) & 3)];
+        if (closed >> ((i + 3) & 3) & 1) continue;
+        quad = sdv_quad_start(level, corner);
+        points[diagonal[i]] = first + vertices[quad + ((corner - quad + 3) & 3)];
+    }
+}
+
+// The 12 control points. The neighbours of a point are to its right and left, above and below,
+// above left and below right.
+//
+//     row  2     9 10                vertices 0 1 2 are points 4 5 8
+//     row  1     6  8 11
+//     row  0     3  4  5  7
+//     row -1        0  1  2
+//       column  -1  0  1  2
+//
+// Those around vertex i, counter-clockwise: its two neighbours in the face, the one across edge
+// i-1, two more, the one across edge i.
+static const int sdv_triangle_ring[3][6] = {
+    { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
+
+static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch, int *points)
+{
+    const unsigned char *fan = patch->fan;
+    const int *vertices = level->face_vertices, *across = level->across;
+    const int first = level->first_point;
+    for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
+    for (int i = 0; i < 3; i++) {
+        int after = i < 2 ? i + 1 : 0, q = across[h + i];
+        points[sdv_triangle_own[i]] = first + vertices[h + i];
+        if (patch->sharp >> i & 1) continue;
+        int at = sdv_next(level, q), before = sdv_previous(level, q);
+        points[sdv_triangle_ring[i][5]] = first + vertices[before];
+        if (fan[i] == SDV_FAN_RING || fan[i] == SDV_FAN_LAST)
+            points[sdv_triangle_ring[i][4]] = first + vertices[sdv_previous(level, across[at])];
+        if (fan[after] == SDV_FAN_RING || fan[after] == SDV_FAN_FIRST)
+            points[sdv_triangle_ring[after][3]] =
+                first + vertices[sdv_previous(level, across[before])];
+    }
+}
+
+// Bilinear: the vertices of the face; the other control points have no weight.
+static void sdv_gather_linear(const sdv_level *level, int h, int size, int *points)
+{
+    const int *own = size == 4 ? sdv_quad_own : sdv_triangle_own;
+    for (int i = 0; i < (size == 4 ? 16 : 12); i++) points[i] = sdv_point_at(level, h);
+    for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
+}
+
+// The control points of a patch, whose face starts with face-vertex h.
+static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
+                              const sdv_patch *patch, int h, int *points)
+{
+    if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
+    else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
+    else sdv_gather_quad(level, h, patch->sharp, points);
+}
+
+// The number of the strips between two edges; 0 if they differ, or there are too many already.
+static int sdv_find_strips(sdv_writer *writer, float low, float high)
+{
+    sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
+    int count = (int)writer->strips.count;
+    if (low > 0 && high > 0 && (low < high || low > high)) return 0;
+    for (int i = count; i > 0; i--) {
+        float d = strips[i - 1].low - low, e = strips[i - 1].high - high;
+        if (d * d + e * e <= 0) return i;
+    }
+    strips = (sdv_strips *)sdv_array_room(writer->context, &writer->strips, 1, sizeof *strips);
+    if (!strips || count == UCHAR_MAX) return 0;
+    *strips = sdv_cut_strips(low, high);
+    return (int)++writer->strips.count;
+}
+
+// Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
+// which semi-sharp, and how its vertices' fans go on. Does it have a patch?
+static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
+                         const unsigned char *kinds, int h, int size, sdv_patch *patch)
+{
+    float semi[4] = { 0, 0, 0, 0 };
+    for (int i = 0; i < size; i++) {
+        float s = level->sharpness[h + i];
+        if (sdv_is_semi_sharp(s)) semi[i] = s;
+        else patch->sharp |= (unsigned char)((s > 0) << i);
+        sdv_kind kind = (sdv_kind)kinds[level->face_vertices[h + i]];
+        sdv_fan fan = sdv_find_fan(level, kind, h + i, rules->loop);
+        if (fan == SDV_FAN_ROUGH) return 0;
+        if (rules->loop) patch->fan[i] = (unsigned char)fan;
+    }
+    if (semi[0] + semi[1] + semi[2] + semi[3] <= 0) return 1;
+    for (int i = 0; i < size; i++) {
+        int at = h + i, next = h + (i + 1) % size;
+        if (semi[i] > 0 && (kinds[level->face_vertices[at]] != SDV_LINED ||
+                            kinds[level->face_vertices[next]] != SDV_LINED)) return 0;
+    }
+    patch->up = (unsigned char)sdv_find_strips(writer, semi[0], semi[2]);
+    patch->along = (unsigned char)sdv_find_strips(writer, semi[3], semi[1]);
+    return patch->up && patch->along;
+}
+
+// Where face f stands on its grid.
+static void sdv_set_place(const sdv_level *level, int f, sdv_patch *patch)
+{
+    sdv_place place = level->places ? level->places[f] : sdv_first_place(sdv_face_start(level, f));
+    patch->h = place.h;
+    patch->row = place.row;
+    patch->column = place.column;
+    patch->step = (signed char)place.step;
+}
+
+// Makes the patch of face f, if it has one. free: so are all its vertices.
+static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
+                          const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
+{
+    int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
+    memset(patch, 0, sizeof *patch);
+    memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
+    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, patch)) return 0;
+    sdv_set_place(level, f, patch);
+    return 1;
+}
+
+// The kinds of a face's vertices; rough if its size is not the regular one.
+static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
+                                 int size)
+{
+    int start = sdv_face_start(level, f);
+    const int *v = level->face_vertices + start;
+    if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
+    int found = kinds[v[0]] | kinds[v[1]] | kinds[v[2]];
+    return size == 4 ? found | kinds[v[3]] : found;
+}
+
+// Finds the patches of a level and marks the faces of the core that have none as rough. At most
+// there are as many as faces that are not rough by their vertices.
+static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
+                             const sdv_rules *rules, sdv_patches *patches)
+{
+    sdv_context *context = writer->context;
+    sdv_arena scratch = sdv_scratch();
+    int size = rules->loop ? 3 : 4, most = level->face_count;
+    size_t width = (size_t)sdv_control_points(rules);
+    memcpy(level->rough, level->core, (size_t)level->face_count);
+    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
+    for (int v = 0; v < level->vertex_count && !context->result; v++)
+        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
+    for (int f = 0; f < level->face_count && !context->result; f++)
+        most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
+    patches->items = SDV_NEW(context, arena, sdv_patch, most);
+    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
+    for (int f = 0; f < level->face_count && !context->result; f++) {
+        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
+        sdv_patch *patch = &patches->items[patches->count];
+        if (!level->core[f] || (found & SDV_ROUGH)) continue;
+        if (!sdv_make_patch(writer, level, rules, kinds, f, found == SDV_FREE, patch)) continue;
+        sdv_gather(level, rules, patch, h, patches->points + width * (size_t)patches->count);
+        level->rough[f] = 0;
+        patches->count++;
+    }
+    sdv_arena_free(&scratch);
+}
+
 // -------------------------------------------------------------------------- >>exact-surface
 // The limit surface anywhere. The cage is refined where it is not regular, until every face left
 // is a patch, whose polynomial is the surface, or in a nest: the faces around one irregular vertex
@@ -7881,14 +7651,6 @@ SDV_INLINE int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
 {
     if (cage->face_size == (loop ? 3 : 4)) return f;
     return sdv_face_start(cage, f) + corner;
-}
-
-// In the order of sdv_powers, for the channels of the polynomial.
-static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
-{
-    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
-    for (int k = 0; k < SDV_SLOTS; k++)
-        slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
 }
 
 // The rows from a level to the next: face points first, as the others are made from them. They stand
@@ -9021,6 +8783,246 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 
 // --------------------------------------------------------------------------- >>polynomials
 // What an evaluation of the exact surface begins with: the polynomials of all leaves.
+
+// The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline, from
+// t = 0 to 1. a[i] becomes the coefficient of t^i.
+//
+//     p1 + s / 6  +  (p2 - p0) / 2 t  +  s / 2 t^2  +  c t^3
+//     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
+static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, sdv_four *a)
+{
+    sdv_four d0 = sdv_minus(p1, p0), d1 = sdv_minus(p2, p1), d2 = sdv_minus(p3, p2);
+    sdv_four s = sdv_minus(d1, d0), sixth = sdv_all(1.0f / 6);
+    a[0] = sdv_plus(p1, sdv_times(sixth, s));
+    a[1] = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
+    a[2] = sdv_times(sdv_all(0.5f), s);
+    a[3] = sdv_times(sixth, sdv_minus(sdv_minus(d2, d1), s));
+}
+
+// Bilinear: from p1 to p2 straight on.
+SDV_INLINE void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
+{
+    a[0] = p1;
+    a[1] = sdv_minus(p2, p1);
+    a[2] = a[3] = sdv_all(0);
+}
+
+// a0 + a1 t + a2 t^2 + a3 t^3
+SDV_INLINE sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
+{
+    sdv_four p = sdv_plus(a[2], sdv_times(a[3], t));
+    p = sdv_plus(a[1], sdv_times(p, t));
+    return sdv_plus(a[0], sdv_times(p, t));
+}
+
+SDV_INLINE sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
+{
+    sdv_four p = sdv_plus(a[3], sdv_times(a[4], t));
+    p = sdv_plus(a[2], sdv_times(p, t));
+    p = sdv_plus(a[1], sdv_times(p, t));
+    return sdv_plus(a[0], sdv_times(p, t));
+}
+
+// A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
+SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
+{
+    p[2] = sdv_plus(sdv_times(p[2], t), p[1]);
+    p[1] = sdv_plus(sdv_times(p[1], t), p[0]);
+    p[0] = sdv_plus(sdv_times(p[0], t), next);
+}
+
+// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. Its first steps leave out
+// what is 0; what is not asked for below, the compiler leaves out.
+SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
+{
+    sdv_four highest = c[degree * step];
+    p[0] = sdv_plus(sdv_times(highest, t), c[(degree - 1) * step]);
+    p[1] = highest;
+    p[2] = sdv_all(0);
+    if (degree == 1) return;
+    p[2] = highest;
+    p[1] = sdv_plus(sdv_times(highest, t), p[0]);
+    p[0] = sdv_plus(sdv_times(p[0], t), c[(degree - 2) * step]);
+    if (degree >= 3) sdv_horner_step(p, t, c[(degree - 3) * step]);
+    if (degree == 4) sdv_horner_step(p, t, c[0]);
+}
+
+// The surface of a patch: origin + the sum of c[i][j] x^i y^j, where x runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
+// i + j <= 4, a triangle.
+typedef struct sdv_polynomial {
+    sdv_four origin, c[5][5];
+    int degree;
+} sdv_polynomial;
+
+// A row of it, a polynomial in x alone, and its derivatives in x and y; or, turned, a column.
+typedef struct sdv_curve {
+    sdv_four a[5], along[4], across[4];
+    int degree;
+} sdv_curve;
+
+// degree, turned and tangents are constants: what is not asked for, the compiler leaves out. The
+// coefficient of x^i y^j is c[5 i + j].
+SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
+                              float at, sdv_curve *curve)
+{
+    const sdv_four *c = (const sdv_four *)(const void *)q->c;
+    int step = turned ? 5 : 1, next = turned ? 1 : 5, quad = degree == 3;
+    sdv_four p[5][3], t = sdv_all(at);
+    sdv_horner(c, step, degree, t, p[0]);
+    sdv_horner(c + next, step, 3, t, p[1]);
+    sdv_horner(c + 2 * next, step, quad ? 3 : 1, t, p[2]);
+    sdv_horner(c + 3 * next, step, quad ? 3 : 1, t, p[3]);
+    p[4][0] = quad ? sdv_all(0) : c[4 * next];
+    curve->degree = degree;
+    curve->a[0] = sdv_plus(q->origin, p[0][0]);
+    for (int i = 1; i < 5; i++) curve->a[i] = p[i][0];
+    for (int i = 0; i < 4 && tangents; i++) {
+        curve->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
+        curve->across[i] = p[i][1];
+    }
+}
+
+// In the order of sdv_powers, for the channels of the polynomial.
+static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
+{
+    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
+    for (int k = 0; k < SDV_SLOTS; k++)
+        slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
+}
+
+// Beyond a sharp edge: outside = 2 edge - inside.
+SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
+{
+    return sdv_minus(sdv_plus(edge, edge), inside);
+}
+
+SDV_INLINE void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
+{
+    for (int i = 0; i < count; i++) p[i] = sdv_load(work + 4 * (size_t)points[i]);
+}
+
+// What lies beyond sharp edges is mirrored: first to the left and right in all rows that are known,
+// then below and above.
+static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
+{
+    for (int i = 0; i < 16; i += 4) {
+        if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
+        if (patch->sharp & 2) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
+    }
+    for (int i = 0; i < 4; i++) {
+        if (patch->sharp & 1) p[i] = sdv_mirror(p[4 + i], p[8 + i]);
+        if (patch->sharp & 4) p[12 + i] = sdv_mirror(p[8 + i], p[4 + i]);
+    }
+}
+
+// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
+// along the rows.
+static void sdv_quad_polynomial(const sdv_four *p, int linear, sdv_polynomial *q)
+{
+    sdv_four up[4][4], x[4];
+    q->degree = 3;
+    for (int i = 0; i < 4; i++) {
+        if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
+        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], up[i]);
+    }
+    for (int j = 0; j < 4; j++) {
+        if (linear) sdv_line(up[1][j], up[2][j], x);
+        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], x);
+        for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
+    }
+}
+
+// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise,
+// stand r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4];
+// r[5] across the edge after.
+static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
+{
+    for (int i = 0; i < 3; i++) {
+        const int *r = sdv_triangle_ring[i];
+        sdv_four v = p[sdv_triangle_own[i]];
+        if (patch->fan[i] == SDV_FAN_RING) continue;
+        if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
+        if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
+        if (patch->fan[i] == SDV_FAN_FIRST) p[r[4]] = sdv_minus(sdv_plus(v, p[r[3]]), p[r[2]]);
+        if (patch->fan[i] == SDV_FAN_LAST) p[r[3]] = sdv_minus(sdv_plus(v, p[r[4]]), p[r[5]]);
+        if (patch->fan[i] == SDV_FAN_MIDDLE) {
+            p[r[3]] = sdv_minus(sdv_plus(v, p[r[2]]), p[r[1]]);
+            p[r[4]] = sdv_minus(sdv_plus(v, p[r[5]]), p[r[0]]);
+        }
+        if (patch->fan[i] == SDV_FAN_CORNER) {
+            p[r[3]] = sdv_mirror(v, p[r[0]]);
+            p[r[4]] = sdv_mirror(v, p[r[1]]);
+        }
+    }
+}
+
+// Sums for the formulas below: 2a, a + b, ...
+SDV_INLINE sdv_four sdv_twice(sdv_four a)
+{
+    return sdv_plus(a, a);
+}
+
+SDV_INLINE sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
+{
+    return sdv_plus(sdv_plus(a, b), c);
+}
+
+SDV_INLINE sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+{
+    return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
+}
+
+// The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial of its 12
+// control points, numbered as in sdv_gather_triangle; here relative to point 4, which is 0.
+static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
+{
+    sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
+    sdv_four (*c)[5] = q->c;
+    sdv_four p35 = sdv_plus(p[3], p[5]), p08 = sdv_plus(p[0], p[8]), p16 = sdv_plus(p[1], p[6]);
+    sdv_four d53 = sdv_minus(p[5], p[3]), d80 = sdv_minus(p[8], p[0]), d16 = sdv_minus(p[1], p[6]);
+    c[0][0] = sdv_times(twelfth, sdv_sum3(p35, p08, p16));
+    c[1][0] = sdv_times(sixth, sdv_sum3(sdv_twice(d53), d80, d16));
+    c[0][1] = sdv_times(sixth, sdv_minus(sdv_plus(sdv_twice(d80), d53), d16));
+    c[2][0] = sdv_times(half, p35);
+    c[0][2] = sdv_times(half, p08);
+    c[1][1] = sdv_times(half, sdv_minus(sdv_plus(p35, p08), p16));
+    c[3][0] = sdv_times(sixth, sdv_minus(sdv_sum4(p[0], p[2], p[6], p[11]),
+                                         sdv_twice(sdv_sum3(p[1], p35, p[8]))));
+    c[2][1] = sdv_times(half, sdv_minus(sdv_plus(p[6], p[11]), sdv_plus(p35, sdv_twice(p[8]))));
+    c[1][2] = sdv_times(half, sdv_minus(sdv_plus(p[1], p[11]), sdv_plus(p08, sdv_twice(p[5]))));
+    c[0][3] = sdv_times(sixth, sdv_minus(sdv_sum4(p[1], p[3], p[9], p[11]),
+                                         sdv_twice(sdv_sum3(p[6], p[5], p08))));
+    sdv_four minus = sdv_plus(sdv_sum3(p[0], p[2], p[5]), sdv_plus(p[6], p[11]));
+    sdv_four plus = sdv_sum3(sdv_twice(sdv_plus(p[1], p[8])), p[3], p[7]);
+    c[4][0] = sdv_times(twelfth, sdv_minus(plus, minus));
+    minus = sdv_plus(sdv_sum3(p[1], p[3], p[8]), sdv_plus(p[9], p[11]));
+    plus = sdv_sum3(sdv_twice(sdv_plus(p[5], p[6])), p[0], p[10]);
+    c[0][4] = sdv_times(twelfth, sdv_minus(plus, minus));
+    c[3][1] = sdv_twice(c[4][0]);
+    c[1][3] = sdv_twice(c[0][4]);
+}
+
+// Linear: 0 at vertex 0.
+static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
+{
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
+    q->c[1][0] = p[5];
+    q->c[0][1] = p[8];
+}
+
+static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int linear,
+                                    const float *work, sdv_polynomial *q)
+{
+    sdv_four p[12];
+    q->degree = 4;
+    sdv_load_points(points, 12, work, p);
+    q->origin = p[4];
+    for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
+    sdv_mirror_triangle(patch, p);
+    if (linear) sdv_plane(p, q);
+    else sdv_box_spline(p, q);
+}
 
 // A patch, its control points among work points in doubles, and the strips that it is cut into.
 typedef struct sdv_double_patch {
@@ -10554,16 +10556,6 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
     if (!make->context->result) sdv_add_row(make, row, one);
 }
 
-// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
-// they are multiplied: then their errors shrink with the distances between the points.
-static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
-{
-    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
-    sdv_compose_all(make, points, count);
-    for (int i = 0; i < count && !make->context->result; i++)
-        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
-}
-
 static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
                                  const subdiv_surface *surface, int first, int count)
 {
@@ -10602,6 +10594,16 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 }
 
 #ifndef SUBDIV_NO_EXACT
+// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
+// they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
+{
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
+    sdv_compose_all(make, points, count);
+    for (int i = 0; i < count && !make->context->result; i++)
+        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
+}
+
 // The patch of a leaf that is none of a nest.
 static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int node, const int **points)
 {
