@@ -401,8 +401,9 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs; SIZE_MAX if that is more
-// than the machine can address.
+// Bytes of scratch memory that an evaluation of so many channels needs: for the points of all levels
+// but the last and, of a limit, those of the last one. SIZE_MAX if that is more than the machine can
+// address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
@@ -822,8 +823,8 @@ typedef size_t (*subdiv_write)(void *user, const void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
                                                   void *user, const subdiv_options *opt);
 
-// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj, in
-// memory that does not grow with the result (it does with the cage and its levels' rough parts).
+// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj, without
+// the mesh. What is in memory is the scratch memory of an evaluation, see >>animation.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
@@ -5268,44 +5269,6 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
 }
 
-static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
-                             int end, int target, const sdv_window *out);
-static void sdv_make_batches(const sdv_batches *batches, const float *work, int face, int end,
-                             const sdv_window *out);
-static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, const float *points,
-                            int face, int end, const sdv_window *out);
-
-// Cage faces face to end - 1: the points of the result that belong to them.
-static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
-                           const sdv_window *out)
-{
-    if (surface->rules.limit) {
-        sdv_make_batches(&surface->limit_rows, work, face, end, out);
-        sdv_limit_grids(&surface->rules, &surface->order,
-                        work + 4 * (size_t)surface->bases[surface->levels], face,
-                        end < surface->cage_face_count ? end : surface->cage_face_count, out);
-        return;
-    }
-    sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
-}
-
-static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
-                                 int end, const subdiv_limit *limit, int first, int count)
-{
-    sdv_tangents tangents;
-    sdv_window out = { limit->positions, 3, 3, first, count, count < surface->fine.vertex_count, NULL };
-    memset(&tangents, 0, sizeof tangents);
-    tangents.normals = limit->normals;
-    tangents.tangents = limit->tangents;
-    tangents.stride = 3;
-    tangents.tangent_stride = 6;
-    if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
-                                                                        (size_t)limit->stride;
-    if (limit->normals || limit->tangents) out.tangents = &tangents;
-    sdv_make_faces(surface, work, face, end, &out);
-    sdv_flush_tangents(&tangents);
-}
-
 // --------------------------------------------------------------------------------- >>grids
 // The general step: the points of a level from those of the level before, by nothing but masks.
 
@@ -6149,6 +6112,37 @@ static void sdv_refine_faces(const subdiv_surface *surface, int level, const flo
     if (end > surface->cage_face_count) end = surface->cage_face_count;
     sdv_refine_grids(&surface->rules, &from, &to, work + 4 * (size_t)surface->bases[level], face,
                      end, target, out);
+}
+
+// Cage faces face to end - 1: the points of the result that belong to them.
+static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
+                           const sdv_window *out)
+{
+    if (surface->rules.limit) {
+        sdv_make_batches(&surface->limit_rows, work, face, end, out);
+        sdv_limit_grids(&surface->rules, &surface->order,
+                        work + 4 * (size_t)surface->bases[surface->levels], face,
+                        end < surface->cage_face_count ? end : surface->cage_face_count, out);
+        return;
+    }
+    sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
+}
+
+static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
+                                 int end, const subdiv_limit *limit, int first, int count)
+{
+    sdv_tangents tangents;
+    sdv_window out = { limit->positions, 3, 3, first, count, count < surface->fine.vertex_count, NULL };
+    memset(&tangents, 0, sizeof tangents);
+    tangents.normals = limit->normals;
+    tangents.tangents = limit->tangents;
+    tangents.stride = 3;
+    tangents.tangent_stride = 6;
+    if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
+                                                                        (size_t)limit->stride;
+    if (limit->normals || limit->tangents) out.tangents = &tangents;
+    sdv_make_faces(surface, work, face, end, &out);
+    sdv_flush_tangents(&tangents);
 }
 
 // Jobs of an evaluation: each makes a share of its points.

@@ -874,7 +874,9 @@ static int run_bench(char *text)
 int main(int argc, char **argv)
 {
     char built_in[][64] = {
-        "torus:1", "torus-triangles:1:loop", "examples/cages/camera.obj",
+        "torus:1", "torus-triangles:1:loop", "examples/cages/octopus.obj:1",
+        "examples/cages/octopus.obj:2", "examples/cages/camera.obj:2",
+        "examples/cages/whale.obj:2:loop", "examples/cages/camera.obj",
         "examples/cages/lotus.obj", "examples/cages/octopus.obj", "examples/cages/whale.obj:loop"
     };
     int ok = 1;
