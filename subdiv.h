@@ -1842,7 +1842,7 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
     if (!context->result) memset(level->creased, 0, vertices);
 }
 
-// The same, and counts them: on level 0, which has all faces.
+// Lists the face-vertices at each vertex, in rising order, and counts them.
 static void sdv_level_count(sdv_level *level)
 {
     const int *vertices = level->face_vertices;
@@ -4135,58 +4135,6 @@ static int sdv_survives(float sharpness)
     return sharpness > 0 && sharpness <= SUBDIV_INFINITE;
 }
 
-// The creases of the result: each cage edge's, piece by piece along it. Sharpness fades without
-// regard to anything but other creases, so it is followed here apart from the surface: pieces
-// [n * count] of edges between ends [2 * count], where they meet others.
-static void sdv_fade_pieces(const int *ends, int count, int n, const float *pieces, float *next,
-                            float *sums, subdiv_creasing creasing)
-{
-    // At vertex v: the sum and number of semi-sharp ends.
-    for (int i = 0; i < 2 * count; i++)
-        sums[2 * (size_t)ends[i]] = sums[2 * (size_t)ends[i] + 1] = 0;
-    for (int i = 0; i < 2 * count; i++) {
-        float s = pieces[(size_t)(i / 2) * (size_t)n + (size_t)(i & 1 ? n - 1 : 0)];
-        float *sum = sums + 2 * (size_t)ends[i];
-        if (s <= 0 || s >= SUBDIV_INFINITE) continue;
-        sum[0] += s;
-        sum[1] += 1;
-    }
-    for (int i = 0; i < count; i++) {
-        const float *piece = pieces + (size_t)i * (size_t)n;
-        float *out = next + 2 * (size_t)i * (size_t)n;
-        for (int j = 0; j < 2 * n; j++) {
-            float s = piece[j / 2], sum[2] = { 0, 0 };
-            int beside = j & 1 ? j / 2 + 1 : j / 2 - 1;         // the piece that this half meets
-            if (beside < 0 || beside == n) {
-                const float *at = sums + 2 * (size_t)ends[2 * i + (beside == n)];
-                sum[0] = at[0];
-                sum[1] = at[1];
-            } else if (piece[beside] > 0) {
-                sum[0] = s + piece[beside];
-                sum[1] = 2;
-            }
-            out[j] = creasing == SUBDIV_CREASING_CHAIKIN ?
-                sdv_fade_chaikin(s, sum[0], (int)sum[1]) : sdv_fade(s);
-        }
-    }
-}
-
-static void sdv_add_creases(const sdv_order *order, int e, int a, int b, const float *pieces,
-                            subdiv_mesh *fine)
-{
-    int n = order->n, first = order->first_edge_point + e * (n - 1) - 1, from = a;
-    for (int j = 0; j < n; j++) {
-        int to = j + 1 == n ? b : a > b ? first + n - j - 1 : first + j + 1;
-        if (sdv_survives(pieces[j])) {
-            int i = fine->crease_count++;
-            fine->crease_vertices[2 * i] = from;
-            fine->crease_vertices[2 * i + 1] = to;
-            fine->crease_sharpness[i] = pieces[j];
-        }
-        from = to;
-    }
-}
-
 // Has the edge a face that is not left out of the result?
 static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage, int e)
 {
@@ -4194,73 +4142,6 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
     do seen |= !surface->hole[sdv_face_of(cage, h)];
     while ((h = cage->across[h]) != first);
     return seen;
-}
-
-static void sdv_surviving_creases(sdv_context *context, subdiv_surface *surface,
-                                  const sdv_level *cage, const float *pieces, const int *edges,
-                                  int count)
-{
-    subdiv_mesh *fine = &surface->fine;
-    size_t n = (size_t)surface->order.n, left = 0;
-    for (int i = 0; i < count; i++)
-        for (size_t j = 0; j < n && sdv_edge_is_seen(surface, cage, edges[i]); j++)
-            left += (size_t)sdv_survives(pieces[(size_t)i * n + j]);
-    if (left > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
-    fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * left);
-    fine->crease_sharpness = SDV_NEW(context, &surface->arena, float, left);
-    for (int i = 0; i < count && !context->result; i++) {
-        int h = cage->edge_first[edges[i]], a = cage->face_vertices[h];
-        int b = cage->face_vertices[sdv_next(cage, h)];
-        if (sdv_edge_is_seen(surface, cage, edges[i]))
-            sdv_add_creases(&surface->order, edges[i], a, b, pieces + (size_t)i * n, fine);
-    }
-}
-
-static void sdv_surviving_corners(sdv_context *context, subdiv_surface *surface,
-                                  const sdv_level *cage)
-{
-    subdiv_mesh *fine = &surface->fine;
-    int left = 0;
-    for (int v = 0; v < cage->vertex_count; v++) left += sdv_survives(cage->vertex_sharpness[v]);
-    fine->corner_vertices = SDV_NEW(context, &surface->arena, int, left);
-    fine->corner_sharpness = SDV_NEW(context, &surface->arena, float, left);
-    for (int v = 0; v < cage->vertex_count && !context->result; v++) {
-        float s = cage->vertex_sharpness[v];
-        for (int i = 0; i < surface->levels; i++) s = sdv_fade(s);
-        if (!sdv_survives(s)) continue;
-        fine->corner_vertices[fine->corner_count] = v;
-        fine->corner_sharpness[fine->corner_count++] = s;
-    }
-}
-
-// What is left of the user's creases and corners on the last level.
-static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surface,
-                                    const sdv_level *cage)
-{
-    sdv_arena scratch = sdv_scratch();
-    int *edges = SDV_NEW(context, &scratch, int, cage->edge_count), count = 0;
-    for (int e = 0; e < cage->edge_count && !context->result; e++)
-        if (sdv_survives(cage->sharpness[cage->edge_first[e]])) edges[count++] = e;
-    size_t pieces = (size_t)count << surface->levels;
-    int *ends = SDV_NEW(context, &scratch, int, 2 * (size_t)count);
-    float *from = SDV_NEW(context, &scratch, float, pieces);
-    float *to = SDV_NEW(context, &scratch, float, pieces);
-    float *sums = SDV_NEW(context, &scratch, float, 2 * (size_t)(count ? cage->vertex_count : 0));
-    for (int i = 0; i < count && !context->result; i++) {
-        int h = cage->edge_first[edges[i]];
-        from[i] = cage->sharpness[h];
-        ends[2 * i] = cage->face_vertices[h];
-        ends[2 * i + 1] = cage->face_vertices[sdv_next(cage, h)];
-    }
-    for (int i = 0; i < surface->levels && !context->result; i++) {
-        sdv_fade_pieces(ends, count, 1 << i, from, to, sums, surface->rules.creasing);
-        float *swap = from;
-        from = to;
-        to = swap;
-    }
-    if (!context->result) sdv_surviving_creases(context, surface, cage, from, edges, count);
-    sdv_surviving_corners(context, surface, cage);
-    sdv_arena_free(&scratch);
 }
 
 // What the weights of a limit row depend on, with the number of faces: all those around a smooth
@@ -4460,6 +4341,59 @@ static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_lev
         float s = cage->sharpness[cage->edge_first[e]];
         pieces->number[e] = sdv_is_semi_sharp(s) ? i : -1;
         if (sdv_is_semi_sharp(s)) pieces->next[i++] = s;
+    }
+}
+
+// The creases of the result on an edge, piece by piece; while there is no room they are only counted.
+static void sdv_add_creases(subdiv_mesh *fine, const sdv_order *order, const sdv_level *cage, int e,
+                            const sdv_pieces *pieces, size_t *count)
+{
+    int n = order->n, h = cage->edge_first[e], number = pieces->count ? pieces->number[e] : -1;
+    int from = cage->face_vertices[h], end = cage->face_vertices[sdv_next(cage, h)];
+    sdv_side side = sdv_seen_edge(order, e, from > end);
+    for (int j = 0; j < n; j++) {
+        int to = j + 1 == n ? end : side.first + side.step * (j + 1);
+        float s = number < 0 ? cage->sharpness[h] : pieces->next[(size_t)number * (size_t)n + (size_t)j];
+        if (sdv_survives(s) && fine->crease_vertices) {
+            fine->crease_vertices[2 * *count] = from;
+            fine->crease_vertices[2 * *count + 1] = to;
+            fine->crease_sharpness[*count] = s;
+        }
+        *count += (size_t)sdv_survives(s);
+        from = to;
+    }
+}
+
+static size_t sdv_surviving_creases(subdiv_surface *surface, const sdv_level *cage,
+                                    const sdv_pieces *pieces)
+{
+    size_t count = 0;
+    for (int e = 0; e < cage->edge_count; e++)
+        if (sdv_edge_is_seen(surface, cage, e))
+            sdv_add_creases(&surface->fine, &surface->order, cage, e, pieces, &count);
+    return count;
+}
+
+// What is left of the user's creases and corners on the last level, which the cage and pieces have.
+static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surface,
+                                    const sdv_level *cage, const sdv_pieces *pieces)
+{
+    subdiv_mesh *fine = &surface->fine;
+    size_t creases = sdv_surviving_creases(surface, cage, pieces);
+    int corners = 0;
+    for (int v = 0; v < cage->vertex_count; v++) corners += sdv_survives(cage->vertex_sharpness[v]);
+    if (creases > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
+    fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * creases);
+    fine->crease_sharpness = SDV_NEW(context, &surface->arena, float, creases);
+    fine->corner_vertices = SDV_NEW(context, &surface->arena, int, corners);
+    fine->corner_sharpness = SDV_NEW(context, &surface->arena, float, corners);
+    if (context->result) return;
+    if (creases) sdv_surviving_creases(surface, cage, pieces);
+    fine->crease_count = (int)creases;
+    for (int v = 0; v < cage->vertex_count; v++) {
+        if (!sdv_survives(cage->vertex_sharpness[v])) continue;
+        fine->corner_vertices[fine->corner_count] = v;
+        fine->corner_sharpness[fine->corner_count++] = cage->vertex_sharpness[v];
     }
 }
 
@@ -4728,6 +4662,8 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
         sdv_fill_level(&fill, surface, i);
         if (semi) sdv_fade_cage(cage);
     }
+    if (!context->result && !surface->own_face)
+        sdv_surviving_sharpness(context, surface, cage, &pieces);
     pieces.now = pieces.next;
     if (limit && !context->result) sdv_fill_limit(&fill, surface);
     sdv_writer_free(&fill.writer);
@@ -4987,8 +4923,6 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         sdv_no_result(surface);
         surface->exact_calls->prepare(context, surface, &built.level, built.hole, &scratch);
     } else if (!context->result && !alone) {
-        if (work.crease_count || work.corner_count)
-            sdv_surviving_sharpness(context, surface, &built.level);
         sdv_prepare_rows(context, surface, &built.level, &scratch);
     }
     sdv_arena_free(&scratch);
@@ -5093,11 +5027,6 @@ typedef struct sdv_window {             // a part of the result, four channels o
     int    clip;
     struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
 } sdv_window;
-
-// See >>limit-surface.
-static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across);
-static void sdv_put_four_tangents(const struct sdv_tangents *tangents, const int *at, int count,
-                                  sdv_four *along, sdv_four *across);
 
 SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
 {
@@ -5403,20 +5332,12 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
                                   int regular, const float *work, const sdv_window *out)
 {
     const int *row = batch->items + (size_t)(1 + width) * (size_t)first;
-    sdv_four p, t0[4], t1[4];
-    int at[4], n = 0;
+    sdv_four p, t0, t1;
     for (int i = first; i < end; i++, row += 1 + width) {
-        sdv_limit_row_sums(batch->limit, row + 1, width, regular, work, &p, &t0[n], &t1[n]);
+        sdv_limit_row_sums(batch->limit, row + 1, width, regular, work, &p, &t0, &t1);
         sdv_put_point(out, row[0], p);
-        at[n++] = row[0] - out->first;
-        if (!out->tangents) n = 0;
-        if (n < 4) continue;
-        sdv_transpose(t0);
-        sdv_transpose(t1);
-        sdv_put_four_tangents(out->tangents, at, out->count, t0, t1);
-        n = 0;
+        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1);
     }
-    for (int k = 0; k < n; k++) sdv_put_tangents(out, at[k] + out->first, t0[k], t1[k]);
 }
 
 static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, const float *work,
@@ -5550,10 +5471,23 @@ SDV_INLINE void sdv_put_last(sdv_points_run *run, sdv_four p)
 //     b   v---e---v           v = self v + edge (sum of v around) + face (sum of f around)
 //       f e   f   e
 //     a   v---e---v           here a, b, c are at the left, and columns run from first to last
-typedef struct sdv_quad_lines {
-    const sdv_four *a, *b, *c, *f, *g;
+typedef struct sdv_lines {
+    const sdv_four *a, *b, *c, *f, *g;  // f, g: of quads
     sdv_four origin, self, beside, corner, edge, across;
-} sdv_quad_lines;
+} sdv_lines;
+
+static sdv_lines sdv_begin_lines(const sdv_grid_step *step, sdv_four origin)
+{
+    sdv_lines q;
+    q.a = q.b = q.c = q.f = q.g = NULL;
+    q.origin = origin;
+    q.self = sdv_all((float)step->vertex.self);
+    q.beside = sdv_all((float)step->vertex.edge);
+    q.corner = sdv_all((float)step->vertex.face);
+    q.edge = sdv_all((float)step->edge.self);
+    q.across = sdv_all((float)step->edge.face);
+    return q;
+}
 
 SDV_INLINE void sdv_face_points(const sdv_four *a, const sdv_four *b, int cells, float weight,
                                 sdv_four *f)
@@ -5567,7 +5501,7 @@ SDV_INLINE void sdv_face_points(const sdv_four *a, const sdv_four *b, int cells,
 }
 
 // Row b, from cell k up to end: before the first cell there is no vertex point if k is 0.
-SDV_INLINE void sdv_vertex_points(const sdv_quad_lines *q, int k, int end, sdv_points_run *run)
+SDV_INLINE void sdv_vertex_points(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *a = q->a, *b = q->b, *c = q->c, *f = q->f, *g = q->g;
     sdv_four fours = k ? sdv_plus(f[k - 1], g[k - 1]) : sdv_all(0);
@@ -5592,7 +5526,7 @@ SDV_INLINE void sdv_vertex_points(const sdv_quad_lines *q, int k, int end, sdv_p
 }
 
 // The row between b and c.
-SDV_INLINE void sdv_edge_points(const sdv_quad_lines *q, int k, int end, sdv_points_run *run)
+SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *b = q->b, *c = q->c, *g = q->g;
     for (;; k++) {
@@ -5614,25 +5548,19 @@ static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, in
                              int last, const float *work, const sdv_window *out)
 {
     sdv_four rows[3][SDV_PIECE + 2], faces[2][SDV_PIECE + 1], made[2 * SDV_PIECE];
-    sdv_four *a = rows[0], *b = rows[1], *c = rows[2], *f = faces[0], *g = faces[1];
-    sdv_quad_lines q;
-    q.origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
-    q.self = sdv_all((float)step->vertex.self);
-    q.beside = sdv_all((float)step->vertex.edge);
-    q.corner = sdv_all((float)step->vertex.face);
-    q.edge = sdv_all((float)step->edge.self);
-    q.across = sdv_all((float)step->edge.face);
+    sdv_lines q = sdv_begin_lines(step, sdv_load(work + 4 * (size_t)grid->corner[0]));
     int low = first ? first - 1 : 0, skip = first ? 1 : 0, cells = last - low;
     int length = 2 * grid->columns - 1, at = target + (first ? 2 * first - 1 : 0);
     int count = 2 * (last - first) - !first;
-    sdv_load_row(grid, 0, low, last, work, q.origin, b);
+    sdv_load_row(grid, 0, low, last, work, q.origin, rows[0]);
     for (int r = 0; r < grid->rows; r++) {
+        sdv_four *b = rows[r % 3], *c = rows[(r + 1) % 3], *g = faces[r % 2];
         sdv_load_row(grid, r + 1, low, last, work, q.origin, c);
         sdv_face_points(b, c, cells, step->face, g);
-        q.a = a;
+        q.a = rows[(r + 2) % 3];
         q.b = b;
         q.c = c;
-        q.f = f;
+        q.f = faces[1 - r % 2];
         q.g = g;
         if (r > 0) {
             sdv_points_run run = sdv_begin_run(out, at + (2 * r - 1) * length, count, made);
@@ -5640,13 +5568,6 @@ static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, in
         }
         sdv_points_run run = sdv_begin_run(out, at + 2 * r * length, count, made);
         sdv_edge_points(&q, skip, cells, &run);
-        sdv_four *swap = a;
-        a = b;
-        b = c;
-        c = swap;
-        swap = f;
-        f = g;
-        g = swap;
     }
 }
 
@@ -5658,12 +5579,7 @@ static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, in
 //           e e e e
 //            \|  \|          v = self v + edge (sum of the six v around)
 //     b   v---e---v
-typedef struct sdv_triangle_lines {
-    const sdv_four *a, *b, *c;
-    sdv_four origin, self, beside, edge, across;
-} sdv_triangle_lines;
-
-SDV_INLINE sdv_four sdv_triangle_edge(const sdv_triangle_lines *q, sdv_four p0, sdv_four p1,
+SDV_INLINE sdv_four sdv_triangle_edge(const sdv_lines *q, sdv_four p0, sdv_four p1,
                                       sdv_four beside0, sdv_four beside1)
 {
     sdv_four e = sdv_plus(sdv_times(q->edge, sdv_plus(p0, p1)),
@@ -5672,7 +5588,7 @@ SDV_INLINE sdv_four sdv_triangle_edge(const sdv_triangle_lines *q, sdv_four p0, 
 }
 
 // Row b, from k up to end.
-SDV_INLINE void sdv_triangle_vertices(const sdv_triangle_lines *q, int k, int end, sdv_points_run *run)
+SDV_INLINE void sdv_triangle_vertices(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *a = q->a, *b = q->b, *c = q->c;
     for (;; k++) {
@@ -5692,7 +5608,7 @@ SDV_INLINE void sdv_triangle_vertices(const sdv_triangle_lines *q, int k, int en
 }
 
 // The row between b and c. whole: behind the last one there is no edge point on a long side.
-SDV_INLINE void sdv_triangle_edges(const sdv_triangle_lines *q, int k, int end, int whole,
+SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole,
                                    sdv_points_run *run)
 {
     const sdv_four *b = q->b, *c = q->c;
@@ -5718,23 +5634,18 @@ static void sdv_refine_triangles(const sdv_grid *grid, const sdv_grid_step *step
                                  int first, int last, const float *work, const sdv_window *out)
 {
     sdv_four rows[3][SDV_PIECE + 2], made[2 * SDV_PIECE];
-    sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
-    sdv_triangle_lines q;
-    q.origin = sdv_load(work + 4 * (size_t)grid->corner[0]);
-    q.self = sdv_all((float)step->vertex.self);
-    q.beside = sdv_all((float)step->vertex.edge);
-    q.edge = sdv_all((float)step->edge.self);
-    q.across = sdv_all((float)step->edge.face);
+    sdv_lines q = sdv_begin_lines(step, sdv_load(work + 4 * (size_t)grid->corner[0]));
     int n = grid->columns, low = first ? first - 1 : 0, skip = first ? 1 : 0;
     int column = first ? 2 * first : 1;
-    sdv_load_row(grid, 0, low, last, work, q.origin, b);
+    sdv_load_row(grid, 0, low, last, work, q.origin, rows[0]);
     for (int r = 0; r < n - first; r++) {
+        sdv_four *c = rows[(r + 1) % 3];
         int above = n - r - 1, end = last < n - r ? last : n - r, whole = end == n - r;
         int count = 2 * (end - first) - !first;
         if (low <= above)
             sdv_load_row(grid, r + 1, low, last < above ? last : above, work, q.origin, c);
-        q.a = a;
-        q.b = b;
+        q.a = rows[(r + 2) % 3];
+        q.b = rows[r % 3];
         q.c = c;
         if (r > 0) {
             int at = sdv_inside_point(target, 2 * n, 1, 2 * r, column);
@@ -5746,10 +5657,6 @@ static void sdv_refine_triangles(const sdv_grid *grid, const sdv_grid_step *step
             sdv_points_run run = sdv_begin_run(out, at, count - whole, made);
             sdv_triangle_edges(&q, skip, end - low, whole, &run);
         }
-        sdv_four *swap = a;
-        a = b;
-        b = c;
-        c = swap;
     }
 }
 
@@ -5806,10 +5713,7 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
     const int *edges = order->cage.face_edges + 3 * (size_t)f;
     const float *on_edges = work + 4 * (size_t)order->first_edge_point;
     sdv_four e[3], d[3], room[3];
-    sdv_triangle_lines q;
-    q.origin = sdv_load(on_edges + 4 * (size_t)edges[0]);
-    q.edge = sdv_all((float)step->edge.self);
-    q.across = sdv_all((float)step->edge.face);
+    sdv_lines q = sdv_begin_lines(step, sdv_load(on_edges + 4 * (size_t)edges[0]));
     e[0] = sdv_all(0);
     for (int i = 0; i < 3; i++) {
         d[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), q.origin);
@@ -5986,37 +5890,32 @@ static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, in
                            const float *points, const sdv_window *out)
 {
     sdv_four rows[3][SDV_PIECE + 2];
-    sdv_four *a = rows[0], *b = rows[1], *c = rows[2];
     sdv_limit_lines q;
     const sdv_four origin = sdv_load(points + 4 * (size_t)grid->corner[0]);
     int triangle = grid->triangle, n = grid->columns;
     sdv_begin_limit_lines(limit, triangle, &q);
-    sdv_load_row(grid, 0, first - 1, last, points, origin, a);
-    sdv_load_row(grid, 1, first - 1, last < n - triangle ? last : n - triangle, points, origin, b);
+    sdv_load_row(grid, 0, first - 1, last, points, origin, rows[0]);
+    sdv_load_row(grid, 1, first - 1, last < n - triangle ? last : n - triangle, points, origin,
+                 rows[1]);
     for (int r = 1; r < grid->rows - first * triangle; r++) {
         int count = (triangle && n - r < last ? n - r : last) - first, above = n - (r + 1) * triangle;
         int index = sdv_inside_index(grid, r, first);
-        sdv_load_row(grid, r + 1, first - 1, last < above ? last : above, points, origin, c);
-        q.a = a;
-        q.b = b;
-        q.c = c;
+        sdv_load_row(grid, r + 1, first - 1, last < above ? last : above, points, origin,
+                     rows[(r + 1) % 3]);
+        q.a = rows[(r + 2) % 3];
+        q.b = rows[r % 3];
+        q.c = rows[(r + 1) % 3];
         if (triangle) sdv_limit_row_points(&q, 1, count, index, origin, out);
         else sdv_limit_row_points(&q, 0, count, index, origin, out);
-        sdv_four *swap = a;
-        a = b;
-        b = c;
-        c = swap;
     }
 }
 
-// The limit of face points on level 1, each inside a quad of 2 x 2 cells: of them 4 at a time.
+// The limit of face points on level 1, each inside a quad of 2 x 2 cells.
 static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *order,
                               const float *points, int face, int end, const sdv_window *out)
 {
     const float *on_edges = points + 4 * (size_t)order->first_edge_point;
     float w[27];
-    sdv_four t0[4], t1[4];
-    int at[4], n = 0;
     for (int k = 0; k < 9; k++) {
         w[k] = (float)(k == 0 ? limit->mask.self : k < 5 ? limit->mask.edge : limit->mask.face);
         w[9 + k] = (float)limit->along[k];
@@ -6040,17 +5939,8 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
             sums[2] = p[2];
         }
         sdv_put_point(out, index, sdv_plus(p0, sums[0]));
-        if (!out->tangents) continue;
-        at[n] = index - out->first;
-        t0[n] = sums[1];
-        t1[n++] = sums[2];
-        if (n < 4) continue;
-        sdv_transpose(t0);
-        sdv_transpose(t1);
-        sdv_put_four_tangents(out->tangents, at, out->count, t0, t1);
-        n = 0;
+        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2]);
     }
-    for (int k = 0; k < n; k++) sdv_put_tangents(out, at[k] + out->first, t0[k], t1[k]);
 }
 
 static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, const float *points,
@@ -6390,6 +6280,15 @@ static void sdv_check_result(sdv_context *context, const subdiv_surface *surface
                  "the surface was prepared for SUBDIV_EXACT, for subdiv_evaluate_at");
 }
 
+// Has a surface a mesh to make? And is there what else the call needs?
+static void sdv_check_mesh_surface(sdv_context *context, const subdiv_surface *surface, int others)
+{
+    if (!others || !surface) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (surface->is_values)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
+    else sdv_check_result(context, surface);
+}
+
 static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
                             int first_face, int face_count, int first_point, int point_count)
 {
@@ -6708,10 +6607,7 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
 {
     sdv_context context = sdv_begin(opt);
     if (fine) memset(fine, 0, sizeof *fine);
-    if (!fine || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else if (surface->is_values)
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface is one of face-varying values");
-    sdv_check_result(&context, surface);
+    sdv_check_mesh_surface(&context, surface, fine != NULL);
     if (context.result) return context.result;
 
     subdiv_mesh made;
@@ -6799,32 +6695,15 @@ static sdv_place sdv_first_place(int h)
     return place;
 }
 
-// Lists the face-vertices at each vertex, in rising order.
-static void sdv_level_lists(sdv_level *level)
-{
-    const int *vertices = level->face_vertices;
-    int *first = level->vertex_first, *next = level->vertex_next;
-    for (int v = 0; v < level->vertex_count; v++) first[v] = -1;
-    for (int h = level->face_vertex_count - 1; h >= 0; h--) {
-        next[h] = first[vertices[h]];
-        first[vertices[h]] = h;
-    }
-}
-
 // What face points need, and what the next level needs besides.
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
-    memset(split, 0, sizeof *split);
-    split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
-    split->face = SDV_NEW(context, arena, int, level->face_count);
-}
-
-static void sdv_split_more(sdv_context *context, sdv_arena *arena, const sdv_level *level,
-                           sdv_split *split)
-{
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
-    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 4 * (vertices + faces) + 64);
+    memset(split, 0, sizeof *split);
+    sdv_reserve(context, arena, 8 * (size_t)level->face_vertex_count + 8 * (vertices + faces) + 64);
+    split->active = SDV_NEW(context, arena, unsigned char, level->vertex_count);
+    split->face = SDV_NEW(context, arena, int, faces);
     split->vertex = SDV_NEW(context, arena, int, vertices);
     split->edge = SDV_NEW(context, arena, int, level->face_vertex_count);
     split->child = SDV_NEW(context, arena, int, (size_t)level->face_vertex_count + faces);
@@ -7074,7 +6953,7 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     sdv_split_points(level, split, next, rules);
     if (loop) sdv_split_triangles(level, split, next);
     else sdv_split_quads(level, split, next);
-    sdv_level_lists(next);
+    sdv_level_count(next);
     sdv_level_fade(next);
 }
 
@@ -7934,7 +7813,6 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     if (!context->result && loop && n == 2 && kind->ring)
         sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
     if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
-    if (!context->result) sdv_split_more(context, &scratch, &cage.level, &split);
     kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
     if (!context->result) {
         for (int f = 0; f < 4 * n; f++) cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
@@ -8192,7 +8070,6 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
     sdv_split_new(context, &scratch, level, &split);
-    sdv_split_more(context, &scratch, level, &split);
     if (!context->result) {
         sdv_find_active(level, &split);
         sdv_number_faces(level, &split, loop);
@@ -14441,10 +14318,24 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     sdv_write_statements(out, &surface->fine, statement, surface->fine.face_count);
 }
 
+// Level 0 is a copy, no larger than the cage.
+static subdiv_result sdv_stream_copy(sdv_context *context, const subdiv_surface *surface,
+                                     const float *positions, subdiv_write write, void *user,
+                                     const subdiv_options *opt)
+{
+    subdiv_mesh copy;
+    context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
+    if (!context->result) sdv_save(context, &copy, write, user, opt);
+    subdiv_mesh_free(&copy);
+    return context->result;
+}
+
 static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surface,
                                 const float *positions, subdiv_write write, void *user,
                                 const subdiv_options *opt)
 {
+    if (surface->levels == 0)
+        return sdv_stream_copy(context, surface, positions, write, user, opt);
     sdv_arena arena = sdv_scratch();
     sdv_output out = sdv_open_output(context, &arena, write, user);
     subdiv_mesh fine = surface->fine;
@@ -14466,28 +14357,13 @@ static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surf
     return context->result;
 }
 
-// Level 0 is a copy, no larger than the cage.
-static subdiv_result sdv_stream_copy(sdv_context *context, const subdiv_surface *surface,
-                                     const float *positions, subdiv_write write, void *user,
-                                     const subdiv_options *opt)
-{
-    subdiv_mesh copy;
-    context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
-    if (!context->result) sdv_save(context, &copy, write, user, opt);
-    subdiv_mesh_free(&copy);
-    return context->result;
-}
-
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    if (!surface || !write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    sdv_check_result(&context, surface);
+    sdv_check_mesh_surface(&context, surface, write != NULL);
     if (context.result) return context.result;
-    if (surface->levels == 0)
-        return sdv_stream_copy(&context, surface, positions, write, user, opt);
     return sdv_stream(&context, surface, positions, write, user, opt);
 }
 
@@ -14612,16 +14488,13 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    if (!surface || !path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_positions(&context, positions, surface->cage_vertex_count);
+    sdv_check_mesh_surface(&context, surface, path != NULL);
+    if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
     if (context.result) return context.result;
     context.name = path;
     FILE *file = sdv_open(&context, path, "wb");
     if (!file) return context.result;
-    if (surface->levels == 0)
-        sdv_stream_copy(&context, surface, positions, sdv_write_file, file, opt);
-    else
-        sdv_stream(&context, surface, positions, sdv_write_file, file, opt);
+    sdv_stream(&context, surface, positions, sdv_write_file, file, opt);
     if (fclose(file)) sdv_fail_io(&context, "writing failed");
     return context.result;
 }
