@@ -1281,6 +1281,15 @@ static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *a
     return kept;
 }
 
+// A copy of count items; NULL if they are none or there is no memory.
+static void *sdv_duplicate(sdv_context *context, sdv_arena *arena, const void *from, size_t count,
+                           size_t item)
+{
+    void *copy = from ? sdv_new(context, arena, count, item) : NULL;
+    if (copy) sdv_copy(copy, from, count, item);
+    return copy;
+}
+
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
 {
     if (!mesh) return;
@@ -2216,24 +2225,27 @@ static float sdv_fade_chaikin(float s, float sum, int count)
     return s > 1 ? s - 1 : 0;
 }
 
+// Of the edges that lead on from v: the sum of what is semi-sharp, and how many are.
+static void sdv_sum_semi_sharp(const sdv_level *level, const float *sharpness, int v, float *sums)
+{
+    sums[0] = sums[1] = 0;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        if (sharpness[h] <= 0 || sharpness[h] >= SUBDIV_INFINITE) continue;
+        sums[0] += sharpness[h];
+        sums[1] += 1;
+    }
+}
+
 // The halves of edges at v, from the semi-sharp ones among them. Each leads on from a face-vertex
 // at v, as only a manifold edge between two faces is semi-sharp.
 static void sdv_fade_halves(sdv_level *level, int v)
 {
-    float sum = 0;
-    int count = 0, origin = level->origin ? level->origin[v] : -1;
-    for (int h = level->vertex_first[v]; h >= 0 && origin < 0; h = level->vertex_next[h]) {
-        float s = level->sharpness[h];
-        if (s <= 0 || s >= SUBDIV_INFINITE) continue;
-        sum += s;
-        count++;
-    }
-    if (origin >= 0) {
-        sum = level->sums[2 * origin];
-        count = (int)level->sums[2 * origin + 1];
-    }
+    int origin = level->origin ? level->origin[v] : -1;
+    float own[2];
+    const float *sums = origin >= 0 ? level->sums + 2 * (size_t)origin : own;
+    if (origin < 0) sdv_sum_semi_sharp(level, level->sharpness, v, own);
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        level->half_sharpness[h] = sdv_fade_chaikin(level->sharpness[h], sum, count);
+        level->half_sharpness[h] = sdv_fade_chaikin(level->sharpness[h], sums[0], (int)sums[1]);
 }
 
 // Only Chaikin's depend on other edges.
@@ -2718,6 +2730,18 @@ static int sdv_first_inside(const sdv_order *order, int f)
     return order->first_face_point + f + sdv_face_start(&order->cage, f) * (m * (m - 1));
 }
 
+// The face that has the point inside it.
+static int sdv_face_inside(const sdv_order *order, int point)
+{
+    int low = 0, high = order->cage.face_count;
+    while (low + 1 < high) {
+        int middle = low + (high - low) / 2;
+        if (sdv_first_inside(order, middle) <= point) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
 static int sdv_is_ngon(const sdv_order *order, int f)
 {
     return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
@@ -3036,7 +3060,8 @@ typedef struct sdv_writer {
     sdv_shape    shape;                 // of the last row that was looked up
     int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
     int          most;                  // with so many faces; or -1
-    int          crease, corner, middle;        // the same for vertices and edges that stay sharp
+    int          crease, corner, middle;        // the same for vertices and edges that stay sharp,
+    int          smooth_edge;                   // and for edges of the cage that are smooth
 } sdv_writer;
 
 // For rows of a cage, or of levels that are made of it.
@@ -3058,7 +3083,7 @@ static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_lev
     // A vertex, its faces and, on a crease or not manifold, up to twice as many neighbours.
     writer->points = SDV_NEW(context, &writer->scratch, int, 16 + 4 * (size_t)most);
     writer->smooth = SDV_NEW(context, &writer->scratch, int, (size_t)most + 1);
-    writer->crease = writer->corner = writer->middle = -1;
+    writer->crease = writer->corner = writer->middle = writer->smooth_edge = -1;
     for (int i = 0; i < 256; i++) writer->known[i] = -1;
     for (int i = 0; i <= most && !context->result; i++) writer->smooth[i] = -1;
 }
@@ -3379,27 +3404,30 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 // The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
 {
-    int faces = sdv_edge_faces(level, h), triangles = 0, k = h;
+    int faces = sdv_edge_faces(level, h), triangles = 0, beside = 0, k = h;
     float sharpness = level->sharpness[h];
     int stays_sharp = sharpness > 0 && sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    int *known = stays_sharp ? &writer->middle : NULL, *point = writer->points;
+    sdv_runs runs = { { 0, 0, 0, 0 }, { 2, 0, 0, 0 }, sharpness > 0 && !stays_sharp };
     if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
         triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
-    sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
-    int *point = writer->points, *known = stays_sharp ? &writer->middle : NULL;
+    if (sharpness <= 0 && !triangles && !rules->linear) known = &writer->smooth_edge;
     if (known && *known >= 0) {
-        int *row = sdv_put_row(writer, *known, writer->target);
-        row[0] = level->first_point + level->face_vertices[h];
-        row[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
-        return;
+        point = sdv_put_row(writer, *known, writer->target);
+        beside = stays_sharp ? 0 : 2;
+    } else {
+        sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
+        runs.weight[0] = (float)mask.self;
+        runs.weight[3] = (float)mask.face;
+        beside = runs.count[3] = mask.face != 0 ? faces : 0;
     }
-    sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face },
-                      { 2, 0, 0, mask.face != 0 ? faces : 0 }, sharpness > 0 && !stays_sharp };
     point[0] = level->first_point + level->face_vertices[h];
     point[1] = level->first_point + level->face_vertices[sdv_next(level, h)];
-    for (int i = 0; i < runs.count[3]; i++, k = level->across[k])
+    for (int i = 0; i < beside; i++, k = level->across[k])
         point[2 + i] = rules->loop ?
             level->first_point + level->face_vertices[sdv_previous(level, k)] :
             level->face_point[sdv_face_of(level, k)];
+    if (known && *known >= 0) return;
     int number = sdv_add_runs(writer, &runs, writer->target);
     if (known) *known = number;
 }
@@ -3436,7 +3464,6 @@ typedef struct sdv_filler {
     int          target;                // next
     int         *line, *left, *right;   // [n + 1]
     int          odd, even;             // batches of the points on smooth edges,
-    int          edge;                  // of the cage's smooth edges
     sdv_last_row sharp[2];              // the last odd and even one
     int          edges;                 // that have their rows; faces meet them in this order
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
@@ -3922,12 +3949,7 @@ static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv
     sdv_copy(s, cage->sharpness, (size_t)cage->face_vertex_count, sizeof(float));
     for (int i = 0; i < levels; i++) {
         for (int v = 0; v < cage->vertex_count; v++, sums += 2) {
-            sums[0] = sums[1] = 0;
-            for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
-                if (s[h] <= 0 || s[h] >= SUBDIV_INFINITE) continue;
-                sums[0] += s[h];
-                sums[1] += 1;
-            }
+            sdv_sum_semi_sharp(cage, s, v, sums);
             for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h])
                 s[h] = sdv_fade_chaikin(s[h], sums[0], (int)sums[1]);
         }
@@ -4443,14 +4465,9 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     sdv_runs odd = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, loop ? 2 : 4 }, 0 };
     sdv_runs even = { { (float)vertex.self, 0, (float)vertex.edge, (float)vertex.face },
                       { 1, 0, loop ? 6 : 4, loop ? 0 : 4 }, 0 };
-    sdv_shape shape = sdv_shape_of(&odd);
-    fill->odd = sdv_find_open(&fill->writer, &shape, NULL);
-    shape = sdv_shape_of(&even);
-    fill->even = sdv_find_open(&fill->writer, &shape, NULL);
-    edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
-    sdv_runs smooth_edge = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, 2 }, 0 };
-    shape = sdv_shape_of(&smooth_edge);
-    fill->edge = sdv_find_open(&fill->writer, &shape, NULL);
+    sdv_shape shapes[2] = { sdv_shape_of(&odd), sdv_shape_of(&even) };
+    fill->odd = sdv_find_open(&fill->writer, &shapes[0], NULL);
+    fill->even = sdv_find_open(&fill->writer, &shapes[1], NULL);
     fill->from = sdv_order_at(surface, level);
     fill->to = sdv_order_at(surface, level + 1);
     fill->base = fill->level->first_point = surface->bases[level];
@@ -4467,27 +4484,13 @@ static void sdv_fill_vertex(sdv_filler *fill, int v)
     sdv_vertex_row(fill->level, fill->rules, v, &fill->writer);
 }
 
-// The edge point of a smooth edge of the cage, from h to next and on the other side q.
-static void sdv_fill_edge(sdv_filler *fill, int target, int h, int next, int f)
-{
-    const sdv_level *level = fill->level;
-    int q = level->across[h], *row = sdv_put_row(&fill->writer, fill->edge, target);
-    row[0] = level->face_vertices[h];
-    row[1] = level->face_vertices[next];
-    row[2] = fill->rules->loop ? level->face_vertices[sdv_previous(level, h)] : level->face_point[f];
-    row[3] = fill->rules->loop ? level->face_vertices[sdv_previous(level, q)]
-                               : level->face_point[sdv_face_of(level, q)];
-}
-
 // The rows that belong to face f: of the vertices and edges that no face before it has, and those
 // inside it that are not on a grid.
 static void sdv_fill_face(sdv_filler *fill, int f)
 {
     sdv_writer *writer = &fill->writer;
     const sdv_level *level = fill->level;
-    const sdv_rules *rules = fill->rules;
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f), cage = !level->order;
-    int plain = !rules->linear && rules->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK;
     sdv_batch_face(writer, f);
     for (int h = start; h < end; h++) {
         int v = level->face_vertices[h], e = level->face_edges[h];
@@ -4495,9 +4498,8 @@ static void sdv_fill_face(sdv_filler *fill, int f)
         if (e != fill->edges) continue;
         fill->edges++;
         writer->target = fill->target + fill->to.first_edge_point + e;
-        if (!cage) sdv_line_rows(fill, h);
-        else if (level->sharpness[h] > 0 || !plain) sdv_edge_row(level, rules, h, writer);
-        else sdv_fill_edge(fill, writer->target, h, h + 1 < end ? h + 1 : start, f);
+        if (cage) sdv_edge_row(level, fill->rules, h, writer);
+        else sdv_line_rows(fill, h);
     }
     if (!cage && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
 }
@@ -4711,22 +4713,22 @@ static void sdv_no_result(subdiv_surface *surface)
 static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *work)
 {
     subdiv_mesh *fine = &surface->fine;
+    sdv_arena *arena = &surface->arena;
     size_t creases = (size_t)work->crease_count, corners = (size_t)work->corner_count;
     *fine = *work;
     surface->work_count = work->vertex_count;
     fine->positions = NULL;
     fine->memory = NULL;
-    fine->crease_vertices = SDV_NEW(context, &surface->arena, int, 2 * creases);
-    fine->crease_sharpness = SDV_NEW(context, &surface->arena, float, creases);
-    fine->corner_vertices = SDV_NEW(context, &surface->arena, int, corners);
-    fine->corner_sharpness = SDV_NEW(context, &surface->arena, float, corners);
-    fine->holes = SDV_NEW(context, &surface->arena, int, work->hole_count);
-    if (context->result) return;
-    sdv_copy(fine->crease_vertices, work->crease_vertices, 2 * creases, sizeof(int));
-    sdv_copy(fine->crease_sharpness, work->crease_sharpness, creases, sizeof(float));
-    sdv_copy(fine->corner_vertices, work->corner_vertices, corners, sizeof(int));
-    sdv_copy(fine->corner_sharpness, work->corner_sharpness, corners, sizeof(float));
-    sdv_copy(fine->holes, work->holes, (size_t)work->hole_count, sizeof(int));
+    fine->crease_vertices = (int *)sdv_duplicate(context, arena, work->crease_vertices, creases,
+                                                 2 * sizeof(int));
+    fine->crease_sharpness = (float *)sdv_duplicate(context, arena, work->crease_sharpness, creases,
+                                                    sizeof(float));
+    fine->corner_vertices = (int *)sdv_duplicate(context, arena, work->corner_vertices, corners,
+                                                 sizeof(int));
+    fine->corner_sharpness = (float *)sdv_duplicate(context, arena, work->corner_sharpness, corners,
+                                                    sizeof(float));
+    fine->holes = (int *)sdv_duplicate(context, arena, work->holes, (size_t)work->hole_count,
+                                       sizeof(int));
 }
 
 // Values at the vertices of faces that are to be refined along.
@@ -4815,15 +4817,11 @@ static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const su
     made->fine.memory = NULL;
     made->fine.vertex_count = made->cage_vertex_count = made->work_count = values->count;
     made->cage_face_count = made->face_count = work->face_count;
-    made->fine.face_vertices = SDV_NEW(context, &made->arena, int, count);
-    if (!work->face_size) {
-        made->fine.face_sizes = SDV_NEW(context, &made->arena, int, work->face_count);
-        if (!context->result)
-            sdv_copy(made->fine.face_sizes, work->face_sizes, (size_t)work->face_count,
-                     sizeof(int));
-    }
-    if (!context->result)
-        sdv_copy(made->fine.face_vertices, values->indices, count, sizeof(int));
+    made->fine.face_vertices = (int *)sdv_duplicate(context, &made->arena, values->indices, count,
+                                                    sizeof(int));
+    if (!work->face_size)
+        made->fine.face_sizes = (int *)sdv_duplicate(context, &made->arena, work->face_sizes,
+                                                     (size_t)work->face_count, sizeof(int));
 }
 
 // Statements stand before the first fine face of their face, or of the next one that has any.
@@ -4853,11 +4851,10 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 {
     size_t uvs = 2 * (size_t)cage->uv_count;
     size_t colors = cage->colors ? 3 * (size_t)cage->vertex_count : 0;
-    surface->uvs = SDV_NEW(context, &surface->arena, float, uvs);
-    if (colors) surface->colors = SDV_NEW(context, &surface->arena, float, colors);
+    sdv_arena *arena = &surface->arena;
+    surface->uvs = (float *)sdv_duplicate(context, arena, cage->uvs, uvs, sizeof(float));
+    surface->colors = (float *)sdv_duplicate(context, arena, cage->colors, colors, sizeof(float));
     if (context->result) return;
-    sdv_copy(surface->uvs, cage->uvs, uvs, sizeof(float));
-    sdv_copy(surface->colors, cage->colors, colors, sizeof(float));
     surface->fine.uv_count = surface->uv ? surface->uv->fine.vertex_count : 0;
     surface->fine.uvs = surface->fine.normals = NULL;
     surface->fine.face_uvs = NULL;
@@ -7783,6 +7780,19 @@ static void sdv_part_triangles(sdv_level *level, int dart)
         }
 }
 
+// What the next level has of a level, and the rows to it.
+static void sdv_split_rows(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
+                           sdv_batches *refine, sdv_arena *scratch)
+{
+    int loop = maker->surface->rules.loop;
+    sdv_split_new(maker->writer->context, scratch, level, split);
+    if (maker->writer->context->result) return;
+    sdv_find_active(level, split);
+    sdv_number_faces(level, split, loop);
+    sdv_number_points(level, split, loop);
+    sdv_exact_rows(level, &maker->surface->rules, split, maker->writer, refine);
+}
+
 // Builds a kind: one step of refinement of a small mesh.
 static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
 {
@@ -7812,15 +7822,10 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
     if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
     if (!context->result && loop && n == 2 && kind->ring)
         sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
-    if (!context->result) sdv_split_new(context, &scratch, &cage.level, &split);
     kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
-    if (!context->result) {
-        for (int f = 0; f < 4 * n; f++) cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
-        sdv_find_active(&cage.level, &split);
-        sdv_number_faces(&cage.level, &split, loop);
-        sdv_number_points(&cage.level, &split, loop);
-        sdv_exact_rows(&cage.level, rules, &split, maker->writer, kind->refine);
-    }
+    for (int f = 0; f < 4 * n && !context->result; f++)
+        cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
+    if (!context->result) sdv_split_rows(maker, &cage.level, &split, kind->refine, &scratch);
     if (!context->result)
         sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
     if (!context->result) {
@@ -8069,13 +8074,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
-    sdv_split_new(context, &scratch, level, &split);
-    if (!context->result) {
-        sdv_find_active(level, &split);
-        sdv_number_faces(level, &split, loop);
-        sdv_number_points(level, &split, loop);
-        sdv_exact_rows(level, &surface->rules, &split, maker->writer, &surface->refine[2 * depth]);
-    }
+    sdv_split_rows(maker, level, &split, &surface->refine[2 * depth], &scratch);
     if (!context->result)
         sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
     if (!context->result) sdv_exact_children(maker, level, &split, next, next_arena);
@@ -8087,13 +8086,12 @@ static void sdv_find_absent(sdv_context *context, subdiv_surface *surface,
                             const unsigned char *hole)
 {
     int any = 0, faces = surface->face_count;
-    for (int f = 0; f < faces; f++)
-        any |= hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
-    if (!any) return;
     unsigned char *absent = SDV_NEW(context, &surface->arena, unsigned char, faces);
-    surface->exact->absent = absent;
-    for (int f = 0; f < faces && absent; f++)
+    for (int f = 0; f < faces && absent; f++) {
         absent[f] = hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
+        any |= absent[f];
+    }
+    if (any) surface->exact->absent = absent;
 }
 
 static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
@@ -10053,15 +10051,10 @@ static void sdv_batch_row(const sdv_batch *batch, const int *row, sdv_stencil_ro
 static int sdv_find_on_grid(const sdv_order *order, int index, int *row, int *column)
 {
     const sdv_level *cage = &order->cage;
-    int low = 0, high = cage->face_count - 1;
-    while (low < high) {
-        int middle = high - (high - low) / 2;
-        if (sdv_first_inside(order, middle) <= index) low = middle;
-        else high = middle - 1;
-    }
-    int start = sdv_face_start(cage, low), sides = sdv_face_end(cage, low) - start, grid = 0;
-    int ngon = sdv_is_ngon(order, low), m = ngon ? order->m : order->n, length = m - 1;
-    index -= sdv_first_inside(order, low);
+    int f = sdv_face_inside(order, index), start = sdv_face_start(cage, f);
+    int sides = sdv_face_end(cage, f) - start, grid = 0;
+    int ngon = sdv_is_ngon(order, f), m = ngon ? order->m : order->n, length = m - 1;
+    index -= sdv_first_inside(order, f);
     if (ngon) {
         index -= 1 + sides * (m - 1);
         grid = index / (length * length);
@@ -13050,22 +13043,10 @@ static void sdv_push_float(sdv_context *context, sdv_array *array, float value)
     if (item) *item = value;
 }
 
-// The items that are missing up to count become value. So an array that most files need not have
-// is made when its first item with another value comes.
-static void sdv_fill_ints(sdv_context *context, sdv_array *array, size_t count, int value)
-{
-    while (array->count < count && !context->result) sdv_push_int(context, array, value);
-}
-
-static void sdv_fill_floats(sdv_context *context, sdv_array *array, size_t count, float value)
-{
-    while (array->count < count && !context->result) sdv_push_float(context, array, value);
-}
-
 // Ints or floats, many of them: they stay where they were written until all are there.
 typedef struct sdv_link {
     sdv_block block;
-    size_t count, unused;               // of the items behind this head
+    size_t count;                       // of the items behind this head
 } sdv_link;
 
 typedef struct sdv_series {
@@ -13355,7 +13336,8 @@ static const char *sdv_read_vertex(sdv_obj *obj, const char *p)
     sdv_series_add(&obj->positions, 3);
     obj->mesh.vertex_count++;
     if (count == 6 || count == 7) {
-        sdv_fill_floats(obj->context, &obj->colors, colored, 1);
+        while (obj->colors.count < colored && !obj->context->result)
+            sdv_push_float(obj->context, &obj->colors, 1);      // the vertices before have none
         for (int i = 3; i < 6; i++) sdv_push_float(obj->context, &obj->colors, numbers[i]);
     }
     return p;
@@ -13442,8 +13424,8 @@ SDV_INLINE void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
     }
     if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
     if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
-        sdv_fill_ints(obj->context, &obj->face_sizes, (size_t)obj->mesh.face_count,
-                      obj->mesh.face_size);
+        while (obj->face_sizes.count < (size_t)obj->mesh.face_count && !obj->context->result)
+            sdv_push_int(obj->context, &obj->face_sizes, obj->mesh.face_size);
         sdv_push_int(obj->context, &obj->face_sizes, (int)size);
     }
     obj->mesh.face_count++;
@@ -13936,8 +13918,9 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
         mesh->face_size = 0;
         mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
     }
-    if (obj->colors.count)
-        sdv_fill_floats(obj->context, &obj->colors, 3 * (size_t)mesh->vertex_count, 1);
+    size_t colors = obj->colors.count ? 3 * (size_t)mesh->vertex_count : 0;
+    while (obj->colors.count < colors && !obj->context->result)
+        sdv_push_float(obj->context, &obj->colors, 1);
     mesh->colors = (float *)sdv_items(&obj->colors);
     sdv_finish_uvs(obj);
     sdv_finish_statements(obj);
@@ -14231,18 +14214,6 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
     return sdv_save(&context, mesh, write, user, opt);
 }
 
-// The last cage face whose inside begins at or before a point of the result.
-static int sdv_face_inside(const subdiv_surface *surface, int point)
-{
-    int low = 0, high = surface->cage_face_count;
-    while (low + 1 < high) {
-        int middle = low + (high - low) / 2;
-        if (sdv_first_inside(&surface->order, middle) <= point) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
 #define SDV_STREAM_POINTS (1 << 20)
 
 // The points of a surface, width numbers each, a window at a time. The first windows hold the
@@ -14263,8 +14234,8 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
         int limit = first < inside ? inside : total, face = 0, faces = surface->cage_face_count;
         end = limit - first > SDV_STREAM_POINTS ? first + SDV_STREAM_POINTS : limit;
         if (first >= inside) {
-            face = sdv_face_inside(surface, first);
-            faces = sdv_face_inside(surface, end - 1) + 1 - face;
+            face = sdv_face_inside(&surface->order, first);
+            faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
         }
         result = subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
                                        window, width, opt);

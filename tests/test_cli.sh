@@ -460,7 +460,7 @@ busy() {
 }
 
 if [ -p pipe ] && [ -f /proc/self/schedstat ]; then
-    "$program" -j 2 -l 5 ../../examples/cages/octopus.obj pipe &
+    "$program" -j 2 -l 7 ../../examples/cages/octopus.obj pipe &
     fine "-j 2: both threads refine" busy $!
     kill $!
     wait $! 2> /dev/null
