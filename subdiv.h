@@ -3404,18 +3404,20 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 // The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
 {
-    int faces = sdv_edge_faces(level, h), triangles = 0, beside = 0, k = h;
+    int triangles = 0, beside = 2, k = h, *known = NULL, *point = writer->points;
+    int smooth_triangles = rules->triangles == SUBDIV_TRIANGLES_SMOOTH;
     float sharpness = level->sharpness[h];
     int stays_sharp = sharpness > 0 && sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
-    int *known = stays_sharp ? &writer->middle : NULL, *point = writer->points;
     sdv_runs runs = { { 0, 0, 0, 0 }, { 2, 0, 0, 0 }, sharpness > 0 && !stays_sharp };
-    if (faces == 2 && rules->triangles == SUBDIV_TRIANGLES_SMOOTH)
-        triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
-    if (sharpness <= 0 && !triangles && !rules->linear) known = &writer->smooth_edge;
+    if (stays_sharp) known = &writer->middle;
+    if (sharpness <= 0 && !smooth_triangles && !rules->linear) known = &writer->smooth_edge;
     if (known && *known >= 0) {
         point = sdv_put_row(writer, *known, writer->target);
-        beside = stays_sharp ? 0 : 2;
+        if (stays_sharp) beside = 0;
     } else {
+        int faces = sdv_edge_faces(level, h);
+        if (faces == 2 && smooth_triangles)
+            triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
         sdv_mask mask = sdv_edge_mask(rules, sharpness, stays_sharp, faces, triangles);
         runs.weight[0] = (float)mask.self;
         runs.weight[3] = (float)mask.face;
@@ -4638,8 +4640,9 @@ static void sdv_find_bases(sdv_context *context, subdiv_surface *surface)
     }
 }
 
+// sharpness: the result has what is left of the cage's.
 static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
-                             sdv_arena *scratch)
+                             int sharpness, sdv_arena *scratch)
 {
     int levels = surface->levels, limit = surface->rules.limit;
     size_t n = (size_t)1 << levels;
@@ -4664,8 +4667,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
         sdv_fill_level(&fill, surface, i);
         if (semi) sdv_fade_cage(cage);
     }
-    if (!context->result && !surface->own_face)
-        sdv_surviving_sharpness(context, surface, cage, &pieces);
+    if (!context->result && sharpness) sdv_surviving_sharpness(context, surface, cage, &pieces);
     pieces.now = pieces.next;
     if (limit && !context->result) sdv_fill_limit(&fill, surface);
     sdv_writer_free(&fill.writer);
@@ -4804,7 +4806,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
         made->exact_calls->prepare(context, made, &seams.level, cage->hole, &scratch);
         return;
     }
-    sdv_prepare_rows(context, made, &seams.level, &scratch);
+    sdv_prepare_rows(context, made, &seams.level, 0, &scratch);
     sdv_arena_free(&scratch);
 }
 
@@ -4920,7 +4922,8 @@ static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const sub
         sdv_no_result(surface);
         surface->exact_calls->prepare(context, surface, &built.level, built.hole, &scratch);
     } else if (!context->result && !alone) {
-        sdv_prepare_rows(context, surface, &built.level, &scratch);
+        sdv_prepare_rows(context, surface, &built.level, work.crease_count || work.corner_count,
+                         &scratch);
     }
     sdv_arena_free(&scratch);
 }
