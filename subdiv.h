@@ -68,16 +68,15 @@
              >>order     where each point of the result stands
              >>rows      masks written out as rows of weights, and these in batches
              >>lines     rows of finer levels, which follow from where the points stand
-             >>split     the faces, edges and sharpness of the next level, where needed
-             >>patches   regular faces: their control points
              >>face-varying  UVs: a topology of their own
-             >>prepare   all levels of a cage, as far as they are needed
-        *    >>evaluate  values through the rows; patches in closed form
-             >>limit-surface  the same in the limit, with tangents and normals
+             >>prepare   a surface: >>limit-rows and >>fill make its rows, >>create all of it
+             >>results   where values go; >>limit-surface: tangents and normals
         *    >>grids     the general step: points of a level from those of the level before
-             >>exact-surface  and anywhere between the points: >>nests around irregular vertices,
-                         the >>tree of all leaves, >>locations on it and the >>cells of those,
-                         their >>polynomials, >>samples of them
+             >>evaluate  all levels and any part of the result; >>results-as-meshes
+             >>exact-surface  the limit anywhere between the points: >>split the next level, where
+                         needed, >>patches regular faces, >>nests around irregular vertices, the
+                         >>tree of all leaves, >>locations on it and the >>cells of those, their
+                         >>polynomials, >>samples of them
              >>stencils  all of them as weights
              >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
                          >>tessellator that makes a mesh of them
@@ -401,9 +400,9 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs: for the points of all levels
-// but the last and, of a limit, those of the last one. SIZE_MAX if that is more than the machine can
-// address.
+// Bytes of scratch memory that an evaluation of so many channels needs: for the points of all
+// levels but the last and, of a limit, those of the last one. SIZE_MAX if that is more than the
+// machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
@@ -568,9 +567,9 @@ typedef struct subdiv_stencils {
 } subdiv_stencils;
 
 // Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
-// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. The work
-// is that of the points asked for and a look at the cage's faces; scratch memory of up to 250
-// bytes a point, so take large results in pieces. Errors: ARGUMENT, INDEX, MEMORY.
+// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. Each call
+// looks at all rows of the surface, with 30 to 100 bytes of scratch memory for each point of the
+// whole result, besides the stencils: ask for many points at once. Errors: ARGUMENT, INDEX, MEMORY.
 SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  const subdiv_surface *surface,
                                                  int first_point, int point_count,
@@ -823,8 +822,8 @@ typedef size_t (*subdiv_write)(void *user, const void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
                                                   void *user, const subdiv_options *opt);
 
-// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj, without
-// the mesh. What is in memory is the scratch memory of an evaluation, see >>animation.
+// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj,
+// without the mesh. What is in memory is the scratch memory of an evaluation, see >>animation.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
@@ -1689,10 +1688,12 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 //
 // More words, for the inside:
 //     order       where the points of the result stand, in closed form, on the grids of cage faces
-//     core        the faces of a level that make points of the result (others are there for the
-//                 masks of those); rough: the ones among them that are no patch on this level
-//     row         the weights of one point
+//     row         the weights of one point; batch: rows of the same shape
+//     work point  a point of any level but the last, or of a limit also that; all in one array
+//     line        the points inside an edge of the cage; grid: those inside a face
 //     patch       a regular face, its control points; strips: between semi-sharp creases, a part
+//     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks);
+//                 rough: those among them that are no patch on this level
 //     nest        a vertex that stays irregular on every level, and the faces around it
 //     leaf        of the tree that finds the place of (face, u, v): a patch or a face of a nest
 //     tile        a face with rates of its own; home: of a shared point, the face that makes it
@@ -1748,11 +1749,10 @@ typedef struct sdv_level {
     float *sums;                        // [2 * origin_count]   not needed (see >>face-varying)
 
     int    first_point;                 // vertex v is work point first_point + v
-    const struct sdv_order *order;      // the cage on a later level: where its points stand; or NULL
+    const struct sdv_order *order;      // of the cage on a later level: its points; else NULL
     int   *face_point;                  // [face_count]         work points of the face points
-    sdv_place *places;                  // [face_count]         NULL on level 0
-    unsigned char *core;                // [face_count]         makes points of the result; the
-                                        //                      others are there for their masks
+    sdv_place *places;                  // [face_count]         of SUBDIV_EXACT; NULL on level 0
+    unsigned char *core;                // [face_count]         becomes leaves of SUBDIV_EXACT
     unsigned char *rough;               // [face_count]         in the core, and not a patch
 } sdv_level;
 
@@ -2309,8 +2309,8 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
-// The sharp edges at a vertex: how many now and on the next level, and of those that fade away until
-// then how many and the sum of their sharpness.
+// The sharp edges at a vertex: how many now and on the next level, and of those that fade away
+// until then how many and the sum of their sharpness.
 typedef struct sdv_sharp_edges {
     int   now, next, ending;
     float sum;
@@ -3000,8 +3000,8 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 // masks have one or two weights beside the first: p0 + w ((p1 - p0) + (p2 - p0) + ..).
 //
 // Rows stand in batches of those that look alike, whose loop needs no branch for a point and keeps
-// its weights in registers. Batches stand in blocks, each of the rows of so many cage faces, so that
-// any range of faces can be made alone.
+// its weights in registers. Batches stand in blocks, each of the rows of so many cage faces, so
+// that any range of faces can be made alone.
 
 // Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
 #define SDV_RUNS 4
@@ -3053,13 +3053,13 @@ typedef struct sdv_writer {
     sdv_array    open;                  // sdv_open_batch: one of each shape that there was
     int          known[256];            // numbers of these by the hash of their shape, or -1
     sdv_array    batches, starts;       // sdv_batch, int
-    sdv_array    strips;                // sdv_strips: see >>patches
+    sdv_array    strips;                // sdv_strips: of SUBDIV_EXACT, see >>patches
     int          rows, face;            // face: the rows that follow belong to it
     int          target;                // the point that the next row makes
     int         *points;                // room for those of a row
     sdv_shape    shape;                 // of the last row that was looked up
-    int         *smooth;                // [most + 1] the numbers of open batches for smooth vertices
-    int          most;                  // with so many faces; or -1
+    int         *smooth;                // [most + 1] open batches of smooth vertices with so many
+    int          most;                  // faces; or -1
     int          crease, corner, middle;        // the same for vertices and edges that stay sharp,
     int          smooth_edge;                   // and for edges of the cage that are smooth
 } sdv_writer;
@@ -3257,7 +3257,8 @@ static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
     int *point = writer->points;
-    sdv_runs runs = { { (float)sdv_face_weight(end - start), 0, 0, 0 }, { end - start, 0, 0, 0 }, 0 };
+    int size = end - start;
+    sdv_runs runs = { { (float)sdv_face_weight(size), 0, 0, 0 }, { size, 0, 0, 0 }, 0 };
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
     sdv_add_runs(writer, &runs, writer->target);
 }
@@ -3290,8 +3291,8 @@ static int sdv_inside_corner(const sdv_order *order, int f, int i)
     return inside + (i >= 2 ? (n - 2) * (n - 1) : 0) + (i == 1 || i == 2 ? n - 2 : 0);
 }
 
-// The points next to the vertex of h: along the edge that leads on, along the one before, and across
-// the face.
+// The points next to the vertex of h: along the edge that leads on, along the one before, and
+// across the face.
 static int sdv_point_ahead(const sdv_level *level, int h)
 {
     if (!level->order) return level->first_point + level->face_vertices[sdv_next(level, h)];
@@ -3331,8 +3332,6 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
     return point;
 }
 
-// Without a crease each edge at v lies between two faces. The cage on a later level has no face
-// points: see >>lines.
 // Where the number of the batch of such vertices is kept; NULL: of a blend of two rules.
 static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
 {
@@ -3360,6 +3359,8 @@ static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
     }
 }
 
+// Without a crease each edge at v lies between two faces. The cage on a later level has no face
+// points: see >>lines.
 static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v,
                            sdv_writer *writer)
 {
@@ -3446,8 +3447,9 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 //     v-o-o-o-v   line                                            v-o-o-o-v
 //     . . . . .   right                                            . . . .     right
 //
-// Such rows need no face points: a face point is the mean of four points, a corner of the face each,
-// so that a mask is as well one of the points at the edges' ends and of those across the faces.
+// Such rows need no face points: a face point is the mean of four points, a corner of the face
+// each, so that a mask is as well one of the points at the edges' ends and of those across the
+// faces.
 
 // A row on an edge that is sharp, or was: most are like the last one.
 typedef struct sdv_last_row {
@@ -3522,7 +3524,8 @@ static void sdv_points_beside(const sdv_filler *fill, int h, int backwards, int 
         int along = i == 0 ? 1 : i == 1 ? n - 1 : i == 2 ? -1 : 1 - n;
         for (int t = 1; t < n; t++, at += step, first += along) *at = first;
     } else {
-        int quad = sdv_inside_ngon(inside, sides, m, i), after = sdv_inside_ngon(inside, sides, m, next);
+        int quad = sdv_inside_ngon(inside, sides, m, i);
+        int after = sdv_inside_ngon(inside, sides, m, next);
         for (int t = 1; t < m; t++, at += step) *at = quad + t - 1;
         *at = m == 1 ? inside : inside + 1 + i * (m - 1) + m - 2;       // on the spoke
         at += step;
@@ -3583,7 +3586,7 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
         sdv_points_around(fill, loop, t, sdv_put_row(&fill->writer, fill->even, at));
 }
 
-// Adds a row on a sharp edge; runs say what it is if it is not like the last one.
+// Adds a row on a sharp edge that is not like the last one, and remembers it.
 static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
 {
     memcpy(row->key, key, sizeof row->key);
@@ -4003,7 +4006,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 
 // ------------------------------------------------------------------------------- >>prepare
 
-// Rows that make points of the limit and their tangents from the last level: see sdv_limit_row.
+// The mask of a limit row: see >>limit-rows.
 typedef struct sdv_limit_weights {
     int    count;                       // points
     float *weights;                     // [3][count] for the position, then for either tangent
@@ -4168,6 +4171,9 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
     return seen;
 }
 
+// ------------------------------------------------------------------------------ >>limit-rows
+// Rows that make points of the limit and their tangents from the last level.
+
 // What the weights of a limit row depend on, with the number of faces: all those around a smooth
 // vertex; those between the two edges of a crease; of a corner none. Tips have the tangents of one
 // face's edges: a corner and, loose, a crease or smooth vertex whose faces are no such fan, which
@@ -4196,7 +4202,8 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
     sdv_limit_weights made = { first + edges + across, NULL };
     double *t0 = limit->tangents, *t1 = t0 + made.count;
-    float *weights = SDV_NEW(limit->writer->context, limit->writer->arena, float, 3 * (size_t)made.count);
+    sdv_writer *writer = limit->writer;
+    float *weights = SDV_NEW(writer->context, writer->arena, float, 3 * (size_t)made.count);
     if (!weights) return made;
     made.weights = weights;
     for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
@@ -4319,6 +4326,10 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
     for (size_t i = 0; i < known && !writer->context->result; i++) limit->known[i] = -1;
 }
 
+// ------------------------------------------------------------------------------------ >>fill
+// The rows of all levels: of the cage's vertices and edges, then of lines and vertices level by
+// level, and those of the limit.
+
 // Where the points of a level stand, for a cage that is known.
 static sdv_order sdv_order_at(const subdiv_surface *surface, int level)
 {
@@ -4339,8 +4350,6 @@ static void sdv_set_order(subdiv_surface *surface)
     surface->order = sdv_order_at(surface, surface->exact ? 0 : surface->levels);
     surface->fine.vertex_count = surface->order.count;
 }
-
-// The rows of all levels: the cage's edge and vertex points, then lines and vertices level by level.
 
 // The face points of the cage are work points, as edge and vertex points are made from them: the
 // first one. They stand where they do on level 1 or, if that is the result, behind level 0.
@@ -4368,16 +4377,18 @@ static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_lev
     }
 }
 
-// The creases of the result on an edge, piece by piece; while there is no room they are only counted.
+// The creases of the result on an edge, piece by piece; while there is no room they are only
+// counted.
 static void sdv_add_creases(subdiv_mesh *fine, const sdv_order *order, const sdv_level *cage, int e,
                             const sdv_pieces *pieces, size_t *count)
 {
     int n = order->n, h = cage->edge_first[e], number = pieces->count ? pieces->number[e] : -1;
     int from = cage->face_vertices[h], end = cage->face_vertices[sdv_next(cage, h)];
+    const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
     sdv_side side = sdv_seen_edge(order, e, from > end);
     for (int j = 0; j < n; j++) {
         int to = j + 1 == n ? end : side.first + side.step * (j + 1);
-        float s = number < 0 ? cage->sharpness[h] : pieces->next[(size_t)number * (size_t)n + (size_t)j];
+        float s = number < 0 ? cage->sharpness[h] : of_edge[j];
         if (sdv_survives(s) && fine->crease_vertices) {
             fine->crease_vertices[2 * *count] = from;
             fine->crease_vertices[2 * *count + 1] = to;
@@ -4421,8 +4432,8 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     }
 }
 
-// From a level to the next: the halves of the pieces are its pieces. Those at an edge's ends fade as
-// the vertex there says, others by their neighbours.
+// From a level to the next: the halves of the pieces are its pieces. Those at an edge's ends fade
+// as the vertex there says, others by their neighbours.
 static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
 {
     float *swap = pieces->now;
@@ -4577,8 +4588,8 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
         points[2] = points[1];
         points[1] = points[sides];
     }
-    sdv_limit_batch_row(limit, fill->rules->linear ? SDV_TIP : SDV_RING, fill->rules->linear ? 0 : sides,
-                      centre);
+    if (fill->rules->linear) sdv_limit_batch_row(limit, SDV_TIP, 0, centre);
+    else sdv_limit_batch_row(limit, SDV_RING, sides, centre);
 }
 
 static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
@@ -4732,6 +4743,9 @@ static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, cons
     fine->holes = (int *)sdv_duplicate(context, arena, work->holes, (size_t)work->hole_count,
                                        sizeof(int));
 }
+
+// ---------------------------------------------------------------------------------- >>create
+// A surface, from the cage and what the options say.
 
 // Values at the vertices of faces that are to be refined along.
 typedef struct sdv_values {
@@ -5014,17 +5028,15 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     sdv_arena_free(&arena);
 }
 
-// ------------------------------------------------------------------------------ >>evaluate
-// Values through the surface, four channels at a time. First the rows of all steps make the
-// work points; then patches and the last rows make the points of the result, cage face by cage face
-// and in any order, since each point is made once and from work points alone.
+// --------------------------------------------------------------------------------- >>results
+// Where the points of a result go, four channels at a time.
 
 typedef struct sdv_window {             // a part of the result, four channels of it or fewer
     float *values;                      // of point first; NULL: not wanted
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-    int    first, count;                // so many points are written; clip: and others are not
-    int    clip;
+    int    first, count;                // so many points are written
+    int    clip;                        // others come, too, and are left out
     struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
 } sdv_window;
 
@@ -5061,8 +5073,8 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
-// What a limit's points have besides their place: tangents and normals. Where a patch is, its
-// polynomial has derivatives, along the rows and across; elsewhere rows have weights for them.
+// What a limit's points have besides their place: tangents, which rows and grids have weights for,
+// and normals.
 
 #define SDV_WAITING 16                  // points that wait at most: fours of them
 
@@ -5199,7 +5211,8 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
 }
 
 // --------------------------------------------------------------------------------- >>grids
-// The general step: the points of a level from those of the level before, by nothing but masks.
+// The general step: the points of a level from those of the level before, by nothing but masks: in
+// batches of rows and, inside faces, grid by grid.
 
 // The sum of p - p0 for n points. n is a constant where it is called for rows that occur often.
 SDV_INLINE sdv_four sdv_run_sum(const int *points, int n, sdv_four p0, const float *work)
@@ -5237,8 +5250,8 @@ SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, con
     return made;
 }
 
-// The rows of a batch from one up to another. own: each has its weights behind its points; clip: see
-// sdv_window.
+// The rows of a batch from one up to another. own: each has its weights behind its points; clip:
+// see sdv_window.
 SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, int n1, int n2,
                             int own, int clip, const float *work, const sdv_window *out)
 {
@@ -5275,9 +5288,9 @@ static void sdv_make_rows(const sdv_batch *batch, int first, int end, const floa
     else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
 }
 
-// The limit at a regular smooth vertex: of points p its own p[0], those of its neighbours, and under
-// Catmull-Clark those across its faces, counter-clockwise. Its weights [3][count] are a few: of each
-// kind of point, of pairs of opposite ones in the tangents.
+// The limit at a regular smooth vertex: of points p its own p[0], those of its neighbours, and
+// under Catmull-Clark those across its faces, counter-clockwise. Its weights [3][count] are a few:
+// of each kind of point, of pairs of opposite ones in the tangents.
 SDV_INLINE void sdv_limit_ring(const float *w, int loop, const sdv_four *p, sdv_four *sums)
 {
     if (loop) {
@@ -5414,7 +5427,8 @@ SDV_INLINE void sdv_load_row(const sdv_grid *grid, int row, int first, int last,
         int end = last < columns ? last : columns - 1;
         for (; c <= end; c++, from += 4 * line.step) *p++ = sdv_minus(sdv_load(from), origin);
     }
-    if (c <= last) *p = sdv_minus(sdv_load(work + 4 * (size_t)sdv_grid_index(grid, row, c)), origin);
+    if (c > last) return;
+    *p = sdv_minus(sdv_load(work + 4 * (size_t)sdv_grid_index(grid, row, c)), origin);
 }
 
 // Writes count points that stand one behind the other.
@@ -5429,7 +5443,8 @@ static void sdv_put_points(const sdv_window *out, int index, int count, const sd
 }
 
 // Points that stand one behind the other as they are made, four lanes each but the last. Where the
-// window or its layout does not allow that, they are made in some room and written when all are there.
+// window or its layout does not allow that, they are made in some room and written when all are
+// there.
 typedef struct sdv_points_run {
     const sdv_window *out;
     int       index, count;
@@ -5593,8 +5608,8 @@ SDV_INLINE void sdv_triangle_vertices(const sdv_lines *q, int k, int end, sdv_po
     const sdv_four *a = q->a, *b = q->b, *c = q->c;
     for (;; k++) {
         if (k > 0) {
-            sdv_four around = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]),
-                                                sdv_plus(c[k - 1], c[k])), sdv_plus(a[k], a[k + 1]));
+            sdv_four around = sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(c[k - 1], c[k]));
+            around = sdv_plus(around, sdv_plus(a[k], a[k + 1]));
             sdv_four v = sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->beside, around));
             sdv_put_next(run, sdv_plus(q->origin, v));
         }
@@ -5704,8 +5719,8 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     sdv_put_last(&run, sdv_plus(origin, made[8]));
 }
 
-// The inside of a triangle of 2 segments a side, which is all of a face on level 1: the edge points of
-// the triangle of edge points e0 e1 e2, whose edges lie across from the corners.
+// The inside of a triangle of 2 segments a side, which is all of a face on level 1: the edge points
+// of the triangle of edge points e0 e1 e2, whose edges lie across from the corners.
 SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_step *step,
                                  int target, const float *work, const sdv_window *out)
 {
@@ -5729,8 +5744,9 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
 static int sdv_inside_grid(const sdv_order *order, int f, int i)
 {
     const sdv_level *cage = &order->cage;
-    int inside = sdv_first_inside(order, f), sides = sdv_face_end(cage, f) - sdv_face_start(cage, f);
-    return sdv_is_ngon(order, f) ? sdv_inside_ngon(inside, sides, order->m, i) : inside;
+    int inside = sdv_first_inside(order, f);
+    if (!sdv_is_ngon(order, f)) return inside;
+    return sdv_inside_ngon(inside, sdv_face_end(cage, f) - sdv_face_start(cage, f), order->m, i);
 }
 
 static int sdv_grids_of(const sdv_order *order, int f)
@@ -5739,8 +5755,8 @@ static int sdv_grids_of(const sdv_order *order, int f)
                                  : 1;
 }
 
-// The points inside the grids of cage faces face to end - 1, from a level, whose points are here, to
-// the next one, whose points stand from target on.
+// The points inside the grids of cage faces face to end - 1, from a level, whose points are here,
+// to the next one, whose points stand from target on.
 static void sdv_refine_grids(const sdv_rules *rules, const sdv_order *from, const sdv_order *to,
                              const float *points, int face, int end, int target,
                              const sdv_window *out)
@@ -5860,8 +5876,8 @@ SDV_INLINE void sdv_limit_point(const sdv_limit_lines *q, int triangle, int k, s
     *t1 = sdv_minus(q->c[k], q->b[k]);
 }
 
-// The limit of points 1 to count of row b, which stand from index on: four at a time, and the others
-// wait for more.
+// The limit of points 1 to count of row b, which stand from index on: four at a time, and the
+// others wait for more.
 SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *lines, int triangle, int count,
                                      int index, sdv_four origin, const sdv_window *out)
 {
@@ -5885,7 +5901,8 @@ SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *lines, int triangle,
     }
 }
 
-// The limit points inside a grid, in columns from first to last - 1, at least 1, and their tangents.
+// The limit points inside a grid, in columns from first to last - 1, at least 1, and their
+// tangents.
 static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, int first, int last,
                            const float *points, const sdv_window *out)
 {
@@ -5898,7 +5915,8 @@ static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, in
     sdv_load_row(grid, 1, first - 1, last < n - triangle ? last : n - triangle, points, origin,
                  rows[1]);
     for (int r = 1; r < grid->rows - first * triangle; r++) {
-        int count = (triangle && n - r < last ? n - r : last) - first, above = n - (r + 1) * triangle;
+        int count = (triangle && n - r < last ? n - r : last) - first;
+        int above = n - (r + 1) * triangle;
         int index = sdv_inside_index(grid, r, first);
         sdv_load_row(grid, r + 1, first - 1, last < above ? last : above, points, origin,
                      rows[(r + 1) % 3]);
@@ -5964,8 +5982,9 @@ static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, cons
     }
 }
 
-// The face points of the cage, of faces face to end - 1: each the mean of the face's vertices. As work
-// points; as they are all of a result's level 1 that is inside faces, they are copied there later.
+// The face points of the cage, of faces face to end - 1: each the mean of the face's vertices. As
+// work points; as they are all of a result's level 1 that is inside faces, they are copied there
+// later.
 static void sdv_make_face_points(const subdiv_surface *surface, float *work, int face, int end)
 {
     const sdv_level *cage = &surface->order.cage;
@@ -5981,8 +6000,8 @@ static void sdv_make_face_points(const subdiv_surface *surface, float *work, int
     }
 }
 
-static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face, int end,
-                                 const sdv_window *out)
+static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face,
+                                 int end, const sdv_window *out)
 {
     const float *from = work + 4 * (size_t)sdv_first_face_point(surface);
     int first = sdv_first_inside(&surface->order, 0);
@@ -6022,7 +6041,8 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
                                  int end, const subdiv_limit *limit, int first, int count)
 {
     sdv_tangents tangents;
-    sdv_window out = { limit->positions, 3, 3, first, count, count < surface->fine.vertex_count, NULL };
+    int clip = count < surface->fine.vertex_count;
+    sdv_window out = { limit->positions, 3, 3, first, count, clip, NULL };
     memset(&tangents, 0, sizeof tangents);
     tangents.normals = limit->normals;
     tangents.tangents = limit->tangents;
@@ -6034,6 +6054,11 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
     sdv_make_faces(surface, work, face, end, &out);
     sdv_flush_tangents(&tangents);
 }
+
+// -------------------------------------------------------------------------------- >>evaluate
+// Values through the surface: level by level batches and grids make the work points; the last step
+// makes the points of the result, cage face by cage face and in any order, since each point is made
+// once and from work points alone.
 
 // Jobs of an evaluation: each makes a share of its points.
 typedef struct sdv_evaluation {
@@ -6101,7 +6126,7 @@ static void sdv_input_job(void *context, int job)
     }
 }
 
-// Steps of the general step, in shares of cage faces.
+// A level from the one before or, before all, the face points of the cage; in shares of cage faces.
 static void sdv_level_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6152,7 +6177,7 @@ static void sdv_face_job(void *context, int job)
     }
 }
 
-// Level 0 has no patches and rows: its work points are the result.
+// Level 0 has no rows: its work points are the result.
 static void sdv_copy_work(const sdv_evaluation *e)
 {
     for (int v = e->first_point; v < e->end_point; v++)
@@ -6415,6 +6440,9 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
     return context.result;
 }
 
+// ----------------------------------------------------------------------- >>results-as-meshes
+// Meshes that own their arrays, and what fills them.
+
 // Lays arrays out in one block: first called with base NULL to add up the size.
 static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
 {
@@ -6669,7 +6697,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
 #ifndef SUBDIV_NO_EXACT
 // --------------------------------------------------------------------------------- >>split
 // The next level, of which only a part is made: what touches an active vertex. All of it would do;
-// but once a region is regular, patches take it to the last level at once (see >>patches). Active
+// but where a region is regular, a patch is its surface (see >>patches). Active
 // are the vertices of the faces that are not yet regular. A face-vertex makes a child face if its
 // vertex is active: the children of such a face and the ring of faces around them.
 
@@ -6793,8 +6821,7 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
     for (int h = 0; h < level->face_vertex_count; h++) {
         int point = split->edge[h];
         if (point < 0 || !sdv_is_edge(level, h)) continue;
-        int straight = rules->straight && level->across[h] == h;
-        next->vertex_sharpness[point] = straight ? level->sharpness[h] : 0;
+        next->vertex_sharpness[point] = 0;
         next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
     }
 }
@@ -6950,18 +6977,18 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
     sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
-    sdv_split_points(level, split, next, rules);
     if (loop) sdv_split_triangles(level, split, next);
     else sdv_split_quads(level, split, next);
     sdv_level_count(next);
+    sdv_split_points(level, split, next, rules);
     sdv_level_fade(next);
 }
 
 // ------------------------------------------------------------------------------- >>patches
-// A face whose surroundings are regular, and stay so, refines in closed form: all its points on the
-// last level follow from the 4 x 4 control points around it (Loop: 12 points). An edge that stays
-// sharp to the last level parts the surface; beyond it the control points are mirrored, so that a
-// face beside a boundary or crease is regular too:
+// A face whose surroundings are regular, and stay so, has a polynomial as its limit surface: that
+// of the 4 x 4 control points around it (Loop: 12 points). An edge that stays sharp forever parts
+// the surface; beyond it the control points are mirrored, so that a face beside a boundary or
+// crease is regular too:
 //
 //     Catmull-Clark   outside = 2 edge - inside            Loop   outside = a + b - inside
 //
@@ -7526,8 +7553,8 @@ SDV_INLINE int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
     return sdv_face_start(cage, f) + corner;
 }
 
-// The rows from a level to the next: face points first, as the others are made from them. They stand
-// behind the vertex points of the next level, and edge points behind them.
+// The rows from a level to the next: face points first, as the others are made from them. They
+// stand behind the vertex points of the next level, and edge points behind them.
 static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_split *split,
                            sdv_writer *writer, sdv_batches *refine)
 {
@@ -8656,8 +8683,8 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 // --------------------------------------------------------------------------- >>polynomials
 // What an evaluation of the exact surface begins with: the polynomials of all leaves.
 
-// The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline, from
-// t = 0 to 1. a[i] becomes the coefficient of t^i.
+// The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline,
+// from t = 0 to 1. a[i] becomes the coefficient of t^i.
 //
 //     p1 + s / 6  +  (p2 - p0) / 2 t  +  s / 2 t^2  +  c t^3
 //     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
@@ -8719,8 +8746,8 @@ SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, 
     if (degree == 4) sdv_horner_step(p, t, c[0]);
 }
 
-// The surface of a patch: origin + the sum of c[i][j] x^i y^j, where x runs along the rows from 0 to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4:
-// i + j <= 4, a triangle.
+// The surface of a patch: origin + the sum of c[i][j] x^i y^j, where x runs along the rows from 0
+// to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4: i + j <= 4, a triangle.
 typedef struct sdv_polynomial {
     sdv_four origin, c[5][5];
     int degree;
@@ -8938,7 +8965,7 @@ static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)
     }
 }
 
-// What sdv_mirror_quad and sdv_strip_points do, along one axis.
+// What sdv_mirror_quad and sdv_strip_row do, along one axis.
 static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high,
                            const sdv_strips *strips, const sdv_strip *strip)
 {
@@ -9909,7 +9936,7 @@ typedef struct sdv_stencil_maker {
     int       *places;                  // [work_count] each stands, or -1
 
     const sdv_batch **batches;          // [work_count, then the result's points] where the row of
-    const int **rows;                   // each point is; NULL: on a grid, or a face point of the cage
+    const int **rows;                   // each point is; NULL: on a grid, or in a face of the cage
     unsigned char *steps;               // [work_count] made before those with a higher one
     int        longest;                 // points of a row at most
     sdv_stencil_row *room;              // rows: one for each step, and one for the result's points
@@ -9919,7 +9946,8 @@ typedef struct sdv_stencil_maker {
 } sdv_stencil_maker;
 
 // Notes where the rows are: of a step's work points, or of the result's points behind all those.
-static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int base, int step)
+static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int base,
+                             int step)
 {
     for (int b = 0; b < (batches->rows ? batches->starts[batches->blocks] : 0); b++) {
         const sdv_batch *batch = &batches->items[b];
@@ -10087,15 +10115,16 @@ static void sdv_grid_edge(const sdv_grid *grid, int base, const sdv_grid_step *s
     sdv_add_grid_point(grid, base, r, turned ? c + 1 : c, mask.self, out);
     sdv_add_grid_point(grid, base, r + up, turned ? c : c + right, mask.self, out);
     if (step->loop) {
-        sdv_add_grid_point(grid, base, turned ? r : r + right, turned ? c : up ? c + 1 : c, mask.face,
-                           out);
+        sdv_add_grid_point(grid, base, turned ? r : r + right, turned ? c : up ? c + 1 : c,
+                           mask.face, out);
         sdv_add_grid_point(grid, base, turned ? r + 1 : up ? r + 1 : r - 1,
                            turned ? c + 1 : up ? c - 1 : c + 1, mask.face, out);
         return;
     }
     for (int side = -1; side <= 1; side += 2) {
-        sdv_add_grid_point(grid, base, r + side * right, c + side * up, mask.face, out);
-        sdv_add_grid_point(grid, base, r + side * right + up, c + side * up + right, mask.face, out);
+        int row = r + side * right, column = c + side * up;
+        sdv_add_grid_point(grid, base, row, column, mask.face, out);
+        sdv_add_grid_point(grid, base, row + up, column + right, mask.face, out);
     }
 }
 
@@ -10122,7 +10151,8 @@ static void sdv_grid_row_of(const subdiv_surface *surface, int level, int index,
 {
     sdv_order to = sdv_order_at(surface, level), from = sdv_order_at(surface, level - 1);
     sdv_grid_step step = sdv_regular_masks(&surface->rules);
-    int row, column, h = sdv_find_on_grid(&to, index, &row, &column), base = surface->bases[level - 1];
+    int row, column, h = sdv_find_on_grid(&to, index, &row, &column);
+    int base = surface->bases[level - 1];
     int r = row / 2, c = column / 2, up = row % 2, right = column % 2;
     sdv_grid grid;
     sdv_grid_at(&from, h, &grid);
@@ -10360,8 +10390,8 @@ static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_s
     *stencils = made;
 }
 
-// Adds the points of a limit row of these weights [3][count], as sdv_limit_sums does: the first one's
-// weight is what is left.
+// Adds the points of a limit row of these weights [3][count], as sdv_limit_row_sums does: the
+// weight of the first one is what is left.
 static void sdv_add_limit_weights(sdv_stencil_maker *make, const float *weights, int count,
                                   const int *points)
 {
@@ -10504,7 +10534,8 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // then of those of the next level.
 
 // sdv_nest_refine backwards, from the next level's points.
-static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights, double *w)
+static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights,
+                             double *w)
 {
     const double *from = w + 3 * (size_t)row[0];
     const int *point = row + sdv_row_points(shape);         // the last one
@@ -12928,8 +12959,8 @@ SDV_INLINE void sdv_store_eight(char *p, uint64_t text)
         for (int i = 0; i < 8; i++) p[i] = (char)(text >> 8 * i & 255);
 }
 
-// A blank and the shortest text, mostly at once: with the blank at most 17 characters, and up to 8 more may
-// be spoiled. Returns where they end.
+// A blank and the shortest text, mostly at once: with the blank at most 17 characters, and up to 8
+// more may be spoiled. Returns where they end.
 //
 // All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
 // So at most one multiple of 10 is among them. It has fewer digits than all others; without it, the
