@@ -186,9 +186,9 @@
 // To leave whole sections out, of the declarations, too. In brackets what that saves of the time to
 // compile all of it, and of its size (gcc -O2):
 //
-//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (27 %)
-//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
-//     SUBDIV_NO_OBJ                  >>obj                                          (10 %)
+//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (34 %)
+//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (11 %)
+//     SUBDIV_NO_OBJ                  >>obj                                          (11 %)
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
 
