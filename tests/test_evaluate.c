@@ -829,6 +829,40 @@ static void test_other_errors(void)
     subdiv_surface_free(s);
 }
 
+// A surface for exact evaluation and one of face-varying values have no mesh: none is made, nothing
+// is written, and a file that is there stays.
+static void test_surfaces_without_a_mesh(void)
+{
+    static test_cage cage;
+    const subdiv_options *opt = &with_error;
+    const char *path = "build/kept_by_evaluate.obj";
+    subdiv_surface *s = prepare_prism(&cage, 1);
+    subdiv_surface_free(s);
+    for (int values = 0; values < 2; values++) {
+        text t = new_text(0);
+        subdiv_mesh fine;
+        FILE *file = fopen(path, "w");
+        if (!file) abort();
+        fputs("kept", file);
+        fclose(file);
+        CHECK_EQUAL(values ? subdiv_prepare_face_varying(&s, &cage.mesh, cage.mesh.vertex_count,
+                                                         cage.mesh.face_vertices,
+                                                         SUBDIV_UV_BOUNDARIES, 1, opt)
+                           : subdiv_prepare(&s, &cage.mesh, SUBDIV_EXACT, opt), SUBDIV_OK);
+        CHECK_FAILS(subdiv_surface_mesh(&fine, s, cage.positions, opt), SUBDIV_ERROR_ARGUMENT);
+        CHECK_FAILS(subdiv_stream_obj(s, cage.positions, path, opt), SUBDIV_ERROR_ARGUMENT);
+        CHECK_FAILS(subdiv_stream_obj_callback(s, cage.positions, keep_text, &t, opt),
+                    SUBDIV_ERROR_ARGUMENT);
+        CHECK_EQUAL(t.calls, 0);
+        char kept[8] = "";
+        file = fopen(path, "r");
+        CHECK(file && fread(kept, 1, 8, file) == 4 && memcmp(kept, "kept", 4) == 0);
+        if (file) fclose(file);
+        subdiv_surface_free(s);
+    }
+    remove(path);
+}
+
 // ------------------------------------------------------------------------------- allocations
 
 static void check_allocations(const subdiv_mesh *m, const prepared *p)
@@ -879,6 +913,7 @@ int main(void)
     RUN(test_evaluate_errors);
     RUN(test_range_errors);
     RUN(test_other_errors);
+    RUN(test_surfaces_without_a_mesh);
     RUN(test_allocations);
     return test_end("evaluate");
 }

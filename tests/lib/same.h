@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-static int mesh_is_zero(const subdiv_mesh *m)
+static inline int mesh_is_zero(const subdiv_mesh *m)
 {
     return !m->vertex_count && !m->positions && !m->face_count && !m->face_size && !m->face_sizes &&
            !m->face_vertices && !m->crease_count && !m->crease_vertices && !m->crease_sharpness &&
