@@ -5719,6 +5719,25 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     sdv_put_last(&run, sdv_plus(origin, made[8]));
 }
 
+// The face points of the quads of another polygon on level 1, each between a corner, two edge points
+// and the polygon's own face point.
+SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid_step *step,
+                                   int target, const float *work, const sdv_window *out)
+{
+    const int start = sdv_face_start(&order->cage, f), sides = sdv_face_end(&order->cage, f) - start;
+    const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
+    const float *on_edges = work + 4 * (size_t)order->first_edge_point;
+    const sdv_four origin = sdv_load(work + 4 * (size_t)sdv_first_inside(order, f));
+    sdv_four before = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[sides - 1]), origin);
+    for (int i = 0; i < sides; i++) {
+        sdv_four p = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
+        sdv_four e = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
+        p = sdv_times(sdv_all(step->face), sdv_plus(p, sdv_plus(e, before)));
+        sdv_put_point(out, target + i, sdv_plus(origin, p));
+        before = e;
+    }
+}
+
 // The inside of a triangle of 2 segments a side, which is all of a face on level 1: the edge points
 // of the triangle of edge points e0 e1 e2, whose edges lie across from the corners.
 SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_step *step,
@@ -5764,9 +5783,10 @@ static void sdv_refine_grids(const sdv_rules *rules, const sdv_order *from, cons
     sdv_grid_step step = sdv_regular_masks(rules);
     for (int f = face; f < end; f++) {
         int start = sdv_face_start(&from->cage, f), count = sdv_grids_of(from, f);
-        if (from->n == 2 && count == 1) {
-            int at = target + sdv_first_inside(to, f);
-            if (rules->loop) sdv_refine_three(from, f, &step, at, points, out);
+        if (from->n == 2) {
+            int at = target + sdv_inside_grid(to, f, 0);
+            if (sdv_is_ngon(from, f)) sdv_refine_corners(from, f, &step, at, points, out);
+            else if (rules->loop) sdv_refine_three(from, f, &step, at, points, out);
             else sdv_refine_four(from, f, &step, at, points, out);
             continue;
         }
