@@ -5719,12 +5719,13 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     sdv_put_last(&run, sdv_plus(origin, made[8]));
 }
 
-// The face points of the quads of another polygon on level 1, each between a corner, two edge points
-// and the polygon's own face point.
+// The face points of the quads of another polygon on level 1, each between a corner, two edge
+// points and the polygon's own face point.
 SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid_step *step,
                                    int target, const float *work, const sdv_window *out)
 {
-    const int start = sdv_face_start(&order->cage, f), sides = sdv_face_end(&order->cage, f) - start;
+    const int start = sdv_face_start(&order->cage, f);
+    const int sides = sdv_face_end(&order->cage, f) - start;
     const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
     const float *on_edges = work + 4 * (size_t)order->first_edge_point;
     const sdv_four origin = sdv_load(work + 4 * (size_t)sdv_first_inside(order, f));
