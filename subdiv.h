@@ -1915,8 +1915,8 @@ static inline void sdv_join_edge(sdv_level *level, int e, int h)
     level->across[first] = h;
 }
 
-// The same, but it is not the second face, on the other side of the first; or has the edge already,
-// which then is a new one.
+// Takes h into the ring of edge e as a further face or one wound the same way. If its own face has
+// the edge already, makes a new edge of h instead.
 static void sdv_join_nonmanifold(sdv_cage *cage, int e, int h, int start)
 {
     sdv_level *level = &cage->level;
@@ -2456,8 +2456,9 @@ static sdv_mask sdv_catmull_clark_edge(int faces)
     return mask;
 }
 
-// The same beside one or two triangles, with the rule "smooth" [OSD]: w = 0.47 for each triangle
-// and 1/4 for each other face; the face points weigh the mean of the two w, the ends the rest.
+// A smooth edge point beside one or two triangles, with the rule "smooth" [OSD]: w = 0.47 for each
+// triangle and 1/4 for each other face; the face points weigh the mean of the two w, the ends the
+// rest.
 static sdv_mask sdv_smooth_triangle_edge(int triangles)
 {
     double face = 0.5 * (0.47 * triangles + 0.25 * (2 - triangles));
@@ -3154,7 +3155,8 @@ static void sdv_copy_row(sdv_writer *writer, int number, const sdv_shape *shape,
     if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
 }
 
-// The same, and returns the number of the batch.
+// Adds the row whose points are in writer->points to the open batch of a shape. Returns the number
+// of the batch.
 static int sdv_add_shape(sdv_writer *writer, const sdv_shape *shape, const float *limit,
                          int target)
 {
@@ -4409,7 +4411,7 @@ static size_t sdv_surviving_creases(subdiv_surface *surface, const sdv_level *ca
     return count;
 }
 
-// What is left of the user's creases and corners on the last level, which the cage and pieces have.
+// Gives the result the user's creases and corners that are left on the last level.
 static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surface,
                                     const sdv_level *cage, const sdv_pieces *pieces)
 {
@@ -5011,7 +5013,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     return context.result;
 }
 
-// What the fine faces do not need.
+// Frees what the fine faces do not need.
 static void sdv_free_points(subdiv_surface *surface)
 {
     sdv_arena_free(&surface->points);
@@ -5128,8 +5130,9 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
     return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
-// The same for four vectors, channel by channel. Floats do unless products are too small or too
-// large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin loses digits.
+// Unit normals for four pairs of tangents, channel by channel. Floats do unless products are too
+// small or too large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin
+// loses digits.
 SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
 {
     const float least = 1e-30f, least_sin2 = 1.0f / 64;
@@ -5156,7 +5159,8 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four 
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// What is wanted of four points, channel by channel, where they stand in the window.
+// Writes the normals and tangents of four points, channel by channel, where they stand in the
+// window.
 static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
                                   sdv_four *along, sdv_four *across)
 {
@@ -6744,7 +6748,7 @@ static sdv_place sdv_first_place(int h)
     return place;
 }
 
-// What face points need, and what the next level needs besides.
+// Makes room for what the next level has of a level.
 static void sdv_split_new(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                           sdv_split *split)
 {
@@ -6823,7 +6827,8 @@ static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop
     split->edge_points = next - split->vertex_points - split->face_points;
 }
 
-// What vertex, edge and face points inherit; each child has 2 (Loop: 3) faces at an edge point.
+// Gives vertex, edge and face points what they inherit; each child has 2 (Loop: 3) faces at an edge
+// point.
 static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
                              const sdv_rules *rules)
 {
@@ -7831,7 +7836,7 @@ static void sdv_part_triangles(sdv_level *level, int dart)
         }
 }
 
-// What the next level has of a level, and the rows to it.
+// Numbers what the next level has of a level, and writes the rows to it.
 static void sdv_split_rows(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
                            sdv_batches *refine, sdv_arena *scratch)
 {
@@ -8396,7 +8401,7 @@ static unsigned sdv_cut_cell(const subdiv_surface *surface, const sdv_square *sq
     return sdv_pack_cell(leaf.polynomial, across, up, 0);
 }
 
-// What it is on, where the tree goes on with a node.
+// Sets what a square is on, where the tree goes on with a node.
 static void sdv_square_node(const subdiv_surface *surface, sdv_square *square, int node)
 {
     int what = sdv_leaf_what(node), level = square->level;
@@ -8550,9 +8555,9 @@ SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
     return !odd;
 }
 
-// Which squares of the finest grid they are in, or triangles above their diagonals; and where that
-// is in the first grid, by the upper two bits of x and y, and in the second one, by the lower two:
-// square 4 y + x of 16 or, if it is a triangle above the diagonal, 15 less that.
+// Finds which squares of the finest grid the locations are in, or triangles above their diagonals;
+// and where that is in the first grid, by the upper two bits of x and y, and in the second one, by
+// the lower two: square 4 y + x of 16 or, if it is a triangle above the diagonal, 15 less that.
 SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
 {
     const int side = 1 << SDV_CELL_LEVELS;
@@ -8751,8 +8756,8 @@ SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
     p[0] = sdv_plus(sdv_times(p[0], t), next);
 }
 
-// All of it, of degree 1 to 4, with coefficients c[0], c[step], .. Its first steps leave out
-// what is 0; what is not asked for below, the compiler leaves out.
+// Evaluates a polynomial and its derivatives, of degree 1 to 4, with coefficients c[0], c[step], ..
+// Its first steps leave out what is 0; what is not asked for below, the compiler leaves out.
 SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, sdv_four *p)
 {
     sdv_four highest = c[degree * step];
@@ -8986,7 +8991,7 @@ static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)
     }
 }
 
-// What sdv_mirror_quad and sdv_strip_row do, along one axis.
+// Mirrors and cuts points along one axis, as sdv_mirror_quad and sdv_strip_row do.
 static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high,
                            const sdv_strips *strips, const sdv_strip *strip)
 {
@@ -9109,7 +9114,7 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
             w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
 }
 
-// What sdv_nest_polynomials ended with.
+// Loads the state that sdv_nest_polynomials ended with.
 static void sdv_nest_resume(sdv_nest_state *s, const subdiv_surface *surface, int number,
                             const double *kept, double *w)
 {
@@ -9254,7 +9259,7 @@ static float *sdv_polynomial_at(const sdv_exact_evaluation *e, size_t i, int c)
     return e->memory.polynomials + SDV_SLOTS * ((size_t)e->channels * i + (size_t)c);
 }
 
-// What is kept of a nest, of channels from c on.
+// Where the kept state of a nest is, of channels from c on.
 static double *sdv_kept_nest(const sdv_exact_evaluation *e, int number, int c)
 {
     const sdv_exact *exact = e->surface->exact;
@@ -9267,7 +9272,7 @@ static int sdv_lanes_from(int channels, int c)
     return channels - c < 4 ? channels - c : 4;
 }
 
-// Those of a patch, of which i is the first one's number. Returns how many.
+// Makes the polynomials of a patch, of which i is the first one's number. Returns how many.
 static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
                                  const int *points, size_t i)
 {
@@ -9287,7 +9292,7 @@ static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch 
     return parts;
 }
 
-// Those of a child of a nest's face, number `face` of its own, after a refinement.
+// Makes the polynomial of a child of a nest's face, number `face` of its own, after a refinement.
 static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, int turn, int lanes,
                                  float *out)
 {
@@ -9301,7 +9306,8 @@ static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, i
     sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
 }
 
-// Those of a nest, of the children of its faces that are none of its own; w [4 * work_count].
+// Makes the polynomials of a nest: of the children of its faces that are none of its own.
+// w [4 * work_count].
 static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, double *w)
 {
     const sdv_exact *exact = e->surface->exact;
@@ -9502,7 +9508,7 @@ static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *pa
     }
 }
 
-// What is asked for of a patch, at location i, of channels from c on.
+// Writes what is asked for of a patch, at location i, of channels from c on.
 SDV_INLINE void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
                               int lanes, int order, const sdv_where *at, int c, size_t i)
 {
@@ -10934,7 +10940,7 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
     out->face_vertices = (size_t)(faces - out->vertices);
 }
 
-// The same without their vertices.
+// Counts the faces inside a tile and gives their sizes, but not their vertices.
 static void sdv_count_inside_faces(const sdv_tile *tile, sdv_faces_at *out)
 {
     size_t columns = (size_t)tile->grid.columns, rows = (size_t)tile->grid.rows;
@@ -11247,7 +11253,7 @@ static int64_t sdv_last_tick(const sdv_area *area, int64_t high, int owns, int s
     return (high * rate >> bits) - (!owns && there);
 }
 
-// Those from 1 to most that an area from low to high has, of a quad or on an edge.
+// Finds the ticks from 1 to most that an area from low to high has, of a quad or on an edge.
 static void sdv_find_ticks(const sdv_area *area, int64_t low, int64_t high, int step, int64_t rate,
                            int64_t most, sdv_line_points *line)
 {
@@ -11981,7 +11987,7 @@ static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
     if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
 }
 
-// Which edges are found: finds[e]. Returns how many.
+// Marks the edges that are found: finds[e]. Returns how many.
 static int sdv_find_creases(const sdv_generator *generator, sdv_question is_crease,
                             unsigned char *finds)
 {
@@ -13842,7 +13848,7 @@ static void sdv_read_statements(sdv_obj *obj)
     }
 }
 
-// What can only be said when everything is read.
+// Checks what can only be said when everything is read.
 static void sdv_check_obj(sdv_obj *obj)
 {
     if (obj->mesh.vertex_count == 0)
