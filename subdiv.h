@@ -2681,6 +2681,11 @@ static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
 // for each of its vertices. The points along each side of a grid and those inside it, row by
 // row, are evenly spaced in the result: so an index needs a first one and a step.
 
+#define SDV_MOST_LEVELS 16              // of a mesh of 2^31 faces and any level
+#ifndef SDV_FULL_LEVELS                 // (tests ask for fewer)
+#define SDV_FULL_LEVELS 3               // of work points; deeper ones are frames: see >>lines
+#endif
+
 typedef struct sdv_side {               // of a grid: where point t stands, inside the side
     int first, step;                    // first + step * t
 } sdv_side;
@@ -2691,14 +2696,18 @@ typedef struct sdv_grid {
     int inside;                         // the index of (1, 1)
     int corner[4];
     sdv_side side[4];                   // row 0; last column (triangle: the slanted side), by row;
-} sdv_grid;                             // last row (quads alone); column 0, by row
+                                        // last row (quads alone); column 0, by row
+    int frame;                          // inside there are only the points beside the sides
+} sdv_grid;
 
 typedef struct sdv_order {
     sdv_level cage;                     // faces and edges alone
     int loop, n, m;
     int first_edge_point, first_face_point;
     int count;                          // of points
-} sdv_order;
+    int frame;                          // see sdv_grid, and sdv_frame_point
+    const int *quads;                   // [faces + 1] of a frame: how many of them stand before
+} sdv_order;                            // each face; NULL: all are quads
 
 // A side of size segments whose points stand from first on, seen from its one end or the other.
 static inline sdv_side sdv_seen_side(int first, int size, int backwards)
@@ -2723,12 +2732,16 @@ static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 }
 
 // The first point inside face f: every face has one centre, and m (m - 1) points for each of its
-// vertices; a triangle under Loop (n - 1)(n - 2) / 2.
+// vertices; a triangle under Loop (n - 1)(n - 2) / 2. In a frame a quad has 4 (n - 2), a triangle
+// 3 (n - 3), and an n-gon its centre, the points of its spokes, and the frames of its quads.
 static int sdv_first_inside(const sdv_order *order, int f)
 {
-    int n = order->n, m = order->m;
-    if (order->loop) return order->first_face_point + f * ((n - 1) * (n - 2) / 2);
-    return order->first_face_point + f + sdv_face_start(&order->cage, f) * (m * (m - 1));
+    int n = order->n, m = order->m, first = order->first_face_point;
+    if (order->loop) return first + f * (order->frame ? 3 * (n - 3) : (n - 1) * (n - 2) / 2);
+    int sides = sdv_face_start(&order->cage, f);
+    if (!order->frame) return first + f + sides * (m * (m - 1));
+    int quads = order->quads ? order->quads[f] : f;
+    return first + quads * 4 * (n - 2) + f - quads + (sides - 4 * quads) * (m - 1 + 4 * (m - 2));
 }
 
 // The face that has the point inside it.
@@ -2778,7 +2791,7 @@ static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int c
 {
     int spokes = centre + 1, before = i > 0 ? i - 1 : sides - 1;
     grid->columns = grid->rows = m;
-    grid->triangle = 0;
+    grid->triangle = grid->frame = 0;
     grid->inside = sdv_inside_ngon(centre, sides, m, i);
     grid->side[0] = edge;
     grid->side[1] = sdv_seen_side(spokes + i * (m - 1), m, 1);
@@ -2790,6 +2803,17 @@ static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int c
     grid->corner[3] = edge_before.first + edge_before.step * m;
 }
 
+// The first point inside grid i of face f.
+static int sdv_inside_grid(const sdv_order *order, int f, int i)
+{
+    const sdv_level *cage = &order->cage;
+    int first = sdv_first_inside(order, f), m = order->m;
+    if (!sdv_is_ngon(order, f)) return first;
+    int sides = sdv_face_end(cage, f) - sdv_face_start(cage, f);
+    return order->frame ? first + 1 + sides * (m - 1) + i * 4 * (m - 2)
+                        : sdv_inside_ngon(first, sides, m, i);
+}
+
 static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
@@ -2798,6 +2822,8 @@ static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
     else sdv_ngon_grid(cage->face_vertices[h], sdv_edge_side(order, h, 0),
                        sdv_edge_side(order, sdv_previous(cage, h), 1), sdv_first_inside(order, f),
                        sdv_face_end(cage, f) - start, order->m, h - start, grid);
+    grid->inside = sdv_inside_grid(order, f, h - start);
+    grid->frame = order->frame;
 }
 
 static int sdv_side_index(const sdv_grid *grid, int side, int t)
@@ -2812,8 +2838,21 @@ static int sdv_inside_point(int first, int columns, int triangle, int row, int c
     return (int)(first + r * (columns - 1) - cut) + column - 1;
 }
 
+// Of a frame: the points beside the sides stand counter-clockwise, from (1, 1) on.
+static int sdv_frame_point(const sdv_grid *grid, int row, int column)
+{
+    int n = grid->columns, along = n - 2 - grid->triangle, corner = n - 1;
+    int end = grid->triangle ? corner - row : corner;          // the column beside the last side
+    if (row == 1) return grid->inside + column - 1;
+    if (column == end) return grid->inside + along + row - 1;
+    if (grid->triangle) return grid->inside + 2 * along + corner - 1 - row;
+    if (row == corner) return grid->inside + 2 * along + corner - column;
+    return grid->inside + 3 * along + corner - row;
+}
+
 static int sdv_inside_index(const sdv_grid *grid, int row, int column)
 {
+    if (grid->frame) return sdv_frame_point(grid, row, column);
     return sdv_inside_point(grid->inside, grid->columns, grid->triangle, row, column);
 }
 
@@ -3285,11 +3324,10 @@ static sdv_mask sdv_spread_edge(sdv_mask mask, int faces)
 // The point inside face f that is next to its vertex i; if there is one only, that.
 static int sdv_inside_corner(const sdv_order *order, int f, int i)
 {
-    const sdv_level *cage = &order->cage;
-    int inside = sdv_first_inside(order, f), n = order->n, m = order->m;
-    if (m == 1) return inside;
-    if (sdv_is_ngon(order, f))
-        return sdv_inside_ngon(inside, sdv_face_end(cage, f) - sdv_face_start(cage, f), m, i);
+    int inside = sdv_first_inside(order, f), n = order->n;
+    if (n == 2) return inside;
+    if (sdv_is_ngon(order, f)) return sdv_inside_grid(order, f, i);
+    if (order->frame) return inside + i * (n - 2);
     return inside + (i >= 2 ? (n - 2) * (n - 1) : 0) + (i == 1 || i == 2 ? n - 2 : 0);
 }
 
@@ -3469,7 +3507,9 @@ typedef struct sdv_filler {
     int          base;                  // where the points of this level start, and those of the
     int          target;                // next
     int         *line, *left, *right;   // [n + 1]
-    int          odd, even;             // batches of the points on smooth edges,
+    int         *made;                  // [2 n + 1]
+    int          odd, even;             // batches of the points on smooth edges, of face points,
+    int          face;
     sdv_last_row sharp[2];              // the last odd and even one
     int          edges;                 // that have their rows; faces meet them in this order
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
@@ -3500,52 +3540,64 @@ static sdv_edge_line sdv_line_at(const sdv_filler *fill, int h)
     return line;
 }
 
-// The points in the row beside the edge of h inside its face, as seen from there or backwards.
-static void sdv_points_beside(const sdv_filler *fill, int h, int backwards, int *out)
+// Where point t beside a side stands on its grid.
+static void sdv_beside_side(int n, int triangle, int side, int t, int *row, int *column)
 {
-    const sdv_order *order = &fill->from;
+    int last = n - 1, back = triangle ? last - t : n - t;
+    if (side == 0) *row = 1, *column = t;
+    else if (side == 1) *row = t, *column = triangle ? back : last;
+    else if (side == 2 && !triangle) *row = last, *column = back;
+    else *row = back, *column = 1;
+}
+
+// The points beside a side of a grid whose inside starts at a point, step by step from at on.
+static void sdv_put_beside(const sdv_order *order, int n, int inside, int side, int step, int *at)
+{
+    int triangle = order->loop, last = n - 1 - triangle, row, column;
+    int along = side == 0 ? 1 : side == 1 ? n - 1 : side == 2 ? -1 : 1 - n, first = inside;
+    if (order->frame) along = 1;
+    if (order->frame) first += side * (last - 1);
+    else first += side == 0 ? 0 : side == 1 ? n - 2 : side == 2 ? n * (n - 2) : (n - 2) * (n - 1);
+    for (int t = 1; t <= last && (!triangle || order->frame); t++, first += along)
+        at[step * t] = first;
+    for (int t = 1; t <= last && triangle && !order->frame; t++) {
+        sdv_beside_side(n, 1, side, t, &row, &column);
+        at[step * t] = sdv_inside_point(inside, n, 1, row, column);
+    }
+    if (order->frame && side == 3 - triangle) at[step * last] = inside;        // all around
+}
+
+// The points in the row beside the edge of h inside its face, as seen from there or backwards.
+static void sdv_points_beside(const sdv_order *order, int base, int h, int backwards, int *out)
+{
     const sdv_level *cage = &order->cage;
     int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f), i = h - start;
-    int n = order->n, m = order->m, sides = sdv_face_end(cage, f) - start;
-    int inside = fill->base + sdv_first_inside(order, f), last = order->loop ? n - 1 : n;
-    int before = i > 0 ? i - 1 : sides - 1, next = i + 1 < sides ? i + 1 : 0;
+    int sides = sdv_face_end(cage, f) - start, last = order->loop ? order->n - 1 : order->n;
+    int m = order->m, before = i > 0 ? i - 1 : sides - 1, next = i + 1 < sides ? i + 1 : 0;
+    int step = backwards ? -1 : 1, *at = backwards ? out + last : out;
+    int inside = base + sdv_first_inside(order, f);
     const int *v = cage->face_vertices + start, *e = cage->face_edges + start;
     sdv_side a = sdv_seen_edge(order, e[before], v[before] <= v[i]);
     sdv_side b = sdv_seen_edge(order, e[next], v[next] > v[next + 1 < sides ? next + 1 : 0]);
-    int step = backwards ? -1 : 1, *at = backwards ? out + last : out;
-    at[0] = fill->base + a.first + a.step;
-    at[step * last] = fill->base + b.first + b.step;
-    at += step;
-    if (order->loop) {
-        for (int t = 1; t < last; t++, at += step)
-            *at = sdv_inside_point(inside, n, 1, i == 0 ? 1 : i == 1 ? t : last - t,
-                                   i == 0 ? t : i == 1 ? last - t : 1);
-    } else if (sides == 4) {
-        int first = inside + (i == 1 ? n - 2 : i == 2 ? (n - 1) * (n - 1) - 1 :
-                              i == 3 ? (n - 2) * (n - 1) : 0);
-        int along = i == 0 ? 1 : i == 1 ? n - 1 : i == 2 ? -1 : 1 - n;
-        for (int t = 1; t < n; t++, at += step, first += along) *at = first;
-    } else {
-        int quad = sdv_inside_ngon(inside, sides, m, i);
-        int after = sdv_inside_ngon(inside, sides, m, next);
-        for (int t = 1; t < m; t++, at += step) *at = quad + t - 1;
-        *at = m == 1 ? inside : inside + 1 + i * (m - 1) + m - 2;       // on the spoke
-        at += step;
-        for (int t = m + 1; t < n; t++, at += step) *at = after + (n - t - 1) * (m - 1);
+    at[0] = base + a.first + a.step;
+    at[step * last] = base + b.first + b.step;
+    if (!sdv_is_ngon(order, f)) {
+        sdv_put_beside(order, order->n, inside, i, step, at);
+        return;
     }
+    sdv_put_beside(order, m, base + sdv_inside_grid(order, f, i), 0, step, at);
+    at[step * m] = m == 1 ? inside : inside + 1 + i * (m - 1) + m - 2;         // on the spoke
+    sdv_put_beside(order, m, base + sdv_inside_grid(order, f, next), 3, step, at + step * m);
 }
 
-// The points of the edge of h; returns where those of the next level stand.
-static sdv_side sdv_points_on_edge(const sdv_filler *fill, int h, int *out)
+// The points of the edge of h.
+static void sdv_points_on_edge(const sdv_order *order, int base, int h, int *out)
 {
-    const sdv_level *cage = &fill->from.cage;
-    int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)], n = fill->from.n;
-    int e = cage->face_edges[h];
-    sdv_side side = sdv_seen_edge(&fill->from, e, a > b);
-    out[0] = fill->base + a;
-    for (int t = 1; t < n; t++) out[t] = fill->base + side.first + side.step * t;
-    out[n] = fill->base + b;
-    return sdv_seen_edge(&fill->to, e, a > b);
+    const sdv_level *cage = &order->cage;
+    sdv_side side = sdv_edge_side(order, h, 0);
+    out[0] = base + cage->face_vertices[h];
+    for (int t = 1; t < order->n; t++) out[t] = base + side.first + side.step * t;
+    out[order->n] = base + cage->face_vertices[sdv_next(cage, h)];
 }
 
 // Piece j of a line and what is beside it.
@@ -3655,9 +3707,11 @@ static void sdv_line_rows(sdv_filler *fill, int h)
 {
     sdv_edge_line line = sdv_line_at(fill, h);
     int beside = (line.sharpness <= 0 || line.now) && !fill->rules->linear;
-    sdv_side target = sdv_points_on_edge(fill, h, fill->line);
-    if (beside) sdv_points_beside(fill, h, 0, fill->left);
-    if (beside) sdv_points_beside(fill, fill->level->across[h], 1, fill->right);
+    int across = fill->level->across[h], base = fill->base;
+    sdv_side target = sdv_edge_side(&fill->to, h, 0);
+    sdv_points_on_edge(&fill->from, base, h, fill->line);
+    if (beside) sdv_points_beside(&fill->from, base, h, 0, fill->left);
+    if (beside) sdv_points_beside(&fill->from, base, across, 1, fill->right);
     target.first += fill->target;
     if (beside && !line.now && fill->rules->loop) {
         sdv_smooth_rows(fill, 1, line.n, target);
@@ -3707,6 +3761,51 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
         points[1 + sides + i] = fill->left[m - 1];
     }
     sdv_add_runs(&fill->writer, &runs, centre);
+}
+
+// Points first to last of the row that comes between a line and the row beside it: they are face
+// points and edge points or, under Loop, edge points alone. made: where they stand; -1: not wanted.
+static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int last)
+{
+    const int *line = fill->line, *made = fill->made;
+    int loop = fill->rules->loop;
+    for (int t = first; t <= last; t++) {
+        int k = t / 2, odd = t % 2, next = odd ? k + 1 : k - 1, face = odd && !loop;
+        if (made[t] < 0) continue;
+        int *row = sdv_put_row(&fill->writer, face ? fill->face : fill->odd, fill->target + made[t]);
+        row[0] = line[loop ? k + odd : k];
+        row[1] = beside[k];
+        row[2] = line[loop ? k + !odd : next];
+        row[3] = beside[next];
+        if (loop || odd) continue;
+        row[4] = line[k + 1];
+        row[5] = beside[k + 1];
+    }
+}
+
+// The frame of face f on the next level.
+static void sdv_frame_rows(sdv_filler *fill, int f)
+{
+    const sdv_order *from = &fill->from, *to = &fill->to;
+    int start = sdv_face_start(&from->cage, f), sides = sdv_face_end(&from->cage, f) - start;
+    int n = from->n, ngon = sdv_is_ngon(from, f);
+    for (int i = 0; i < sides; i++) {
+        sdv_points_on_edge(from, fill->base, start + i, fill->line);
+        sdv_points_beside(from, fill->base, start + i, 0, fill->left);
+        sdv_points_beside(to, 0, start + i, 0, fill->made);
+        if (ngon) fill->made[n] = -1;                          // it is on a spoke
+        sdv_beside_rows(fill, fill->left, 1, 2 * n - 2 - from->loop);
+    }
+    for (int i = 0; i < sides && ngon; i++) {
+        sdv_grid left, right;
+        sdv_grid_at(to, start + i, &left);
+        sdv_grid_at(to, start + (i + 1 < sides ? i + 1 : 0), &right);
+        sdv_spoke_points(fill, f, i);
+        for (int t = 2; t < n; t++) fill->made[t] = sdv_inside_index(&left, t, n - 1);
+        sdv_beside_rows(fill, fill->left, 2, n - 1);
+        for (int t = 2; t < n; t++) fill->made[t] = sdv_inside_index(&right, n - 1, t);
+        sdv_beside_rows(fill, fill->right, 2, n - 2);
+    }
 }
 
 // ----------------------------------------------------------------------------- >>face-varying
@@ -4039,6 +4138,8 @@ struct subdiv_surface {
                                         // [2 levels]: to face points, to the others
     sdv_batches limit_rows;             // of a limit: from the last level to it
     int      *bases;                    // [levels + 2] where each level starts among work points
+    int      *quads;                    // of sdv_order
+    sdv_order *orders;                  // [levels + 1] of the work points
 
     subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
@@ -4333,7 +4434,7 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
 // level, and those of the limit.
 
 // Where the points of a level stand, for a cage that is known.
-static sdv_order sdv_order_at(const subdiv_surface *surface, int level)
+static sdv_order sdv_order_at(const subdiv_surface *surface, int level, int frame)
 {
     sdv_order order = surface->order;
     int n = 1 << level, vertices = surface->cage_vertex_count;
@@ -4342,6 +4443,8 @@ static sdv_order sdv_order_at(const subdiv_surface *surface, int level)
     order.m = n / 2;
     order.first_edge_point = vertices;
     order.first_face_point = vertices + order.cage.edge_count * (n - 1);
+    order.frame = frame;
+    order.quads = surface->quads;
     order.count = order.cage.face_count && level ? sdv_first_inside(&order, order.cage.face_count)
                                                  : vertices;
     return order;
@@ -4349,8 +4452,20 @@ static sdv_order sdv_order_at(const subdiv_surface *surface, int level)
 
 static void sdv_set_order(subdiv_surface *surface)
 {
-    surface->order = sdv_order_at(surface, surface->exact ? 0 : surface->levels);
+    surface->order = sdv_order_at(surface, surface->exact ? 0 : surface->levels, 0);
     surface->fine.vertex_count = surface->order.count;
+}
+
+// Counts the quads before each face, for frames.
+static void sdv_count_quads(sdv_context *context, subdiv_surface *surface)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int *quads = SDV_NEW(context, &surface->points, int, (size_t)cage->face_count + 1);
+    if (context->result) return;
+    quads[0] = 0;
+    for (int f = 0; f < cage->face_count; f++)
+        quads[f + 1] = quads[f] + (sdv_face_end(cage, f) - sdv_face_start(cage, f) == 4);
+    surface->quads = quads;
 }
 
 // The face points of the cage are work points, as edge and vertex points are made from them: the
@@ -4358,7 +4473,7 @@ static void sdv_set_order(subdiv_surface *surface)
 static int sdv_first_face_point(const subdiv_surface *surface)
 {
     int last = surface->levels == 1 && !surface->rules.limit;
-    return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1).first_face_point);
+    return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1, 0).first_face_point);
 }
 
 static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_level *cage, int n,
@@ -4480,11 +4595,13 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     sdv_runs odd = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, loop ? 2 : 4 }, 0 };
     sdv_runs even = { { (float)vertex.self, 0, (float)vertex.edge, (float)vertex.face },
                       { 1, 0, loop ? 6 : 4, loop ? 0 : 4 }, 0 };
-    sdv_shape shapes[2] = { sdv_shape_of(&odd), sdv_shape_of(&even) };
+    sdv_runs face = { { (float)sdv_face_weight(4), 0, 0, 0 }, { 4, 0, 0, 0 }, 0 };
+    sdv_shape shapes[3] = { sdv_shape_of(&odd), sdv_shape_of(&even), sdv_shape_of(&face) };
     fill->odd = sdv_find_open(&fill->writer, &shapes[0], NULL);
     fill->even = sdv_find_open(&fill->writer, &shapes[1], NULL);
-    fill->from = sdv_order_at(surface, level);
-    fill->to = sdv_order_at(surface, level + 1);
+    fill->face = sdv_find_open(&fill->writer, &shapes[2], NULL);
+    fill->from = surface->orders[level];
+    fill->to = last ? surface->order : surface->orders[level + 1];
     fill->base = fill->level->first_point = surface->bases[level];
     fill->target = last ? 0 : surface->bases[level + 1];
     fill->level->order = level ? &fill->from : NULL;
@@ -4517,6 +4634,7 @@ static void sdv_fill_face(sdv_filler *fill, int f)
         else sdv_line_rows(fill, h);
     }
     if (!cage && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
+    if (fill->to.frame) sdv_frame_rows(fill, f);
 }
 
 static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
@@ -4560,9 +4678,11 @@ static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
 {
     const sdv_level *level = fill->level;
     sdv_edge_line line = sdv_line_at(fill, h);
-    sdv_side target = sdv_points_on_edge(fill, h, fill->line);
-    sdv_points_beside(fill, h, 0, fill->left);
-    if (line.sharpness <= 0 || line.now) sdv_points_beside(fill, level->across[h], 1, fill->right);
+    sdv_side target = sdv_edge_side(&fill->to, h, 0);
+    sdv_points_on_edge(&fill->from, fill->base, h, fill->line);
+    sdv_points_beside(&fill->from, fill->base, h, 0, fill->left);
+    if (line.sharpness <= 0 || line.now)
+        sdv_points_beside(&fill->from, fill->base, level->across[h], 1, fill->right);
     for (int t = 1; t < line.n; t++) {
         int sharp = line.now ? (line.now[t - 1] > 0) + (line.now[t] > 0) : 2 * (line.sharpness > 0);
         sdv_limit_line_row(limit, fill, t, sharp, target.first + target.step * t);
@@ -4603,7 +4723,8 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
     sdv_shape alone;
     memset(&alone, 0, sizeof alone);
     sdv_begin_limit(&fill->writer, &surface->rules, level, &limit);
-    fill->from = fill->to = surface->order;
+    fill->from = surface->orders[surface->levels];
+    fill->to = surface->order;
     fill->base = level->first_point = surface->bases[surface->levels];
     fill->target = 0;
     level->order = &fill->from;
@@ -4637,20 +4758,24 @@ static int sdv_is_semi(const sdv_level *cage)
     return semi;
 }
 
-// Where each level starts among the work points. The last one is there for a limit alone.
-static void sdv_find_bases(sdv_context *context, subdiv_surface *surface)
+// Where each level starts among the work points. The last one is there for a limit alone. whole: if
+// none were a frame.
+static int *sdv_find_bases(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                           int whole)
 {
     int levels = surface->levels, faces = surface->rules.loop ? 0 : surface->order.cage.face_count;
-    surface->bases = SDV_NEW(context, &surface->points, int, levels + 2);
-    if (!context->result) surface->bases[0] = 0;
+    int *bases = SDV_NEW(context, arena, int, levels + 2);
+    if (!context->result) bases[0] = 0;
     for (int i = 0; i <= levels && !context->result; i++) {
         int last = i == levels && !surface->rules.limit;
-        double count = !last ? (double)sdv_order_at(surface, i).count : i == 1 ? (double)faces : 0;
-        if (surface->bases[i] + count > INT_MAX)
+        int points = whole ? sdv_order_at(surface, i, 0).count : surface->orders[i].count;
+        double count = !last ? (double)points : i == 1 ? (double)faces : 0;
+        if (bases[i] + count > INT_MAX)
             sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
                      "the levels of this mesh have too many points");
-        else surface->work_count = surface->bases[i + 1] = surface->bases[i] + (int)count;
+        else bases[i + 1] = bases[i] + (int)count;
     }
+    return bases;
 }
 
 // sharpness: the result has what is left of the cage's.
@@ -4666,12 +4791,18 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.line = SDV_NEW(context, scratch, int, n + 1);
     fill.left = SDV_NEW(context, scratch, int, n + 1);
     fill.right = SDV_NEW(context, scratch, int, n + 1);
+    fill.made = SDV_NEW(context, scratch, int, n + 1);
     surface->refine = SDV_NEW(context, &surface->points, sdv_batches, levels);
+    if (levels > SDV_FULL_LEVELS && cage->face_size != 4) sdv_count_quads(context, surface);
     sdv_new_pieces(context, scratch, cage, (int)n, &pieces);
     fill.level = cage;
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
-    sdv_find_bases(context, surface);
+    surface->orders = SDV_NEW(context, &surface->points, sdv_order, (size_t)levels + 1);
+    for (int i = 0; i <= levels && !context->result; i++)      // beyond some level, in frames
+        surface->orders[i] = sdv_order_at(surface, i, i > SDV_FULL_LEVELS);
+    surface->bases = sdv_find_bases(context, &surface->points, surface, 0);
+    surface->work_count = context->result ? 0 : surface->bases[levels + 1];
     int semi = sdv_is_semi(cage), point = context->result ? 0 : sdv_first_face_point(surface);
     for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = point + f;
     for (int i = 0; i < levels && !context->result; i++) {
@@ -5394,10 +5525,27 @@ static void sdv_make_batches(const sdv_batches *batches, const float *work, int 
     }
 }
 
-// Inside a face everything is regular: the points between those of a grid are made row by row,
-// columns in pieces. Here points are seen from one of the grid, so that sums lose nothing by where
+// Inside a face everything is regular: the points between those of a grid are made row by row, region
+// by region. In a region points are seen from a corner of the grid, so that sums lose nothing by where
 // the mesh stands.
-#define SDV_PIECE 16
+#define SDV_REGION 16                     // cells along a side
+
+typedef struct sdv_cells {              // of a grid: those between such rows and columns of points
+    int left, right, bottom, top;
+} sdv_cells;
+
+typedef struct sdv_region {               // the points of some cells and of those around them
+    sdv_cells cells;
+    int       row, column, width;       // of the first point, and points in a row
+    sdv_four *points;
+} sdv_region;
+
+// Where the points go that are made inside a grid from a region seen from origin.
+typedef struct sdv_region_out {
+    const sdv_window *out;
+    int      first, columns, triangle;  // see sdv_inside_point
+    sdv_four origin;
+} sdv_region_out;
 
 typedef struct sdv_grid_step {
     sdv_mask vertex, edge;              // of what is regular and smooth
@@ -5416,23 +5564,20 @@ static sdv_grid_step sdv_regular_masks(const sdv_rules *rules)
     return step;
 }
 
-// Points of a row from one column up to another, less origin.
-SDV_INLINE void sdv_load_row(const sdv_grid *grid, int row, int first, int last, const float *work,
-                             sdv_four origin, sdv_four *p)
+static const sdv_four *sdv_region_at(const sdv_region *region, int row, int column)
 {
-    int columns = grid->columns - (grid->triangle ? row : 0), c = first;
-    if (c == 0) {
-        *p++ = sdv_minus(sdv_load(work + 4 * (size_t)sdv_grid_index(grid, row, 0)), origin);
-        c = 1;
+    return region->points + (row - region->row) * region->width + (column - region->column);
+}
+
+// The points of a side between two corners, from first up to last, less origin.
+static void sdv_load_side(const sdv_grid *grid, int side, int from, int to, int first, int last,
+                          const float *work, sdv_four origin, sdv_four *p)
+{
+    for (int t = first; t <= last; t++) {
+        int index = t == 0 ? grid->corner[from] : t == grid->columns ? grid->corner[to]
+                                                : sdv_side_index(grid, side, t);
+        *p++ = sdv_minus(sdv_load(work + 4 * (size_t)index), origin);
     }
-    if (c <= last && c < columns) {
-        sdv_side line = sdv_grid_line(grid, row);
-        const float *from = work + 4 * ((ptrdiff_t)line.first + (ptrdiff_t)line.step * c);
-        int end = last < columns ? last : columns - 1;
-        for (; c <= end; c++, from += 4 * line.step) *p++ = sdv_minus(sdv_load(from), origin);
-    }
-    if (c > last) return;
-    *p = sdv_minus(sdv_load(work + 4 * (size_t)sdv_grid_index(grid, row, c)), origin);
 }
 
 // Writes count points that stand one behind the other.
@@ -5466,6 +5611,13 @@ SDV_INLINE sdv_points_run sdv_begin_run(const sdv_window *out, int index, int co
     run.to = out->values + out->stride * (size_t)index;
     run.step = out->stride;
     return run;
+}
+
+SDV_INLINE sdv_points_run sdv_begin_row(const sdv_region_out *to, int row, int column, int count,
+                                        sdv_four *room)
+{
+    int index = sdv_inside_point(to->first, to->columns, to->triangle, row, column);
+    return sdv_begin_run(to->out, index, count, room);
 }
 
 SDV_INLINE void sdv_put_next(sdv_points_run *run, sdv_four p)
@@ -5563,30 +5715,31 @@ SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_r
     }
 }
 
-static void sdv_refine_quads(const sdv_grid *grid, const sdv_grid_step *step, int target, int first,
-                             int last, const float *work, const sdv_window *out)
+static void sdv_refine_quads(const sdv_region *region, const sdv_grid_step *step,
+                             const sdv_region_out *to)
 {
-    sdv_four rows[3][SDV_PIECE + 2], faces[2][SDV_PIECE + 1], made[2 * SDV_PIECE];
-    sdv_lines q = sdv_begin_lines(step, sdv_load(work + 4 * (size_t)grid->corner[0]));
-    int low = first ? first - 1 : 0, skip = first ? 1 : 0, cells = last - low;
-    int length = 2 * grid->columns - 1, at = target + (first ? 2 * first - 1 : 0);
-    int count = 2 * (last - first) - !first;
-    sdv_load_row(grid, 0, low, last, work, q.origin, rows[0]);
-    for (int r = 0; r < grid->rows; r++) {
-        sdv_four *b = rows[r % 3], *c = rows[(r + 1) % 3], *g = faces[r % 2];
-        sdv_load_row(grid, r + 1, low, last, work, q.origin, c);
-        sdv_face_points(b, c, cells, step->face, g);
-        q.a = rows[(r + 2) % 3];
-        q.b = b;
-        q.c = c;
-        q.f = faces[1 - r % 2];
-        q.g = g;
+    sdv_four faces[2][SDV_REGION + 1], made[2 * SDV_REGION];
+    sdv_lines q = sdv_begin_lines(step, to->origin);
+    const sdv_cells *cells = &region->cells;
+    int skip = cells->left > 0, low = cells->left - skip, end = cells->right - low;
+    int column = skip ? 2 * cells->left : 1, count = 2 * cells->right - column;
+    if (cells->bottom > 0)
+        sdv_face_points(sdv_region_at(region, cells->bottom - 1, low),
+                        sdv_region_at(region, cells->bottom, low), end, step->face,
+                        faces[(cells->bottom + 1) % 2]);
+    for (int r = cells->bottom; r < cells->top; r++) {
+        q.a = r > 0 ? sdv_region_at(region, r - 1, low) : NULL;
+        q.b = sdv_region_at(region, r, low);
+        q.c = sdv_region_at(region, r + 1, low);
+        q.f = faces[(r + 1) % 2];
+        q.g = faces[r % 2];
+        sdv_face_points(q.b, q.c, end, step->face, faces[r % 2]);
         if (r > 0) {
-            sdv_points_run run = sdv_begin_run(out, at + (2 * r - 1) * length, count, made);
-            sdv_vertex_points(&q, skip, cells, &run);
+            sdv_points_run run = sdv_begin_row(to, 2 * r, column, count, made);
+            sdv_vertex_points(&q, skip, end, &run);
         }
-        sdv_points_run run = sdv_begin_run(out, at + 2 * r * length, count, made);
-        sdv_edge_points(&q, skip, cells, &run);
+        sdv_points_run run = sdv_begin_row(to, 2 * r + 1, column, count, made);
+        sdv_edge_points(&q, skip, end, &run);
     }
 }
 
@@ -5649,31 +5802,26 @@ SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole
     }
 }
 
-static void sdv_refine_triangles(const sdv_grid *grid, const sdv_grid_step *step, int target,
-                                 int first, int last, const float *work, const sdv_window *out)
+static void sdv_refine_triangles(const sdv_region *region, int n, const sdv_grid_step *step,
+                                 const sdv_region_out *to)
 {
-    sdv_four rows[3][SDV_PIECE + 2], made[2 * SDV_PIECE];
-    sdv_lines q = sdv_begin_lines(step, sdv_load(work + 4 * (size_t)grid->corner[0]));
-    int n = grid->columns, low = first ? first - 1 : 0, skip = first ? 1 : 0;
-    int column = first ? 2 * first : 1;
-    sdv_load_row(grid, 0, low, last, work, q.origin, rows[0]);
-    for (int r = 0; r < n - first; r++) {
-        sdv_four *c = rows[(r + 1) % 3];
-        int above = n - r - 1, end = last < n - r ? last : n - r, whole = end == n - r;
-        int count = 2 * (end - first) - !first;
-        if (low <= above)
-            sdv_load_row(grid, r + 1, low, last < above ? last : above, work, q.origin, c);
-        q.a = rows[(r + 2) % 3];
-        q.b = rows[r % 3];
-        q.c = c;
+    sdv_four made[2 * SDV_REGION];
+    sdv_lines q = sdv_begin_lines(step, to->origin);
+    const sdv_cells *cells = &region->cells;
+    int skip = cells->left > 0, low = cells->left - skip;
+    int column = skip ? 2 * cells->left : 1;
+    for (int r = cells->bottom; r < cells->top && r < n - cells->left; r++) {
+        int end = cells->right < n - r ? cells->right : n - r, whole = end == n - r;
+        int count = 2 * end - column;
+        q.a = r > 0 ? sdv_region_at(region, r - 1, low) : NULL;
+        q.b = sdv_region_at(region, r, low);
+        q.c = sdv_region_at(region, r + 1, low);
         if (r > 0) {
-            int at = sdv_inside_point(target, 2 * n, 1, 2 * r, column);
-            sdv_points_run run = sdv_begin_run(out, at, count, made);
+            sdv_points_run run = sdv_begin_row(to, 2 * r, column, count, made);
             sdv_triangle_vertices(&q, skip, end - low, &run);
         }
         if (count > whole) {
-            int at = sdv_inside_point(target, 2 * n, 1, 2 * r + 1, column);
-            sdv_points_run run = sdv_begin_run(out, at, count - whole, made);
+            sdv_points_run run = sdv_begin_row(to, 2 * r + 1, column, count - whole, made);
             sdv_triangle_edges(&q, skip, end - low, whole, &run);
         }
     }
@@ -5764,48 +5912,10 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
     sdv_put_last(&run, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0]));
 }
 
-// Where the points inside a grid start in an order.
-static int sdv_inside_grid(const sdv_order *order, int f, int i)
-{
-    const sdv_level *cage = &order->cage;
-    int inside = sdv_first_inside(order, f);
-    if (!sdv_is_ngon(order, f)) return inside;
-    return sdv_inside_ngon(inside, sdv_face_end(cage, f) - sdv_face_start(cage, f), order->m, i);
-}
-
 static int sdv_grids_of(const sdv_order *order, int f)
 {
     return sdv_is_ngon(order, f) ? sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f)
                                  : 1;
-}
-
-// The points inside the grids of cage faces face to end - 1, from a level, whose points are here,
-// to the next one, whose points stand from target on.
-static void sdv_refine_grids(const sdv_rules *rules, const sdv_order *from, const sdv_order *to,
-                             const float *points, int face, int end, int target,
-                             const sdv_window *out)
-{
-    sdv_grid_step step = sdv_regular_masks(rules);
-    for (int f = face; f < end; f++) {
-        int start = sdv_face_start(&from->cage, f), count = sdv_grids_of(from, f);
-        if (from->n == 2) {
-            int at = target + sdv_inside_grid(to, f, 0);
-            if (sdv_is_ngon(from, f)) sdv_refine_corners(from, f, &step, at, points, out);
-            else if (rules->loop) sdv_refine_three(from, f, &step, at, points, out);
-            else sdv_refine_four(from, f, &step, at, points, out);
-            continue;
-        }
-        for (int i = 0; i < count; i++) {
-            sdv_grid grid;
-            int at = target + sdv_inside_grid(to, f, i);
-            sdv_grid_at(from, start + i, &grid);
-            for (int c = 0; c < grid.columns; c += SDV_PIECE) {
-                int last = grid.columns - c < SDV_PIECE ? grid.columns : c + SDV_PIECE;
-                if (rules->loop) sdv_refine_triangles(&grid, &step, at, c, last, points, out);
-                else sdv_refine_quads(&grid, &step, at, c, last, points, out);
-            }
-        }
-    }
 }
 
 // The limit masks of what is regular and smooth: weights of the vertex, of those around it, and of
@@ -5926,30 +6036,23 @@ SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *lines, int triangle,
     }
 }
 
-// The limit points inside a grid, in columns from first to last - 1, at least 1, and their
-// tangents.
-static void sdv_limit_grid(const sdv_grid *grid, const sdv_grid_limit *limit, int first, int last,
-                           const float *points, const sdv_window *out)
+// The limit points inside a region of a grid of n segments, and their tangents.
+static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_limit *limit,
+                           const sdv_region_out *to)
 {
-    sdv_four rows[3][SDV_PIECE + 2];
+    const sdv_cells *cells = &region->cells;
+    int first = cells->left ? cells->left : 1;
     sdv_limit_lines q;
-    const sdv_four origin = sdv_load(points + 4 * (size_t)grid->corner[0]);
-    int triangle = grid->triangle, n = grid->columns;
-    sdv_begin_limit_lines(limit, triangle, &q);
-    sdv_load_row(grid, 0, first - 1, last, points, origin, rows[0]);
-    sdv_load_row(grid, 1, first - 1, last < n - triangle ? last : n - triangle, points, origin,
-                 rows[1]);
-    for (int r = 1; r < grid->rows - first * triangle; r++) {
-        int count = (triangle && n - r < last ? n - r : last) - first;
-        int above = n - (r + 1) * triangle;
-        int index = sdv_inside_index(grid, r, first);
-        sdv_load_row(grid, r + 1, first - 1, last < above ? last : above, points, origin,
-                     rows[(r + 1) % 3]);
-        q.a = rows[(r + 2) % 3];
-        q.b = rows[r % 3];
-        q.c = rows[(r + 1) % 3];
-        if (triangle) sdv_limit_row_points(&q, 1, count, index, origin, out);
-        else sdv_limit_row_points(&q, 0, count, index, origin, out);
+    sdv_begin_limit_lines(limit, to->triangle, &q);
+    for (int r = cells->bottom ? cells->bottom : 1; r < cells->top; r++) {
+        int end = to->triangle && n - r < cells->right ? n - r : cells->right;
+        int index = sdv_inside_point(to->first, to->columns, to->triangle, r, first);
+        if (end <= first) continue;
+        q.a = sdv_region_at(region, r - 1, first - 1);
+        q.b = sdv_region_at(region, r, first - 1);
+        q.c = sdv_region_at(region, r + 1, first - 1);
+        if (to->triangle) sdv_limit_row_points(&q, 1, end - first, index, to->origin, to->out);
+        else sdv_limit_row_points(&q, 0, end - first, index, to->origin, to->out);
     }
 }
 
@@ -5986,24 +6089,161 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
     }
 }
 
-static void sdv_limit_grids(const sdv_rules *rules, const sdv_order *order, const float *points,
-                            int face, int end, const sdv_window *out)
+// Work points are there for the whole of a grid up to some level. Beyond, there are frames alone: the
+// points on the grid's sides and, as the next ones follow from them, those beside. So the inside of
+// a deep grid is made region by region, each from the cells that it needs of the last whole level, level
+// by level: in room that the processor keeps at hand, however fine the result is.
+typedef struct sdv_interior {             // makes the points inside grids:
+    const subdiv_surface *surface;
+    const float *work;
+    int level, full;                    // from a level; the last one that is whole up to there
+    const sdv_grid_limit *limit;        // their limit; NULL: the next level
+    sdv_grid_step step;
+    sdv_grid grids[SDV_MOST_LEVELS];    // of levels full to level
+} sdv_interior;
+
+enum { SDV_LARGE_REGION = 21, SDV_SMALL_REGION = 13 };              // points along a side
+
+// The cells of a level of n segments from which those of the next one are made.
+static sdv_cells sdv_cells_before(sdv_cells next, int n)
 {
-    sdv_grid_limit limit = sdv_regular_limit(rules);
-    if (order->n == 2) {                    // of triangles nothing is inside
-        if (!order->loop) sdv_limit_centres(&limit, order, points, face, end, out);
+    sdv_cells cells = { (next.left + 1) / 2 - 1, next.right / 2 + 1, (next.bottom + 1) / 2 - 1,
+                        next.top / 2 + 1 };
+    if (cells.left < 0) cells.left = 0;
+    if (cells.bottom < 0) cells.bottom = 0;
+    if (cells.right > n) cells.right = n;
+    if (cells.top > n) cells.top = n;
+    return cells;
+}
+
+// Loads the points of a region that are on the grid's sides.
+static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four origin,
+                           const sdv_region *region, int last_row, int last_column)
+{
+    int n = grid->columns, first = region->column, r = region->row;
+    sdv_four *p = region->points;
+    if (r == 0) sdv_load_side(grid, 0, 0, 1, first, last_column, points, origin, p);
+    if (r == 0) p += region->width;
+    for (r += r == 0; r <= last_row && r < n; r++, p += region->width) {
+        int right = grid->triangle ? n - r : n;
+        const float *left_side = points + 4 * (size_t)sdv_side_index(grid, 3, r);
+        const float *right_side = points + 4 * (size_t)sdv_side_index(grid, 1, r);
+        if (first == 0) *p = sdv_minus(sdv_load(left_side), origin);
+        if (first <= right && right <= last_column)
+            p[right - first] = sdv_minus(sdv_load(right_side), origin);
+    }
+    if (last_row < n) return;
+    if (!grid->triangle) sdv_load_side(grid, 2, 3, 2, first, last_column, points, origin, p);
+    else if (first == 0) *p = sdv_minus(sdv_load(points + 4 * (size_t)grid->corner[2]), origin);
+}
+
+// Loads cells of a whole grid.
+static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four origin,
+                            sdv_region *region)
+{
+    sdv_cells cells = region->cells;
+    int n = grid->columns, first = cells.left > 1 ? cells.left - 1 : 1;
+    region->row = cells.bottom ? cells.bottom - 1 : 0;
+    region->column = cells.left ? cells.left - 1 : 0;
+    region->width = cells.right - region->column + 1;
+    for (int r = region->row ? region->row : 1; r <= cells.top && r < n; r++) {
+        int end = grid->triangle ? n - r : n;
+        const float *from = points + 4 * (size_t)sdv_inside_index(grid, r, first);
+        sdv_four *p = region->points + (r - region->row) * region->width + first - region->column;
+        if (end > cells.right + 1) end = cells.right + 1;
+        for (int c = first; c < end; c++, from += 4) *p++ = sdv_minus(sdv_load(from), origin);
+    }
+    sdv_load_sides(grid, points, origin, region, cells.top, cells.right);
+}
+
+// Makes a region from one of the level before.
+static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step *step, sdv_region *region)
+{
+    const sdv_cells *cells = &from->cells;
+    sdv_window out = { (float *)(void *)region->points, 4, 4, 0, INT_MAX, 0, NULL };
+    region->row = 2 * cells->bottom;
+    region->column = 2 * cells->left;
+    region->width = 2 * (cells->right - cells->left) + 1;
+    sdv_region_out to = { &out, (1 - region->row) * region->width + 1 - region->column, region->width + 1, 0,
+                        sdv_all(0) };
+    if (step->loop) sdv_refine_triangles(from, n, step, &to);
+    else sdv_refine_quads(from, step, &to);
+}
+
+static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_out *to)
+{
+    sdv_four large[SDV_LARGE_REGION * SDV_LARGE_REGION], small[SDV_SMALL_REGION * SDV_SMALL_REGION];
+    sdv_cells needed[SDV_MOST_LEVELS];
+    sdv_region region, before;
+    int last = in->level - in->full;
+    needed[last] = cells;
+    for (int i = last; i > 0; i--)
+        needed[i - 1] = sdv_cells_before(needed[i], in->grids[i - 1].columns);
+    const float *points = in->work + 4 * (size_t)in->surface->bases[in->full];
+    to->origin = sdv_load(points + 4 * (size_t)in->grids[0].corner[0]);
+    region.cells = needed[0];
+    region.points = last % 2 ? small : large;
+    sdv_load_region(&in->grids[0], points, to->origin, &region);
+    for (int i = 1; i <= last; i++) {
+        const sdv_grid *grid = &in->grids[i];
+        before = region;
+        region.cells = needed[i];
+        region.points = (last - i) % 2 ? small : large;
+        sdv_refine_region(&before, grid->columns / 2, &in->step, &region);
+        sdv_load_sides(grid, in->work + 4 * (size_t)in->surface->bases[in->full + i], to->origin,
+                       &region, 2 * before.cells.top, 2 * before.cells.right);
+    }
+    if (in->limit) sdv_limit_region(&region, in->grids[last].columns, in->limit, to);
+    else if (in->step.loop) sdv_refine_triangles(&region, in->grids[last].columns, &in->step, to);
+    else sdv_refine_quads(&region, &in->step, to);
+}
+
+// The points inside grid i of face f.
+static void sdv_make_grid(sdv_interior *in, const sdv_order *order, int target, int f, int i,
+                          const sdv_window *out)
+{
+    sdv_region_out to = { out, target + sdv_inside_grid(order, f, i), 0, in->step.loop, sdv_all(0) };
+    int h = sdv_face_start(&order->cage, f) + i, n = 0;
+    for (int level = in->full; level <= in->level; level++) {
+        sdv_grid_at(&in->surface->orders[level], h, &in->grids[level - in->full]);
+        n = in->grids[level - in->full].columns;
+    }
+    to.columns = in->limit ? n : 2 * n;
+    for (int bottom = 0; bottom < n; bottom += SDV_REGION)
+        for (int left = 0; left < (to.triangle ? n - bottom : n); left += SDV_REGION) {
+            sdv_cells cells = { left, left + SDV_REGION, bottom, bottom + SDV_REGION };
+            if (cells.right > n) cells.right = n;
+            if (cells.top > n) cells.top = n;
+            sdv_make_region(in, cells, &to);
+        }
+}
+
+// The points inside the grids of cage faces face to end - 1, from a level of the work points to the
+// next one or, if limit is not NULL, to their limit: where an order says, from target on.
+static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_grid_limit *limit,
+                           const float *work, int face, int end, const sdv_order *order,
+                           int target, const sdv_window *out)
+{
+    sdv_interior in;
+    const sdv_order *from = &surface->orders[level];
+    const float *points = work + 4 * (size_t)surface->bases[level];
+    in.surface = surface;
+    in.work = work;
+    in.level = level;
+    in.full = level < SDV_FULL_LEVELS ? level : SDV_FULL_LEVELS;
+    in.limit = limit;
+    in.step = sdv_regular_masks(&surface->rules);
+    if (end > surface->cage_face_count) end = surface->cage_face_count;
+    if (level == 1 && limit) {              // of triangles nothing is inside
+        if (!from->loop) sdv_limit_centres(limit, from, points, face, end, out);
         return;
     }
     for (int f = face; f < end; f++) {
-        int start = sdv_face_start(&order->cage, f), count = sdv_grids_of(order, f);
-        for (int i = 0; i < count; i++) {
-            sdv_grid grid;
-            sdv_grid_at(order, start + i, &grid);
-            for (int c = 1; c < grid.columns; c += SDV_PIECE)
-                sdv_limit_grid(&grid, &limit, c,
-                               grid.columns - c < SDV_PIECE ? grid.columns : c + SDV_PIECE, points,
-                               out);
-        }
+        int at = target + sdv_inside_grid(order, f, 0), grids = sdv_grids_of(order, f);
+        if (level == 1 && grids > 1) sdv_refine_corners(from, f, &in.step, at, points, out);
+        else if (level == 1 && from->loop) sdv_refine_three(from, f, &in.step, at, points, out);
+        else if (level == 1) sdv_refine_four(from, f, &in.step, at, points, out);
+        else for (int i = 0; i < grids; i++) sdv_make_grid(&in, order, target, f, i, out);
     }
 }
 
@@ -6042,10 +6282,9 @@ static void sdv_refine_faces(const subdiv_surface *surface, int level, const flo
     if (level == 0 && surface->levels == 1 && !surface->rules.limit && !surface->rules.loop)
         sdv_copy_face_points(surface, work, face, end, out);
     if (level == 0) return;
-    sdv_order from = sdv_order_at(surface, level), to = sdv_order_at(surface, level + 1);
-    if (end > surface->cage_face_count) end = surface->cage_face_count;
-    sdv_refine_grids(&surface->rules, &from, &to, work + 4 * (size_t)surface->bases[level], face,
-                     end, target, out);
+    int last = level + 1 == surface->levels && !surface->rules.limit;
+    const sdv_order *to = last ? &surface->order : &surface->orders[level + 1];
+    if (!to->frame) sdv_make_grids(surface, level, NULL, work, face, end, to, target, out);
 }
 
 // Cage faces face to end - 1: the points of the result that belong to them.
@@ -6053,10 +6292,9 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
                            const sdv_window *out)
 {
     if (surface->rules.limit) {
+        sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
         sdv_make_batches(&surface->limit_rows, work, face, end, out);
-        sdv_limit_grids(&surface->rules, &surface->order,
-                        work + 4 * (size_t)surface->bases[surface->levels], face,
-                        end < surface->cage_face_count ? end : surface->cage_face_count, out);
+        sdv_make_grids(surface, surface->levels, &limit, work, face, end, &surface->order, 0, out);
         return;
     }
     sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
@@ -9951,6 +10189,9 @@ typedef struct sdv_stencil_maker {
     const subdiv_surface *surface;
     sdv_arena  arena;
 
+    int       *bases;                   // [levels + 2] where levels start; here all are whole,
+    int        work_count;              // and have so many points
+
     sdv_array  known;                   // sdv_entry: of all work points that are known,
     size_t    *starts;                  // [work_count] where each one's start, and
     int       *sizes;                   // [work_count] how many there are; 0: not known yet,
@@ -9972,8 +10213,53 @@ typedef struct sdv_stencil_maker {
     sdv_array  indices, weights;        // ints, floats [parts] each
 } sdv_stencil_maker;
 
+// Where point index of an order is that stands inside a grid: returns the grid's face-vertex.
+static int sdv_find_on_grid(const sdv_order *order, int index, int *row, int *column)
+{
+    const sdv_level *cage = &order->cage;
+    int f = sdv_face_inside(order, index), start = sdv_face_start(cage, f), grid = 0;
+    int n = sdv_is_ngon(order, f) ? order->m : order->n, length = n - 1;
+    int size = order->frame ? 4 * (n - 2) : length * length;
+    index -= sdv_inside_grid(order, f, 0);
+    if (n != order->n) {
+        grid = index / size;
+        index -= grid * size;
+    }
+    if (order->frame) {
+        int along = n - 2 - order->loop;
+        sdv_beside_side(n, order->loop, index / along, index % along + 1, row, column);
+        return start + grid;
+    }
+    *row = 1;
+    if (order->loop) for (length--; index >= length; index -= length--) ++*row;
+    else *row += index / length;
+    *column = 1 + (order->loop ? index : index % length);
+    return start + grid;
+}
+
+// A work point's number if no level were a frame.
+static int sdv_whole_point(const sdv_stencil_maker *make, int point)
+{
+    const subdiv_surface *surface = make->surface;
+    int level = 0, row, column;
+    if (surface->exact || surface->levels == 0) return point;
+    while (level < surface->levels && point >= surface->bases[level + 1]) level++;
+    const sdv_order *from = &surface->orders[level];
+    int base = make->bases[level];
+    point -= surface->bases[level];
+    if (!from->frame || point < from->first_face_point) return base + point;
+    sdv_order to = sdv_order_at(surface, level, 0);
+    int f = sdv_face_inside(from, point);
+    if (point < sdv_inside_grid(from, f, 0))                   // the centre, or on a spoke
+        return base + sdv_first_inside(&to, f) + point - sdv_first_inside(from, f);
+    sdv_grid grid;
+    int h = sdv_find_on_grid(from, point, &row, &column);
+    sdv_grid_at(&to, h, &grid);
+    return base + sdv_inside_index(&grid, row, column);
+}
+
 // Notes where the rows are: of a step's work points, or of the result's points behind all those.
-static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int base,
+static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int result,
                              int step)
 {
     for (int b = 0; b < (batches->rows ? batches->starts[batches->blocks] : 0); b++) {
@@ -9981,9 +10267,10 @@ static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches
         const int *row = batch->items, points = sdv_row_points(&batch->shape);
         if (points > make->longest) make->longest = points;
         for (int i = 0; i < batch->rows; i++, row += 1 + points + 3 * batch->shape.own) {
-            make->batches[base + row[0]] = batch;
-            make->rows[base + row[0]] = row;
-            if (base == 0) make->steps[row[0]] = (unsigned char)step;
+            int at = result ? make->work_count + row[0] : sdv_whole_point(make, row[0]);
+            make->batches[at] = batch;
+            make->rows[at] = row;
+            if (!result) make->steps[at] = (unsigned char)step;
         }
     }
 }
@@ -9993,7 +10280,7 @@ static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches
 static void sdv_note_rows(sdv_stencil_maker *make)
 {
     const subdiv_surface *surface = make->surface;
-    int levels = surface->levels, limit = surface->rules.limit, work = surface->work_count;
+    int levels = surface->levels, limit = surface->rules.limit, work = make->work_count;
     size_t count = (size_t)work + (size_t)surface->fine.vertex_count;
     make->batches = SDV_NEW(make->context, &make->arena, const sdv_batch *, count);
     make->rows = SDV_NEW(make->context, &make->arena, const int *, count);
@@ -10004,13 +10291,13 @@ static void sdv_note_rows(sdv_stencil_maker *make)
         sdv_note_batches(make, &surface->refine[i], 0, i + 1);
     if (surface->exact || levels == 0) return;
     for (int i = 0; i <= levels; i++)
-        memset(make->steps + surface->bases[i], 2 * i,
-               (size_t)surface->bases[i + 1] - (size_t)surface->bases[i]);
+        memset(make->steps + make->bases[i], 2 * i,
+               (size_t)make->bases[i + 1] - (size_t)make->bases[i]);
     for (int i = 0; i < levels; i++) {
         int last = i + 1 == levels && !limit;
-        sdv_note_batches(make, &surface->refine[i], last ? work : 0, 2 * i + 2);
+        sdv_note_batches(make, &surface->refine[i], last, 2 * i + 2);
     }
-    if (limit) sdv_note_batches(make, &surface->limit_rows, work, 0);
+    if (limit) sdv_note_batches(make, &surface->limit_rows, 1, 0);
     if (!surface->rules.loop)
         memset(make->steps + sdv_first_face_point(surface), 1, (size_t)surface->cage_face_count);
 }
@@ -10018,12 +10305,17 @@ static void sdv_note_rows(sdv_stencil_maker *make)
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
                                   const subdiv_surface *surface, int points, int parts)
 {
-    size_t work = (size_t)surface->work_count;
     memset(make, 0, sizeof *make);
     make->context = context;
     make->surface = surface;
     make->parts = parts;
     make->arena = sdv_scratch();
+    make->work_count = surface->work_count;
+    if (!surface->exact && surface->levels > 0) {
+        make->bases = sdv_find_bases(context, &make->arena, surface, 1);
+        if (!context->result) make->work_count = make->bases[surface->levels + 1];
+    }
+    size_t work = (size_t)make->work_count;
     make->starts = SDV_NEW(context, &make->arena, size_t, work);
     make->sizes = SDV_NEW(context, &make->arena, int, work);
     make->vertices = SDV_NEW(context, &make->arena, int, work);
@@ -10093,36 +10385,17 @@ static void sdv_fill_weights(sdv_stencil_row *row)
     for (int i = row->count - 1; i > 0; i--) row->weights[0] -= row->weights[i];
 }
 
-static void sdv_batch_row(const sdv_batch *batch, const int *row, sdv_stencil_row *out)
+static void sdv_batch_row(const sdv_stencil_maker *make, const sdv_batch *batch, const int *row,
+                          sdv_stencil_row *out)
 {
     const sdv_shape *shape = &batch->shape;
     float w[3] = { shape->weight[0], shape->weight[1], shape->weight[2] };
     out->count = sdv_row_points(shape);
     if (shape->own) memcpy(w, row + 1 + out->count, sizeof w);
-    for (int i = 0; i < out->count; i++) out->points[i] = row[1 + i];
+    for (int i = 0; i < out->count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
     for (int k = 0, i = 1; k < 3; k++)
         for (int j = 0; j < shape->count[k]; j++) out->weights[i++] = (double)w[k];
     sdv_fill_weights(out);
-}
-
-// Where point index of an order is that stands on a grid: returns the grid's face-vertex.
-static int sdv_find_on_grid(const sdv_order *order, int index, int *row, int *column)
-{
-    const sdv_level *cage = &order->cage;
-    int f = sdv_face_inside(order, index), start = sdv_face_start(cage, f);
-    int sides = sdv_face_end(cage, f) - start, grid = 0;
-    int ngon = sdv_is_ngon(order, f), m = ngon ? order->m : order->n, length = m - 1;
-    index -= sdv_first_inside(order, f);
-    if (ngon) {
-        index -= 1 + sides * (m - 1);
-        grid = index / (length * length);
-        index -= grid * length * length;
-    }
-    *row = 1;
-    if (order->loop) for (length--; index >= length; index -= length--) ++*row;
-    else *row += index / length;
-    *column = 1 + (order->loop ? index : index % length);
-    return start + grid;
 }
 
 static void sdv_add_grid_point(const sdv_grid *grid, int base, int row, int column, double weight,
@@ -10173,13 +10446,14 @@ static void sdv_grid_ring(const sdv_grid *grid, int base, int r, int c, sdv_mask
 }
 
 // The row of a point of a level, from 2 on, that is on a grid.
-static void sdv_grid_row_of(const subdiv_surface *surface, int level, int index,
+static void sdv_grid_row_of(const sdv_stencil_maker *make, int level, int index,
                             sdv_stencil_row *out)
 {
-    sdv_order to = sdv_order_at(surface, level), from = sdv_order_at(surface, level - 1);
+    const subdiv_surface *surface = make->surface;
+    sdv_order to = sdv_order_at(surface, level, 0), from = sdv_order_at(surface, level - 1, 0);
     sdv_grid_step step = sdv_regular_masks(&surface->rules);
     int row, column, h = sdv_find_on_grid(&to, index, &row, &column);
-    int base = surface->bases[level - 1];
+    int base = make->bases[level - 1];
     int r = row / 2, c = column / 2, up = row % 2, right = column % 2;
     sdv_grid grid;
     sdv_grid_at(&from, h, &grid);
@@ -10214,10 +10488,10 @@ static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, s
 {
     const subdiv_surface *surface = make->surface;
     int last = level == surface->levels && !surface->rules.limit;
-    int at = last ? surface->work_count + index : surface->bases[level] + index;
-    if (make->rows[at]) sdv_batch_row(make->batches[at], make->rows[at], out);
-    else if (level > 1) sdv_grid_row_of(surface, level, index, out);
-    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1).first_face_point, out);
+    int at = last ? make->work_count + index : make->bases[level] + index;
+    if (make->rows[at]) sdv_batch_row(make, make->batches[at], make->rows[at], out);
+    else if (level > 1) sdv_grid_row_of(make, level, index, out);
+    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1, 0).first_face_point, out);
 }
 
 // The row of a work point, in the room of its step.
@@ -10226,9 +10500,9 @@ static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int po
     const subdiv_surface *surface = make->surface;
     int step = make->steps[point], level = step / 2;
     sdv_stencil_row *room = &make->room[step];
-    if (make->rows[point]) sdv_batch_row(make->batches[point], make->rows[point], room);
+    if (make->rows[point]) sdv_batch_row(make, make->batches[point], make->rows[point], room);
     else if (step == 1) sdv_face_stencil(surface, point - sdv_first_face_point(surface), room);
-    else sdv_grid_row_of(surface, level, point - surface->bases[level], room);
+    else sdv_grid_row_of(make, level, point - make->bases[level], room);
     return room;
 }
 
@@ -10437,20 +10711,22 @@ static void sdv_add_limit_weights(sdv_stencil_maker *make, const float *weights,
 static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
 {
     const subdiv_surface *surface = make->surface;
-    const sdv_batch *batch = make->batches[surface->work_count + i];
-    const int *row = make->rows[surface->work_count + i];
+    const sdv_batch *batch = make->batches[make->work_count + i];
+    const int *row = make->rows[make->work_count + i];
     sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
     sdv_stencil_row *room = &make->room[0];
     float weights[3 * 9];
     if (row) {
-        sdv_add_limit_weights(make, batch->limit, sdv_row_points(&batch->shape), row + 1);
+        room->count = sdv_row_points(&batch->shape);
+        for (int k = 0; k < room->count; k++) room->points[k] = sdv_whole_point(make, row[1 + k]);
+        sdv_add_limit_weights(make, batch->limit, room->count, room->points);
         return;
     }
     int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
     sdv_grid grid;
     sdv_grid_at(&surface->order, h, &grid);
     room->count = 0;
-    sdv_grid_ring(&grid, surface->bases[surface->levels], r, c, limit.mask, room);
+    sdv_grid_ring(&grid, make->bases[surface->levels], r, c, limit.mask, room);
     for (int k = 0; k < room->count; k++) {
         weights[k] = (float)room->weights[k];
         weights[room->count + k] = limit.linear ? (float)(k == 1) : (float)limit.along[k];
@@ -15109,7 +15385,9 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_DROPPED
 #undef SDV_BLOCK_FACES
 #undef SDV_RUNS
-#undef SDV_PIECE
+#undef SDV_REGION
+#undef SDV_FULL_LEVELS
+#undef SDV_MOST_LEVELS
 #undef SDV_STRIP_LEVELS
 #undef SDV_WAITING
 #undef SDV_MOST_JOBS
