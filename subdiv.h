@@ -1,24 +1,18 @@
 /* subdiv.h - v0.1 - subdivision surfaces in one C header - MIT or public domain, see the end
 
-   In goes a cage: a mesh of polygons, with creases, corners and holes if you like. Out comes the
-   mesh refined by Catmull-Clark, Loop or bilinear subdivision, as smooth as you ask. The rules are
-   those of the papers below and of OpenSubdiv, which the tests compare with, vertex by vertex.
+   The library takes a cage: a mesh of polygons, with creases, corners and holes if you like. It
+   refines the cage by Catmull-Clark, Loop or bilinear subdivision, as often as you ask. The rules
+   are those of the papers below and of OpenSubdiv; tests compare every vertex with OpenSubdiv.
+   The library has no GPU code and no hierarchical edits; it never prints and never exits.
 
    DO THIS
-   -------
-   In ONE C or C++ file, to create the implementation:
-
-       #define SUBDIV_IMPLEMENTATION
-       #include "subdiv.h"
-
-   Everywhere else just #include "subdiv.h". C99 or C++11, the standard library alone (-lm).
-
-   If one file is all you have, define SUBDIV_STATIC, too: then the compiler leaves out what you do
-   not call, which takes about half of its time. In a larger program give the implementation a file
-   of its own, which is compiled once.
+   In ONE C or C++ file, define SUBDIV_IMPLEMENTATION before the #include: this creates the
+   implementation. Everywhere else just #include "subdiv.h". You need C99 or C++11 and the standard
+   library (-lm). If your program is a single file, define SUBDIV_STATIC, too: the compiler then
+   leaves out the functions you do not call and takes about half the time. In a larger program give
+   the implementation a file of its own, so that it is compiled once.
 
    QUICK START: one call
-   ---------------------
        #include <stdio.h>
        #define SUBDIV_STATIC
        #define SUBDIV_IMPLEMENTATION
@@ -39,11 +33,10 @@
        }
 
    BY HAND: a cube with a sharp top
-   --------------------------------
        float P[] = {-1,-1,-1, 1,-1,-1, 1,1,-1, -1,1,-1, -1,-1,1, 1,-1,1, 1,1,1, -1,1,1};
        int   F[] = {0,3,2,1, 4,5,6,7, 0,1,5,4, 1,2,6,5, 2,3,7,6, 3,0,4,7};
        int   E[] = {4,5, 5,6, 6,7, 7,4};               // the four edges of the top
-       float S[] = {2, 2, 2, SUBDIV_INFINITE};         // how many levels each stays sharp
+       float S[] = {2, 2, 2, SUBDIV_INFINITE};         // for how many levels each stays sharp
 
        subdiv_mesh cube = {0};
        cube.vertex_count = 8;  cube.positions = P;
@@ -51,63 +44,51 @@
        cube.crease_count = 4;  cube.crease_vertices = E;  cube.crease_sharpness = S;
 
    CONTENTS                     search for the tag, for instance >>masks
-   --------
-   Public:   >>config    macros you may define        >>types      mesh, options, errors
-             >>refine    the one call, in two steps   >>animation  new values, same topology
-             >>limit     points and normals of the    >>creases    from angles, groups, seams
-                         limit surface                >>inspect    what a cage is made of, what
-             >>exact     the same at any (face, u, v)              is odd about it
-             >>tessellation  meshes of it, in any     >>stencils  points as weights of the
-                         pieces                       cage's vertices; points explained
-             >>obj       reading and writing OBJ
-   Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
-             >>level     a mesh with its edges and sharpness: the state of refinement
-             >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
-        *    >>sharpness how creases and corners fade
-        *    >>masks     THE LECTURE: face, edge and vertex points of every scheme
+   Public:   >>config  >>types    macros you may define; mesh, options, errors
+             >>refine             a cage into a finer mesh, in one call or in two steps
+             >>animation          new values on the same topology, in every frame
+             >>limit  >>exact     the limit surface: at the points of the result; anywhere
+             >>stencils           points as sums of cage vertices; explains a point
+             >>tessellation       meshes of the limit surface, each edge cut as you like
+             >>creases            from angles, smoothing groups and UV seams
+             >>inspect  >>obj     what a cage is made of, what is odd about it; OBJ files
+   Inside:   >>platform  >>memory  >>errors  >>validate     the ground everything stands on
+             >>level     a mesh with its edges and sharpness; >>cage makes level 0 from polygons
+           * >>sharpness how creases and corners fade
+           * >>masks     THE LECTURE: face, edge and vertex points of every scheme
              >>order     where each point of the result stands
-             >>rows      masks written out as rows of weights, and these in batches
-             >>lines     rows of finer levels, which follow from where the points stand
+             >>rows      masks written out as weights of points; >>lines: those of finer levels
              >>face-varying  UVs: a topology of their own
-             >>prepare   a surface: >>limit-rows and >>fill make its rows, >>create all of it
-             >>results   where values go; >>limit-surface: tangents and normals
-        *    >>grids     the general step: points of a level from those of the level before
-             >>evaluate  all levels and any part of the result; >>results-as-meshes
-             >>exact-surface  the limit anywhere between the points: >>split the next level, where
-                         needed, >>patches regular faces, >>nests around irregular vertices, the
-                         >>tree of all leaves, >>locations on it and the >>cells of those, their
-                         >>polynomials, >>samples of them
-             >>stencils  all of them as weights
-             >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
-                         >>tessellator that makes a mesh of them
-             >>normals   of any mesh
-             >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
-             >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
+             >>prepare   what makes a surface: >>limit-rows  >>fill  >>create
+           * >>grids     the general step: points of a level from those of the level before
+             >>results   what makes the result: >>limit-surface  >>evaluate  >>results-as-meshes
+             >>exact-surface  the limit between the points: >>split  >>patches  >>nests  >>tree
+                         >>locations  >>cells  >>polynomials  >>samples
+             >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
+             >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
-   -----
    cage            the mesh you start from            level      how often it has been refined
-   face-vertex     one vertex of one face: what others call a face corner or a half-edge
+   face-vertex     one vertex of one face; others call it a face corner or a half-edge
    valence         number of edges at a vertex; 4 is regular for quads, 6 for triangles
    extraordinary   an interior vertex of another valence
-   boundary        an edge with one face              non-manifold  an edge with three or more,
-                   or a vertex whose faces are not one fan
+   boundary        an edge with one face
+   non-manifold    an edge with three or more faces, or a vertex whose faces are not one fan
    face point, edge point, vertex point    what a face, an edge, a vertex becomes one level down
    even, odd       Loop's names: even = vertex points, odd = edge points
    mask            the weights that make such a point from the points around it
-   sharpness       how many levels an edge or vertex stays sharp; 0 smooth, >= 10 forever
+   sharpness       for how many levels an edge or vertex stays sharp; 0 smooth, >= 10 forever
    crease          a sharp edge                       corner     a sharp vertex
    dart            a vertex where one crease ends     semi-sharp 0 < sharpness < 10
    limit           the smooth surface that refinement tends to
 
    THE ORDER OF THE RESULT, a promise
-   ----------------------------------
    With n = 2^levels:
-   * the vertices of the cage come first: vertex i stays vertex i;
-   * then the n-1 points inside each edge of the cage, from its lower-numbered end to the other,
-     edge by edge, in the order in which the faces first meet them (face 0's edge 0-1, 1-2, ...);
-   * then the points inside each face, face by face:
+   * The vertices of the cage come first: vertex i stays vertex i.
+   * The n-1 points inside each edge come next, from its lower-numbered end to the other. Edges are
+     in the order in which the faces first meet them (face 0's edge 0-1, 1-2, ...).
+   * The points inside each face come last, face by face:
 
        a quad                3 . . . 2       a triangle under Loop      2
        row by row from       . 7 8 9 .       row by row from            . .
@@ -115,44 +96,36 @@
        each from edge 3-0    . 1 2 3 .                                  . 1 2 .
        to 1-2                0 . . . 1                                  0 . . . 1
 
-       any other polygon under Catmull-Clark or bilinear: its centre; then the inside of each
-       spoke, from the centre to the middle of edge i; then the inside of each quad at vertex i,
-       whose corners are vertex i, the middle of edge i, the centre, the middle of edge i-1, and
-       whose rows run as those of a quad;
-   * the fine faces of cage face f are one contiguous range, in the order of f, row by row (an
-     n-gon: quad by quad; in a row of triangles those like the parent and those turned by half
-     alternate). The fine face in row r and column c is (r,c) (r,c+1) (r+1,c+1) (r+1,c). A triangle
-     is (r,c) (r,c+1) (r+1,c), a turned one (r+1,c+1) (r+1,c) (r,c+1). Faces that are holes are
-     left out; their points stay.
-
-   WHAT IT DOES NOT DO
-   -------------------
-   GPU code, hierarchical edits, threads of its own, global state, printing, exit().
+     Any other polygon under Catmull-Clark or bilinear has its centre first; then the inside of each
+     spoke, from the centre to the middle of edge i; then the inside of each quad at vertex i, row
+     by row as above. The corners of this quad are vertex i, the middle of edge i, the centre and
+     the middle of edge i-1.
+   * The fine faces of cage face f are one contiguous range, in the order of f. They go row by row,
+     those of an n-gon quad by quad. A quad in row r and column c is (r,c) (r,c+1) (r+1,c+1)
+     (r+1,c). In a row of triangles, those like the parent, (r,c) (r,c+1) (r+1,c), alternate with
+     those turned by half, (r+1,c+1) (r+1,c) (r,c+1). Holes have no faces, but their points stay.
 
    WHERE IT DIFFERS FROM OPENSUBDIV
-   --------------------------------
-   * Chaikin creasing: an edge with sharpness > 1 whose end turns smooth is weighted by at most 1;
-     OpenSubdiv extrapolates (its weight there is the sharpness itself).
-   * Limit: theirs leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents at a
-     crease or boundary are not the surface's unless there are 1 or 2 faces (Loop: 1 to 3) on the
-     side, and are written out of bounds where a vertex has more faces than edges.
-   * UVs: where the values around a vertex go A B A B, theirs takes the second B for a third value.
-   * The boundary default is edge, theirs is none; of UVs it is corners only, theirs is all. Indices
-     are checked. Valence has no limit.
+   * Chaikin creasing: where an end of a crease turns smooth, the crease rule is weighted by the
+     sharpness, but at most by 1. OpenSubdiv has no such bound: above 1, it extrapolates.
+   * Limit: OpenSubdiv leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents
+     at a crease or boundary are wrong unless there are 1 or 2 faces (Loop: 1 to 3) on that side.
+     It writes them out of bounds where a vertex has more faces than edges.
+   * UVs: where values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
+   * Defaults: the boundary is "edge", not "none"; the rule for UVs is "corners only", not "all".
+     Indices are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
-   -----------------------
-   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists and
-   normals that it adds to yours; arrays that you filled in are never written nor freed. The
-   library keeps no state: different threads may work at once, and one call uses the threads that
-   you lend it.
-   The same input gives the same bits, on any number of threads, with SIMD and without. (gcc fuses
-   multiplications and additions where the target has such instructions, in its default gnu modes:
-   -ffp-contract=off.) Up to 2^31-1 vertices and faces in a result, 2^30 face-vertices in a cage;
-   what does not fit is refused before it is built. Errors leave the output zeroed.
+   A mesh made by the library is one block, which subdiv_mesh_free frees. It also frees the crease
+   lists and normals that the library adds to a mesh of yours. Arrays that you filled in are never
+   written or freed. The library keeps no state, so different threads may call it at once; one call
+   uses the threads that you lend it. The same input gives the same bits on any number of threads,
+   with SIMD and without. (Where the target can fuse multiplications and additions, gcc does so in
+   its default gnu modes: use -ffp-contract=off.) A result has up to 2^31-1 vertices and faces, a
+   cage up to 2^30 face-vertices; larger ones are refused before they are built. After an error the
+   output is zeroed; a mesh that was to be changed is as it was before.
 
    REFERENCES
-   ----------
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
@@ -163,9 +136,7 @@
    [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent
 
    VERSION LOG
-   -----------
-   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, exact
-        evaluation, tessellation, stencils, OBJ. */
+   0.1  The first version. */
 
 #ifndef SUBDIV_H
 #define SUBDIV_H
