@@ -144,18 +144,17 @@
 // -------------------------------------------------------------------------------- >>config
 // Define these before the #include, in the file with SUBDIV_IMPLEMENTATION:
 //
-//     SUBDIV_STATIC                  everything static: private to that file, and compiled only if
-//                                    it is called
+//     SUBDIV_STATIC                  functions are private to that file, compiled only if called
 //     SUBDIV_DEF                     your own decoration of the public functions
-//     SUBDIV_MALLOC(size, user)      both or neither; user is opt->user. Memory must be aligned
-//     SUBDIV_FREE(pointer, user)     as malloc's
-//     SUBDIV_ASSERT(condition)       checks of the library's own logic, assert by default
+//     SUBDIV_MALLOC(size, user)      your own allocator, both or neither: user is opt->user, memory
+//     SUBDIV_FREE(pointer, user)     must be aligned as by malloc
+//     SUBDIV_ASSERT(condition)       checks the library's own logic; assert by default
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
-//     SUBDIV_NO_HUGE_PAGES           Linux: large blocks in pages of the usual size
-//     SUBDIV_NO_SIMD                 plain C where SSE2, NEON or WebAssembly would be used
+//     SUBDIV_NO_HUGE_PAGES           Linux: pages of the usual size for large blocks
+//     SUBDIV_NO_SIMD                 plain C instead of SSE2, NEON or WebAssembly SIMD
 //
-// To leave whole sections out, of the declarations, too. In brackets what that saves of the time to
-// compile all of it, and of its size (gcc -O2):
+// Define these to leave whole sections out, declarations included. The percentages say how much of
+// the full compile time and code size each saves (gcc -O2):
 //
 //     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (34 %)
 //     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (11 %)
@@ -167,7 +166,7 @@
 
 #ifndef SUBDIV_DEF
 #if defined(SUBDIV_STATIC)
-#define SUBDIV_DEF static inline            // inline: no warning about what is not used
+#define SUBDIV_DEF static inline            // inline: no warning about unused functions
 #elif defined(__cplusplus)
 #define SUBDIV_DEF extern "C"
 #else
@@ -179,7 +178,10 @@
 
 #define SUBDIV_INFINITE 10.0f         // this sharpness or more never fades
 
-// Code and text of every result.
+// The code and text of every result. Any function may fail with ARGUMENT (a needed pointer is NULL,
+// a count is negative, a value is out of range) or MEMORY. A function that reads a mesh checks it:
+// EMPTY, INDEX, FACE, NOT_FINITE, TOO_LARGE (see LIMITS) and, if it refines, NOT_TRIANGLE. Comments
+// of functions name further causes only.
 #define SUBDIV_RESULTS(X)                                          \
     X(SUBDIV_OK,                 "no error")                       \
     X(SUBDIV_ERROR_ARGUMENT,     "invalid argument")               \
@@ -205,39 +207,40 @@ typedef enum subdiv_scheme {
 
 typedef enum subdiv_boundary {
     SUBDIV_BOUNDARY_EDGE,             // the boundary is a smooth curve, a B-spline
-    SUBDIV_BOUNDARY_EDGE_AND_CORNER,  // and passes through vertices that have a single face
+    SUBDIV_BOUNDARY_EDGE_AND_CORNER,  // a smooth curve with corners at vertices of a single face
     SUBDIV_BOUNDARY_NONE              // faces that touch an unsharpened boundary become holes
 } subdiv_boundary;
 
 typedef enum subdiv_creasing {
     SUBDIV_CREASING_UNIFORM,          // sharpness falls by 1 a level
-    SUBDIV_CREASING_CHAIKIN           // and is averaged along the crease [DKT98]
+    SUBDIV_CREASING_CHAIKIN           // sharpness is also averaged along the crease [DKT98]
 } subdiv_creasing;
 
 typedef enum subdiv_triangles {
-    SUBDIV_TRIANGLES_CATMULL_CLARK,
-    SUBDIV_TRIANGLES_SMOOTH           // rounder where a Catmull-Clark cage has triangles [OSD]
+    SUBDIV_TRIANGLES_CATMULL_CLARK,   // triangles of a Catmull-Clark cage have no rule of their own
+    SUBDIV_TRIANGLES_SMOOTH           // triangles of a Catmull-Clark cage come out rounder [OSD]
 } subdiv_triangles;
 
-// UVs and other face-varying values: how they go along seams and boundaries. A seam is an edge
-// whose faces have different values at one of its ends.
+// How UVs and other face-varying values behave at seams and boundaries. A seam is an edge whose
+// faces have different values at one of its ends.
 typedef enum subdiv_uv_rule {
-    SUBDIV_UV_CORNERS_ONLY,           // smooth; sharp where one face alone has a value
-    SUBDIV_UV_CORNERS_PLUS1,          // and where three or more values meet, or two and a crease
-    SUBDIV_UV_CORNERS_PLUS2,          // and at ends of seams, and both of two values if one is
+    SUBDIV_UV_CORNERS_ONLY,           // smooth, but sharp where one face alone has a value
+    SUBDIV_UV_CORNERS_PLUS1,          // also where 3 or more values meet, or 2 values and a crease
+    SUBDIV_UV_CORNERS_PLUS2,          // also at ends of seams, and where 2 values meet, one of them
+                                      // sharp
     SUBDIV_UV_BOUNDARIES,             // seams and boundaries straight, all else smooth
     SUBDIV_UV_ALL,                    // everything linear
     SUBDIV_UV_NONE                    // smooth everywhere
 } subdiv_uv_rule;
 
-// A mesh: the cage that goes in and the result that comes out. Zero it, fill what you have. The
-// mesh says what the surface is; the options say what to compute.
+// A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
+// The mesh says what the surface is; the options say what to compute.
 typedef struct subdiv_mesh {
     int    vertex_count;
     float *positions;                 // [3 * vertex_count]   x y z, finite
 
     int    face_count;
-    int    face_size;                 // all faces have this many vertices; or 0: see face_sizes
+    int    face_size;                 // vertices of every face; or 0: see face_sizes
     int   *face_sizes;                // [face_count]         vertices of each face, at least 3
     int   *face_vertices;             // [sum of sizes]       counted from 0, counter-clockwise
 
@@ -246,20 +249,19 @@ typedef struct subdiv_mesh {
     float *crease_sharpness;          // [crease_count]       levels; the later of two entries wins
     int    corner_count;
     int   *corner_vertices;           // [corner_count]
-    float *corner_sharpness;          // [corner_count]
+    float *corner_sharpness;          // [corner_count]       levels
     int    hole_count;
-    int   *holes;                     // [hole_count]         faces that shape the surface unseen
+    int   *holes;                     // [hole_count]         invisible: they only shape the surface
 
     int    uv_count;
     float *uvs;                       // [2 * uv_count]       u v
-    int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
+    int   *face_uvs;                  // [sum of sizes]       the UV of each face-vertex; -1: none
     float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
     float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
     int    statement_count;           // OBJ's g, o, s, usemtl and mtllib, as they stand in the file
-    int   *statement_faces;           // [statement_count]    the face each stands before, rising;
-                                      //                      face_count: behind all faces
-    char **statements;                // [statement_count]    such as "usemtl stone", one blank
-                                      //                      behind the keyword
+    int   *statement_faces;           // [statement_count]    the face that each precedes, rising;
+                                      //                      face_count: after all faces
+    char **statements;                // [statement_count]    "usemtl stone": keyword, blank, text
 
     subdiv_scheme    scheme;
     subdiv_boundary  boundary;
@@ -272,8 +274,8 @@ typedef struct subdiv_mesh {
     void *memory;                     // the library's own, or NULL: the arrays are yours
 } subdiv_mesh;
 
-// What went wrong and where. Zero it once; every call given it writes code, place and message
-// anew, while warnings (something odd was skipped) add up, and the first one is kept.
+// Receives what went wrong, and where. Zero it once. Every call that gets it overwrites code, place
+// and message. Warnings (something odd was skipped) add up, and the first one is kept.
 typedef struct subdiv_error {
     int  line;                        // of the OBJ file, from 1; 0 = none
     subdiv_result code;
@@ -283,27 +285,27 @@ typedef struct subdiv_error {
     char warning[256];
 } subdiv_error;
 
-// Lends threads: calls job(context, 0), ..., job(context, count - 1), each once, in any order and
-// on any threads, and returns when all have. The results do not depend on who does what.
+// Lends threads to the library: calls job(context, 0) to job(context, count - 1), each once, in any
+// order and on any threads, and returns when all have returned. Results do not depend on the order.
 typedef void (*subdiv_run)(void *user, void (*job)(void *context, int i), void *context, int count);
 
-// How to compute. NULL and {0} are right for most people.
+// Says how to compute. NULL and {0} are right for most people.
 typedef struct subdiv_options {
     int           triangulate;        // Loop: cut larger faces into fans instead of refusing them
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
     int           linear;             // split only: points stay on the cage's faces and edges
     int           limit;              // points on the limit surface, with normals (see >>limit)
-    int           no_tags;            // OBJ: write no crease, corner, hole and rule tags
+    int           no_tags;            // OBJ: write no tags for creases, corners, holes and rules
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
 } subdiv_options;
 
-// The text of a result, such as "index out of range". Never NULL.
+// Returns the text of a result, such as "index out of range". Never NULL.
 SUBDIV_DEF const char *subdiv_result_string(subdiv_result result);
 
-// Frees what the library made and zeroes the mesh. Arrays of your own are left alone. (A copy of
-// the struct has the same memory: free one of the two.)
+// Frees what the library allocated for the mesh and zeroes the struct. Your own arrays stay. A copy
+// of the struct has the same memory: free one of the two.
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 
 // -------------------------------------------------------------------------------- >>refine
