@@ -309,26 +309,23 @@ SUBDIV_DEF const char *subdiv_result_string(subdiv_result result);
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 
 // -------------------------------------------------------------------------------- >>refine
-
-// Refines a cage: fine = the mesh after so many levels, 0 copies. In THE ORDER OF THE RESULT, with
-// cage_faces filled, positions in floats, and the sharpness that is left in the crease and corner
-// lists, so that fine is a cage again: refine by 2 is refine by 1 twice. (What a mesh cannot tell
-// the next call: holes, unless kept by the option; an edge along which two faces are wound against
+// Refines a cage by this many levels; 0 copies it. fine is in THE ORDER OF THE RESULT, with
+// cage_faces filled. Each level cuts a quad or Loop triangle into 4 faces, any other n-gon into n
+// quads. The crease and corner lists of fine hold the sharpness that is left, so fine is a cage
+// again: refining by 2 levels is refining by 1 level twice. Only what a mesh cannot express is
+// lost: holes, unless opt->keep_holes keeps them; an edge along which two faces are wound against
 // each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
-// the same three vertices.)
+// the same three vertices.
 //
-// fine must be another mesh; what it held is forgotten. A crease between vertices that share no
-// edge is skipped with a warning (level 0 keeps it). Levels multiply the faces by 4 each. Errors:
-// ARGUMENT, EMPTY, INDEX, FACE, NOT_TRIANGLE, NOT_FINITE, TOO_LARGE
-// (more than 2^31-1 vertices or faces), MEMORY.
+// fine must not be the cage; its old contents are overwritten, not freed. A crease between vertices
+// that share no edge is skipped with a warning; level 0 keeps it.
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt);
 
-// The same in two steps. prepare looks at everything but the positions, for a request of so many
-// levels; the cage may be freed afterwards. surface_mesh makes the result for the given
-// positions [3 * cage vertex_count], as often as you like, also from several threads at once.
+// Refines in two steps. subdiv_prepare does all that does not depend on positions; afterwards you
+// may free the cage. subdiv_surface_mesh makes the result for positions [3 * cage vertex_count]:
+// call it as often as you like, also from several threads at once.
 typedef struct subdiv_surface subdiv_surface;
-
 SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
                                         int levels, const subdiv_options *opt);
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
