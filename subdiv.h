@@ -333,67 +333,65 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 
 // ----------------------------------------------------------------------------- >>animation
-// Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
-// it for positions every frame, and for whatever else the cage's vertices carry. A surface that
-// was prepared with opt->linear has the same order of points but interpolates straight, as for data
-// that must not overshoot. For instance 5 weights a vertex, and a material a face:
+// Prepare a surface once and evaluate it often: into arrays of your own, with any number of
+// channels (floats) a vertex. Use it for positions in every frame and for all other data of
+// vertices. A surface prepared with opt->linear has the same points but interpolates linearly: use
+// it for data that must not overshoot. Here are 5 weights a vertex, and a material a face:
 //
 //     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
 //     for (int f = 0; f < fine.face_count; f++)
 //         fine_material[f] = material[fine.cage_faces[f]];
 
-// What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
+// Return the sizes of the result. face_size is 4, or 3 under Loop; on level 0 it is the cage's.
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 
-// The faces of the result, once: face_vertices [face_size * face_count] and, unless NULL,
-// cage_faces [face_count]. Error ARGUMENT on level 0 if the faces are of several sizes.
+// Writes the faces of the result, which do not depend on positions: face_vertices [face_size *
+// face_count] and, unless NULL, cage_faces [face_count]. Error ARGUMENT: face_size is 0.
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
-// a surface of 0 levels. Under opt->triangulate, of the triangles.)
+// Writes the edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first.
+// Under opt->triangulate they are the edges of the triangles. A surface of 0 levels has none.
 SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
 SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 
-// Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
-// more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
-// and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
-// [vertex_count] values, faces gives the indices of the fine faces (-1 where there are none). Value
-// i stays value i at the first vertex that has it; vertices of the cage that share it have values
-// of their own from level 1 on, behind all others. Faces whose vertices do not all have values are
-// none of its cage faces. rule says what happens at seams, see subdiv_uv_rule. Errors as
-// subdiv_prepare.
+// Prepares a surface of face-varying values: as with UVs, each face-vertex has one of value_count
+// values, 1 or more; indices [sum of face sizes] says which one, -1 stands for none. rule says what
+// happens at seams. You may prepare any number of such surfaces.
+//
+// Evaluation takes [value_count] values with any number of channels and makes [vertex_count].
+// subdiv_surface_faces gives the indices of values, -1 where there are none. Value i stays value i
+// at the first cage vertex that has it. From level 1 on, other vertices that share it have values
+// of their own, numbered from value_count. Cage faces of this surface are only those that have a
+// value at each vertex.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs: for the points of all
-// levels but the last and, of a limit, those of the last one. SIZE_MAX if that is more than the
-// machine can address.
+// Returns the bytes of scratch memory that evaluating this many channels takes: for the points of
+// all levels but the last, for a limit of all levels. SIZE_MAX: more than the machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
-// Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
-// strides in floats, 0 for as many as there are channels. scratch: subdiv_scratch_size bytes,
-// aligned as float; then nothing is allocated. NULL: allocated for the call. Values should be
-// below 1e35 in size, or sums may overflow. Floats of out behind the channels are left alone.
+// Evaluates every point of the result: out [out_stride * vertex_count] from in [in_stride * cage
+// vertex_count]. Strides are in floats, 0 stands for channels; other floats of out stay as they
+// are. scratch has subdiv_scratch_size bytes, aligned as float: then nothing is allocated. If it is
+// NULL, the call allocates it. Values should be below 1e35 in size, or sums may overflow.
 SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
                                          const float *in, int in_stride,
                                          float *out, int out_stride,
                                          void *scratch, const subdiv_options *opt);
 
-// The same in pieces: begin fills the scratch memory, then each call of evaluate_faces makes the
-// points that belong to the cage faces first_face to first_face + face_count - 1 of the ones
-// prepared (under opt->triangulate: of the triangles), in any order and on any threads. All
-// faces together make every point once, with the same bits as subdiv_evaluate. Error INDEX for
-// faces or points that do not exist.
+// Evaluates in pieces. First, evaluate_begin fills scratch. Then each call of evaluate_faces makes
+// the points that belong to cage faces first_face to first_face + face_count - 1 (under
+// opt->triangulate, of the triangles), in any order and on any threads. All faces together make
+// each point once, with the same bits as subdiv_evaluate. Error INDEX: no such faces or points.
 //
-// first_point, point_count: only these points of the result are written, out[0] being the first
-// value of first_point: so that a part of the result needs memory for that part alone. The points
-// inside cage face f are those from first_inside(f) to first_inside(f + 1) - 1; the points of
-// vertices and edges are those before first_inside(0).
+// Only points first_point to first_point + point_count - 1 are written, the first one to out[0], so
+// that a part of the result needs memory for that part alone. The points inside cage face f are
+// first_inside(f) to first_inside(f + 1) - 1; points of vertices and edges precede first_inside(0).
 SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
                                                const float *in, int in_stride,
                                                void *scratch, const subdiv_options *opt);
