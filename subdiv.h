@@ -405,24 +405,24 @@ SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face);
 
 // --------------------------------------------------------------------------------- >>limit
-// The surface that refinement tends to. With opt->limit, subdiv_refine moves every point of the
-// result to where it would end up and gives fine its unit normals. In two steps: a surface that was
-// prepared with opt->limit makes such meshes, and every evaluation of it gives limit values, of any
-// channels. (Streamed OBJ has the positions alone.) The function below gives positions, normals
-// and tangents in one pass.
+// With opt->limit, subdiv_refine moves every point of the result to the limit surface and gives
+// fine its unit normals [HKD93] [Loop87] [HDD94]. A surface prepared with opt->limit makes such
+// meshes, and every evaluation of it gives limit values, of any channels. UVs of a mesh stay those
+// of the refined mesh. The mesh is no cage for more of the same: its points are those of an
+// endlessly fine mesh.
 //
-// Sharpness that is left on the last level counts as infinite, as in OpenSubdiv: with a crease of
-// 2.5, ask for 3 levels or more. A dart is taken for smooth, as there: on an infinite crease it is
-// near the limit, and nearer with each level. On level 0 what matters is what is left on level 1.
-// The result is no cage for more of the same: its points are those of a finer mesh than its own.
-// Its UVs are those of the refined mesh, not moved.
+// In two cases, as in OpenSubdiv, this limit differs from the true one, which >>exact and
+// >>tessellation give. Sharpness that is left on the last level (of 0 levels: on level 1) counts as
+// infinite: for a crease of 2.5, ask for 3 levels or more. A dart counts as smooth: at the end of
+// an infinite crease it is only near the true limit, and nearer with each level.
 //
-// A point has one normal and two tangents, the same ones from any call: on a crease those of the
-// surface on one side; at a corner, and where non-manifold faces are no fan between two creases,
-// those of the edges of one face there. The normal is 0 where there is none: without faces, between
-// two triangles back to back, and where one tangent is 0 or both are parallel to within 1e-6.
+// A point has one normal and two tangents, the same in every call. On a crease they belong to the
+// surface on one side. At a corner, and where non-manifold faces are no fan between two creases,
+// they are those of two edges of one face. The normal is 0 where there is none: without faces,
+// between two triangles back to back, where a tangent is 0, and where both are parallel to within
+// 1e-6.
 
-// Where to put them: each an array of so many floats a point, or NULL.
+// Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
     float *positions;                 // [3]  x y z
     float *normals;                   // [3]  of length 1, or 0
@@ -431,10 +431,9 @@ typedef struct subdiv_limit {
     int    stride;                    // floats from point to point in all three; 0: they are dense
 } subdiv_limit;
 
-// Every point of the result, from positions in [in_stride * cage vertices], as subdiv_evaluate;
-// scratch: subdiv_scratch_size for 3 channels, or NULL. And the same in pieces: after
-// subdiv_evaluate_begin with 3 channels, as subdiv_evaluate_faces does; the arrays then start at
-// first_point. Errors: also ARGUMENT if the surface was prepared without opt->limit.
+// Evaluate limit positions, normals and tangents from positions in [in_stride * cage vertex_count]:
+// as subdiv_evaluate does and, in pieces, as subdiv_evaluate_begin and _faces do, with 3 channels.
+// Error ARGUMENT: the surface was prepared without opt->limit.
 SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
                                                const float *in, int in_stride,
                                                const subdiv_limit *out,
@@ -446,10 +445,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
                                                      const subdiv_limit *out,
                                                      const subdiv_options *opt);
 
-// Normals of any mesh, on the limit surface or not: each vertex gets the sum of its faces' normals,
-// weighted by their areas, made 1 long; 0 if there is none. Fills mesh->normals; if that is NULL,
-// with a new array, which subdiv_mesh_free frees, also from a mesh whose other arrays are yours.
-// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
+// Fills mesh->normals of any mesh, a new array if it is NULL. Each vertex gets the sum of its
+// faces' normals, weighted by their areas and scaled to length 1; or 0 if there is none.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // --------------------------------------------------------------------------------- >>exact
