@@ -450,26 +450,24 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // --------------------------------------------------------------------------------- >>exact
-// The surface itself, at any point of any face: values, derivatives and normals, exactly, also at
-// and arbitrarily near to extraordinary vertices, creases and boundaries.
+// Evaluates the limit surface at any point of any face: values, derivatives and normals. They are
+// exact, also at and arbitrarily near extraordinary vertices, creases and boundaries. A regular
+// face is a bicubic B-spline, under Loop a quartic box spline [Stam98].
 //
-//     subdiv_surface *surface;
 //     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
 //     void *scratch = malloc(subdiv_scratch_size(surface, 3));
 //     subdiv_evaluate_begin(surface, 3, cage.positions, 0, scratch, &opt);
-//     subdiv_location middle = { 7, 0, 0.5f, 0.5f };     // of face 7
-//     float point[3], normal[3];
+//     subdiv_location middle = { 7, 0, 0.5f, 0.5f };                      // of face 7
 //     subdiv_derivatives out = {0};
-//     out.points = point;
-//     out.normals = normal;
+//     out.points = point;  out.normals = normal;                          // float [3] each
 //     subdiv_evaluate_at(surface, 3, scratch, 1, &middle, &out, &opt);
 //
-// Faces of 3 and 4 vertices are those of the schemes below; vertex 0 is at u = v = 0:
+// u and v on a quad and on a triangle under Loop; vertex 0 is at u = v = 0:
 //
-//     3-----2       2             any other polygon under Catmull-Clark and bilinear: a quad for
-//     |     |       | \           each of its vertices, at the vertex, the middle of the edge that
-//   v |     |     v |   \         leads on from there, the centre, and the middle of the edge
-//     0-----1       0-----1       before, counter-clockwise
+//     3-----2       2             Any other n-gon is n quads, one at each vertex i. The quad's
+//     |     |       | \           vertices 0 to 3 are vertex i, the middle of the edge that leads
+//   v |     |     v |   \         on from there, the centre, and the middle of the edge before:
+//     0-----1       0-----1       counter-clockwise.
 //        u             u
 #define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
 
@@ -479,34 +477,33 @@ typedef struct subdiv_location {
     float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
 } subdiv_location;
 
-// Where to put them: each an array of so many channels a location, or NULL.
+// Where to write the results: arrays with all channels of each location, or NULL.
 typedef struct subdiv_derivatives {
     float *points, *du, *dv, *duu, *duv, *dvv;
     float *normals;                   // [3] of length 1, or 0: of the first three channels
     int    stride;                    // floats from location to location in all; 0: they are dense
 } subdiv_derivatives;
 
-// After subdiv_prepare for SUBDIV_EXACT and subdiv_evaluate_begin, as often as you like and on any
-// threads: scratch is only read. Derivatives are with respect to u and v, on a crease on the face's
-// side of it; those beyond the range of floats are not finite. Of the cage's vertices these are not
-// what they tend to beside them:
+// Evaluates count locations of a surface prepared for SUBDIV_EXACT, after subdiv_evaluate_begin. It
+// only reads scratch: call it as often as you like and on any threads. Faces are those of the cage
+// (under opt->triangulate: triangles), holes included. Faces that boundary "none" drops, and faces
+// without face-varying values, have no surface: they give zeros.
 //
-//     extraordinary          du and dv, which go to 0 or infinity there like (2 l)^j at u = 2^-j, l
-//                            the subdominant eigenvalue, are in proportion to what that factor
-//                            leaves, so that du x dv is along the normal; the second ones are 0
-//     with infinite corner   the same, and the lengths of du and dv mean nothing; the point of a
-//       or dart              dart is where the surface around it ends up, and not where >>limit,
-//                            as OpenSubdiv, puts it
-//     with 4 faces or more   the normal is that of the limit masks: there is no tangent plane, as
-//       (Loop: 6) on a side  the crease, or boundary, shrinks by 1/2 a level and other waves across
-//       of a crease          those faces by less
+// Derivatives are with respect to u and v; on a crease they belong to the face's side. Beyond the
+// range of floats they are not finite. At some vertices, results differ from those close by:
 //
-// Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
-// face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
-// give zeros. Errors: ARGUMENT (normals of fewer than 3 channels, a surface not prepared so). INDEX
-// or ARGUMENT for the first location that does not exist or is outside its face by more than
-// rounding, and MEMORY (samples close to a vertex of high valence take some): then any part of out
-// may have been written.
+// * Extraordinary: close by, du and dv go to 0 or infinity like (2 l)^j at u = 2^-j, where l is the
+//   subdominant eigenvalue. At the vertex this factor is left out: du x dv is along the normal. The
+//   second derivatives are 0.
+// * Infinite corner or dart: as above, and the lengths of du and dv mean nothing.
+// * 4 faces or more (Loop: 6) on a side of a crease: the normal is that of the limit masks. There
+//   is no tangent plane: the crease, or boundary, shrinks by 1/2 a level, and other waves across
+//   those faces by less.
+//
+// Errors: ARGUMENT if normals have fewer than 3 channels or the surface was not prepared for
+// SUBDIV_EXACT. Any part of out may have been written after INDEX (the first location without a
+// face or corner), ARGUMENT (u, v outside the face by more than rounding) and MEMORY (which samples
+// close to a vertex of high valence take).
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
