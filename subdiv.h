@@ -512,50 +512,50 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 #endif // SUBDIV_NO_EXACT
 
 // ------------------------------------------------------------------------------ >>stencils
-// The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
+// Writes points of a surface as weighted sums of the cage's vertices, in plain arrays, for GPUs,
+// solvers and fitting:
 //
 //     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
 //
-// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6 of the largest.
-// Weights that are no more than rounding of the others are left out. Stencils of a surface of
-// face-varying values have numbers of values as indices.
+// The weights of a point add up to 1 and those of a tangent to 0, to within 1e-6 of the largest.
+// Weights no larger than the rounding of others are left out. On a surface of face-varying values,
+// indices are numbers of values.
 typedef struct subdiv_stencils {
     int     count;
     size_t *offsets;                  // [count + 1]
     int    *indices;                  // [offsets[count]]  rising in each stencil
-    float  *weights;                  // [offsets[count]]  of the point,
+    float  *weights;                  // [offsets[count]]  of the point
     float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
     void   *memory;                   // the library's own, one block
 } subdiv_stencils;
 
-// Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
-// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. Each call
-// looks at all rows of the surface, with 30 to 100 bytes of scratch memory for each point of the
-// whole result, besides the stencils: ask for many points at once. Errors: ARGUMENT, INDEX, MEMORY.
+// Makes the stencils of points first_point to first_point + point_count - 1 of the result. If the
+// surface was prepared with opt->limit, these are limit points, with tangents. Each call looks at
+// the whole surface and takes 30 to 100 bytes of scratch memory for each point of the whole result,
+// besides the stencils: ask for many points at once. Error INDEX: no such points.
 SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  const subdiv_surface *surface,
                                                  int first_point, int point_count,
                                                  const subdiv_options *opt);
 
 #ifndef SUBDIV_NO_EXACT
-// Of so many locations on a surface prepared for SUBDIV_EXACT: those of subdiv_evaluate_at, with
-// du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
+// Makes the stencils of the points, du and dv that subdiv_evaluate_at gives for count locations.
+// Stencils of a face without a surface are empty. Errors: as subdiv_evaluate_at.
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
                                             const subdiv_surface *surface, int count,
                                             const subdiv_location *locations,
                                             const subdiv_options *opt);
 #endif // SUBDIV_NO_EXACT
 
-// Frees what the library made and zeroes the struct.
+// Frees what the library allocated and zeroes the struct.
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
 #ifndef SUBDIV_NO_TOOLS
-// Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
-// it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
-// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
-// bytes are enough but for large faces and valences. Errors, which leave text empty: as
-// subdiv_refine, ARGUMENT if there is no room at all, INDEX if there is no such point, TOO_LARGE if
-// the text does not fit.
+// Explains, for the classroom, a point of the mesh refined once, by its number in THE ORDER OF THE
+// RESULT: what it is, which rule holds there and why, the formula, the paper and the mask, in
+// fractions where possible. The text has lines of up to 80 characters and ends with 0; 2000 bytes
+// are enough except for large faces and valences. Errors leave text empty: INDEX for no such point,
+// TOO_LARGE if the text does not fit, ARGUMENT if capacity is 0.
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt);
 #endif // SUBDIV_NO_TOOLS
