@@ -562,25 +562,25 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 
 #ifndef SUBDIV_NO_EXACT
 // --------------------------------------------------------------------------- >>tessellation
-// A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
-// cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
-// the rates.
+// Makes a mesh of the limit surface. You choose the rate of each edge of the cage: the number of
+// pieces that it is cut into. Faces share the points of their edges, so there are no cracks.
 //
 //     subdiv_tessellation how = {0};
-//     how.rate = 5;
+//     how.rate = 5;                                       // of all edges
 //     subdiv_tessellate(&fine, &cage, &how, &opt);
 
-// The rate of an edge, or 0: as if not asked. a, middle, b: points [3] of the edge on the limit, a
-// that of its lower-numbered vertex. Called once for each edge that has a surface, in order, by the
-// caller's thread.
+// Returns the rate of an edge, or 0 for no answer. a, middle and b [3] are points of the edge on
+// the limit surface, a at its lower-numbered vertex. Called once for each edge that has a surface,
+// in order, by the caller's thread.
 typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
                                 const float *b);
 
-// Zero it, fill what you want. What is 0 or NULL says nothing, and the next below decides:
+// Says how to tessellate. Zero it, fill what you want; NULL and 0 are no answers. The first answer
+// in these lists counts:
 //     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
 //     a face     face_rates, the rates of its edges
 typedef struct subdiv_tessellation {
-    int  rate;                        // of everything
+    int  rate;                        // of all edges
     const int *edge_rates;            // [edge count] edges are numbered as in THE ORDER OF THE
                                       // RESULT: subdiv_surface_edges lists them
     const int *face_rates;            // [face_count of the cage]
@@ -589,26 +589,27 @@ typedef struct subdiv_tessellation {
     int   triangles;                  // cut quads, from their first vertex to their third
 } subdiv_tessellation;
 
-// fine: a mesh with limit positions, normals, cage_faces, UVs (seams respected) and colours, both
-// on their limit, and the statements; holes are left out, or with opt->keep_holes listed. It has
-// no creases and corners: it is no cage for more of the same.
+// Tessellates a cage. fine gets limit positions, normals, cage_faces, statements, and UVs (seams
+// respected) and colours on their own limit. Holes are treated as by subdiv_refine. There are no
+// creases and corners: fine is no cage for more of the same. fine must not be the cage. how may be
+// NULL.
 //
-// Its points are in THE ORDER OF THE RESULT, each edge with rate - 1 points inside. The inside of a
-// face is a grid: of a quad c x r pieces, c the larger rate of edges 0-1 and 2-3, r that of the
-// two others; of a triangle under Loop r pieces a side, r the largest rate of its edges; of any
-// other polygon half of that, rounded up, a side of each of its quads. Or face_rates says r, and c.
-// The grid's points are those that are not on the edges, row by row as there.
+// Points are in THE ORDER OF THE RESULT, with rate - 1 points inside each edge. The points inside a
+// face are those inside a grid, row by row. A rate of the face replaces c and r:
 //
-// If the edges are all cut as the grid is, the faces are those of the grid, as there: so one rate
-// 2^k gives the faces of subdiv_refine by k levels with opt->limit, and its points to rounding, but
-// where >>limit takes sharpness that is left for infinite, darts for smooth, and keeps points
-// without a surface. (A polygon that is no quad needs even rates for that; at rate 1 it becomes a
-// fan around its centre.)
+//     a quad                   c x r pieces: c the larger rate of edges 0-1, 2-3; r of the others
+//     a triangle under Loop    r pieces a side: r the largest rate of its edges
+//     any other polygon        a quad at each vertex, with r / 2 pieces a side, rounded up
 //
-// Otherwise the grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones;
-// behind what is left stand, side by side from edge 0-1 on, triangles, and quads where two pieces
-// are opposite. Rates that are far apart make thin triangles and, at curved edges, some that are
-// folded over.
+// If all edges are cut like the sides of the grid, the faces are those of the grid. So one rate 2^k
+// makes the faces of subdiv_refine by k levels with opt->limit. Its points are equal to rounding,
+// too, except where >>limit is not the true one or keeps points without a surface. (The other
+// polygons need even rates for this; at rate 1 they are fans around their centres.)
+//
+// Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost ones.
+// Strips join what remains with each edge; they follow its faces, from edge 0-1 on. They consist of
+// triangles and, where two pieces are opposite, quads. Rates that are far apart make thin triangles
+// and, at curved edges, some that are folded over.
 //
 //     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
 //     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
@@ -620,18 +621,13 @@ typedef struct subdiv_tessellation {
 //     | / \ /   \ / \ |
 //     o----o-----o----o
 //
-// Points of vertices and edges are computed once, on the first face that has them and is no hole:
-// a normal on a crease is that of the surface on that side. Where there is no surface, by boundary
-// "none", there are neither points nor faces, but for the vertices.
-//
-// fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
-// Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
-// faces.
+// A point of a vertex or edge is computed on the first face that has it and is no hole: on a crease
+// its normal belongs to that side. Where boundary "none" drops the surface, only vertices are left.
 SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
                                            const subdiv_tessellation *how,
                                            const subdiv_options *opt);
 
-// The same from a surface prepared for SUBDIV_EXACT levels, as often as you like, for positions
+// Tessellates a surface prepared for SUBDIV_EXACT, as often as you like, with positions
 // [3 * cage vertex_count]. Error ARGUMENT: it was prepared for something else.
 SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
                                                    const subdiv_surface *surface,
