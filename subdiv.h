@@ -638,32 +638,29 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
 
 #ifndef SUBDIV_NO_TOOLS
 // ------------------------------------------------------------------------------- >>creases
-// Creases from what the mesh has already. Each function adds the edges it finds to the crease
-// list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
-// the larger sharpness. Boundary and non-manifold edges are sharp by themselves: never listed.
+// These functions find edges and add them to the mesh's crease list with the sharpness given. An
+// edge that is already listed keeps the larger sharpness; other entries stay. Boundary and
+// non-manifold edges are sharp by themselves and never added.
 //
 //     subdiv_crease_by_angle(&cage, 30, SUBDIV_INFINITE, &opt);
 //
-// A list that changes is a new one, which subdiv_mesh_free frees, also from a mesh whose other
-// arrays are yours. To try one angle after the other, do so on a copy of the struct with memory =
-// NULL, and free the copy: that frees its new list alone.
-//
-// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE (also if the
-// sharpness is not a number), TOO_LARGE, MEMORY.
+// A list that changes is replaced by a new one. To try several angles, use copies of the struct
+// with memory = NULL: freeing a copy frees its new list alone. Error NOT_FINITE may also mean that
+// sharpness is not a number.
 
-// Where the normals of two faces differ by more than so many degrees, 0 to 180; what is within
-// 0.001 degrees is rounding and does not count. Faces without area have no normal, so no creases.
+// Finds edges where the normals of the two faces differ by more than this many degrees, 0 to 180;
+// up to 0.001 degrees more is taken for rounding. Faces without area have no normal, so no creases.
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
                                                 const subdiv_options *opt);
 
-// Where two faces are not in the same smoothing group, by the mesh's statements "s 1", "s off".
-// Under "s off", "s 0", and before the first such statement, a face is in no group: all its edges
-// are sharp. A mesh without any such statement says nothing: no creases, a warning.
+// Finds edges whose two faces are not in the same smoothing group, by the mesh's statements "s 1",
+// "s off". Under "s off" or "s 0", and before the first such statement, a face is in no group: all
+// its edges are found. A mesh without any such statement gets a warning and no creases.
 SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, float sharpness,
                                                            const subdiv_options *opt);
 
-// Where the UVs of two faces differ at an end of their edge, or one of them has none there. Equal
-// values are no difference, whatever their indices. A mesh without UVs: no creases, a warning.
+// Finds edges where the UVs of the two faces differ at an end, or one face has none there. Equal
+// values with different indices do not differ. A mesh without UVs gets a warning and no creases.
 SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float sharpness,
                                                    const subdiv_options *opt);
 
