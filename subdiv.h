@@ -665,7 +665,6 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
                                                    const subdiv_options *opt);
 
 // ------------------------------------------------------------------------------- >>inspect
-
 // What a cage is made of.
 typedef struct subdiv_info {
     int vertex_count, edge_count, face_count;
@@ -677,14 +676,14 @@ typedef struct subdiv_info {
     int nonmanifold_vertex_count;        // at such an edge, or whose faces are not one fan
     int isolated_vertex_count;           // without faces
     int extraordinary_vertex_count;      // interior, valence not 4 (Loop: 6)
-    int crease_count;                    // edges that the crease list makes sharp, and how many
-    int infinite_crease_count;           // of them forever
+    int crease_count;                    // edges that the crease list makes sharp
+    int infinite_crease_count;           // edges that it makes sharp forever
     int corner_count;                    // vertices that the corner list makes sharp
     int hole_count;                      // faces marked as holes
-    int component_count;                 // pieces that share no vertex, isolated vertices apart
+    int component_count;                 // pieces that share no vertex, without isolated vertices
 } subdiv_info;
 
-// Counts. Errors as subdiv_refine; a Loop cage may hold any faces.
+// Counts what a cage is made of. A Loop cage may hold any faces.
 SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *mesh,
                                         const subdiv_options *opt);
 
@@ -692,10 +691,10 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 typedef enum subdiv_oddity {
     SUBDIV_ODD_NONMANIFOLD_EDGE,         // more than two faces at edge vertex - other_vertex
     SUBDIV_ODD_FLIPPED_FACE,             // face and other_face run the same way along this edge
-    SUBDIV_ODD_NONMANIFOLD_VERTEX,       // the faces at vertex are several fans, one with face, one
-                                         // with other_face; told where no edge is non-manifold
-    SUBDIV_ODD_DUPLICATE_FACE,           // face has the vertices of the earlier other_face, in
-                                         // any order
+    SUBDIV_ODD_NONMANIFOLD_VERTEX,       // face and other_face are in different fans at vertex;
+                                         // reported only if no edge there is non-manifold
+    SUBDIV_ODD_DUPLICATE_FACE,           // the earlier other_face has the same vertices, in any
+                                         // order
     SUBDIV_ODD_REPEATED_VERTEX,          // face has vertex, or edge vertex - other_vertex, twice
     SUBDIV_ODD_NO_AREA,                  // face is as thin as rounding of its coordinates
     SUBDIV_ODD_UNUSED_VERTEX,            // no face has vertex
@@ -716,10 +715,10 @@ typedef struct subdiv_finding {
 
 typedef void (*subdiv_report)(void *user, const subdiv_finding *finding);
 
-// Reports kind by kind, in the order above, and counts into counts [SUBDIV_ODDITY_COUNT]; either
-// may be NULL. Takes time in proportion to the mesh, however odd it is. What subdiv_refine would
-// refuse is an error here, too, and nothing is reported (but a Loop cage may hold any faces).
-// Errors: ARGUMENT, EMPTY, INDEX (of UVs, too), FACE, NOT_FINITE, TOO_LARGE, MEMORY.
+// Reports oddities kind by kind, in the order above, and counts the kinds in counts
+// [SUBDIV_ODDITY_COUNT]. Either of report and counts may be NULL. The time is proportional to the
+// mesh, however odd it is. A mesh that subdiv_refine refuses is an error here, too, and nothing is
+// reported; but a Loop cage may hold any faces.
 SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
                                       void *user, const subdiv_options *opt);
 #endif // SUBDIV_NO_TOOLS
