@@ -725,17 +725,15 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 
 #ifndef SUBDIV_NO_OBJ
 // ----------------------------------------------------------------------------------- >>obj
-
-// Reads Wavefront OBJ, block by block and without ever going back:
+// Reads Wavefront OBJ, block by block, never going back:
 //
 //     v x y z [w], v x y z r g b [a]       w and a are ignored; vertices without a colour are white
 //                                          if others have one
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
-//     f v/vt/vn ...                        in all forms, with negative indices, before or behind
+//     f v/vt/vn ...                        in all forms, with negative indices, before or after
 //                                          what it names; any number of vertices
 //     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
-//                                          a comment if blanks are around it: "Material #25" is a
-//                                          name
+//                                          a comment only between blanks (not in "Material #25")
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
@@ -743,46 +741,43 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     t interpolateboundary 1/0/0 k        k: 0 none, 1 edge and corner, 2 edge
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
-// The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
-// all of theirs, with one warning for those that name some vt and one for those that name none.
-// Normals are passed over, their indices too.
-// Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
-// are skipped, and how many points and lines, free-form and unknown statements were. What would
-// change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
-// EMPTY, TOO_LARGE, MEMORY.
+// The mesh has UVs if any face names a vt at each of its vertices. Other faces then have the UV -1,
+// with one warning for faces that name some vt, and one for faces that name none. Normals are
+// ignored. Faces of fewer than three vertices and tags that make no sense are skipped with a
+// warning each. One warning counts the points and lines, one the free-form statements, one the
+// unknown ones. Anything else that would change the mesh is an error that names line and token.
+// Errors: IO, SYNTAX, INDEX, NOT_FINITE, EMPTY, TOO_LARGE.
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt);
 
 // Stores up to size bytes, more than 0, and returns how many; 0 at the end, (size_t)-1 on failure.
 typedef size_t (*subdiv_read)(void *user, void *bytes, size_t size);
-
 SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read read, void *user,
                                                   const subdiv_options *opt);
 
-// Writes v (with colours), vt, vn, f between the statements, and the tags if there is anything to
-// tell. Faces without UVs have no vt; normals are numbered as the vertices. Numbers have the
-// fewest digits that read back as the same float, in any locale. Errors: ARGUMENT, EMPTY, INDEX,
-// FACE, NOT_FINITE, IO, MEMORY.
+// Writes v (with colours), vt, vn, f between the statements, and tags unless all of them would be
+// the defaults. Faces without UVs have no vt; normals are numbered as the vertices. Numbers have
+// the fewest digits that read back as the same float, in any locale. Error IO.
 //
-// To memory: *size becomes the bytes of the whole text, without a terminating 0. Call with
-// capacity 0 for the size alone; a capacity that is too small is error TOO_LARGE.
+// To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
+// 0 to get the size alone; any other capacity that is too small is error TOO_LARGE.
 SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *text,
                                                 size_t capacity, size_t *size,
                                                 const subdiv_options *opt);
 
 // Takes size bytes and returns how many it kept; fewer than size is a failure.
 typedef size_t (*subdiv_write)(void *user, const void *bytes, size_t size);
-
 SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
                                                   void *user, const subdiv_options *opt);
 
-// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj,
-// without the mesh. What is in memory is the scratch memory of an evaluation, see >>animation.
+// Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
+// subdiv_save_obj, but above level 0 without normals. The mesh is never in memory as a whole; the
+// scratch memory of an evaluation is (see >>animation).
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
 
-// Paths are UTF-8, on Windows too.
+// Files. Paths are UTF-8, on Windows too.
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);
