@@ -122,8 +122,8 @@
    uses the threads that you lend it. The same input gives the same bits on any number of threads,
    with SIMD and without. (Where the target can fuse multiplications and additions, gcc does so in
    its default gnu modes: use -ffp-contract=off.) A result has up to 2^31-1 vertices and faces, a
-   cage up to 2^30 face-vertices; larger ones are refused before they are built. After an error the
-   output is zeroed; a mesh that was to be changed is as it was before.
+   cage up to 2^30 face-vertices; larger ones are refused before they are built. Output is
+   overwritten, not freed. An error zeroes it, but leaves a mesh that was to be changed as it was.
 
    REFERENCES
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
@@ -317,8 +317,8 @@ SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 // each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
 // the same three vertices.
 //
-// fine must not be the cage; its old contents are overwritten, not freed. A crease between vertices
-// that share no edge is skipped with a warning; level 0 keeps it.
+// fine must not be the cage itself. A crease between vertices that share no edge is skipped with a
+// warning; level 0 keeps it.
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt);
 
@@ -335,12 +335,8 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 // ----------------------------------------------------------------------------- >>animation
 // Prepare a surface once and evaluate it often: into arrays of your own, with any number of
 // channels (floats) a vertex. Use it for positions in every frame and for all other data of
-// vertices. A surface prepared with opt->linear has the same points but interpolates linearly: use
-// it for data that must not overshoot. Here are 5 weights a vertex, and a material a face:
-//
-//     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
-//     for (int f = 0; f < fine.face_count; f++)
-//         fine_material[f] = material[fine.cage_faces[f]];
+// vertices. A surface prepared with opt->linear has its points in the same order but interpolates
+// linearly: use it for data that must not overshoot. Look up data of faces by cage_faces.
 
 // Return the sizes of the result. face_size is 4, or 3 under Loop; on level 0 it is the cage's.
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
@@ -352,8 +348,9 @@ SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// Writes the edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first.
-// Under opt->triangulate they are the edges of the triangles. A surface of 0 levels has none.
+// Writes the edges of the cage in THE ORDER OF THE RESULT: ends [2 * edge_count], of each edge the
+// lower-numbered vertex first. Under opt->triangulate they are the edges of the triangles. A
+// surface of 0 levels has none.
 SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
 SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 
@@ -407,9 +404,8 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // --------------------------------------------------------------------------------- >>limit
 // With opt->limit, subdiv_refine moves every point of the result to the limit surface and gives
 // fine its unit normals [HKD93] [Loop87] [HDD94]. A surface prepared with opt->limit makes such
-// meshes, and every evaluation of it gives limit values, of any channels. UVs of a mesh stay those
-// of the refined mesh. The mesh is no cage for more of the same: its points are those of an
-// endlessly fine mesh.
+// meshes, and every evaluation of it gives limit values, of any channels. UVs of such a mesh stay
+// those of the refined mesh. Do not use it as a cage: its points belong to an endlessly fine mesh.
 //
 // In two cases, as in OpenSubdiv, this limit differs from the true one, which >>exact and
 // >>tessellation give. Sharpness that is left on the last level (of 0 levels: on level 1) counts as
@@ -501,9 +497,9 @@ typedef struct subdiv_derivatives {
 //   those faces by less.
 //
 // Errors: ARGUMENT if normals have fewer than 3 channels or the surface was not prepared for
-// SUBDIV_EXACT. Any part of out may have been written after INDEX (the first location without a
-// face or corner), ARGUMENT (u, v outside the face by more than rounding) and MEMORY (which samples
-// close to a vertex of high valence take).
+// SUBDIV_EXACT. Three errors may come after part of out has been written: INDEX for a location that
+// does not exist, ARGUMENT for one outside its face by more than rounding, and MEMORY, as samples
+// close to a vertex of high valence take some.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -563,26 +559,22 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #ifndef SUBDIV_NO_EXACT
 // --------------------------------------------------------------------------- >>tessellation
 // Makes a mesh of the limit surface. You choose the rate of each edge of the cage: the number of
-// pieces that it is cut into. Faces share the points of their edges, so there are no cracks.
-//
-//     subdiv_tessellation how = {0};
-//     how.rate = 5;                                       // of all edges
-//     subdiv_tessellate(&fine, &cage, &how, &opt);
+// pieces that it is cut into. Faces share the points of their edges, so there are no cracks. To
+// begin with, set rate in a subdiv_tessellation to 5 and leave the rest 0.
 
 // Returns the rate of an edge, or 0 for no answer. a, middle and b [3] are points of the edge on
-// the limit surface, a at its lower-numbered vertex. Called once for each edge that has a surface,
-// in order, by the caller's thread.
+// the limit surface, a at its lower-numbered vertex. The library calls it once for each edge that
+// has a surface, in order, on the caller's thread.
 typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
                                 const float *b);
 
-// Says how to tessellate. Zero it, fill what you want; NULL and 0 are no answers. The first answer
-// in these lists counts:
+// Says how to tessellate. Zero it, then fill what you want; NULL and 0 are no answers. Rates are the
+// first answer in these lists:
 //     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
 //     a face     face_rates, the rates of its edges
 typedef struct subdiv_tessellation {
     int  rate;                        // of all edges
-    const int *edge_rates;            // [edge count] edges are numbered as in THE ORDER OF THE
-                                      // RESULT: subdiv_surface_edges lists them
+    const int *edge_rates;            // [edge_count of the cage], as in subdiv_surface_edges
     const int *face_rates;            // [face_count of the cage]
     subdiv_edge_rate edge_rate;
     void *user;                       // handed to edge_rate
@@ -590,9 +582,8 @@ typedef struct subdiv_tessellation {
 } subdiv_tessellation;
 
 // Tessellates a cage. fine gets limit positions, normals, cage_faces, statements, and UVs (seams
-// respected) and colours on their own limit. Holes are treated as by subdiv_refine. There are no
-// creases and corners: fine is no cage for more of the same. fine must not be the cage. how may be
-// NULL.
+// respected) and colours on their own limit. Holes are treated as by subdiv_refine. Do not use fine
+// as a cage: it has no creases and corners. fine must not be the cage itself. how may be NULL.
 //
 // Points are in THE ORDER OF THE RESULT, with rate - 1 points inside each edge. The points inside a
 // face are those inside a grid, row by row. A rate of the face replaces c and r:
@@ -603,8 +594,8 @@ typedef struct subdiv_tessellation {
 //
 // If all edges are cut like the sides of the grid, the faces are those of the grid. So one rate 2^k
 // makes the faces of subdiv_refine by k levels with opt->limit. Its points are equal to rounding,
-// too, except where >>limit is not the true one or keeps points without a surface. (The other
-// polygons need even rates for this; at rate 1 they are fans around their centres.)
+// too, except where >>limit differs from the true limit or keeps points without a surface. (The
+// other polygons need even rates for this; at rate 1 they are fans around their centres.)
 //
 // Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost ones.
 // Strips join what remains with each edge; they follow its faces, from edge 0-1 on. They consist of
@@ -638,15 +629,11 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
 
 #ifndef SUBDIV_NO_TOOLS
 // ------------------------------------------------------------------------------- >>creases
-// These functions find edges and add them to the mesh's crease list with the sharpness given. An
+// These functions find edges and add them to the mesh's crease list with the given sharpness. An
 // edge that is already listed keeps the larger sharpness; other entries stay. Boundary and
-// non-manifold edges are sharp by themselves and never added.
-//
-//     subdiv_crease_by_angle(&cage, 30, SUBDIV_INFINITE, &opt);
-//
-// A list that changes is replaced by a new one. To try several angles, use copies of the struct
-// with memory = NULL: freeing a copy frees its new list alone. Error NOT_FINITE may also mean that
-// sharpness is not a number.
+// non-manifold edges are sharp by themselves and never added. A list that changes is replaced by a
+// new one. To try several angles, use copies of the struct with memory = NULL: freeing a copy frees
+// its new list alone. Error NOT_FINITE: also if sharpness is not a number.
 
 // Finds edges where the normals of the two faces differ by more than this many degrees, 0 to 180;
 // up to 0.001 degrees more is taken for rounding. Faces without area have no normal, so no creases.
@@ -665,7 +652,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
                                                    const subdiv_options *opt);
 
 // ------------------------------------------------------------------------------- >>inspect
-// What a cage is made of.
+// The parts of a cage.
 typedef struct subdiv_info {
     int vertex_count, edge_count, face_count;
     int triangle_count, quad_count, ngon_count;  // faces of 3, of 4, of more vertices
@@ -687,16 +674,15 @@ typedef struct subdiv_info {
 SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *mesh,
                                         const subdiv_options *opt);
 
-// What is odd about a mesh: allowed, but seldom meant.
+// Oddities of a mesh: allowed, but seldom meant.
 typedef enum subdiv_oddity {
     SUBDIV_ODD_NONMANIFOLD_EDGE,         // more than two faces at edge vertex - other_vertex
     SUBDIV_ODD_FLIPPED_FACE,             // face and other_face run the same way along this edge
     SUBDIV_ODD_NONMANIFOLD_VERTEX,       // face and other_face are in different fans at vertex;
                                          // reported only if no edge there is non-manifold
-    SUBDIV_ODD_DUPLICATE_FACE,           // the earlier other_face has the same vertices, in any
-                                         // order
+    SUBDIV_ODD_DUPLICATE_FACE,           // earlier other_face has the same vertices in any order
     SUBDIV_ODD_REPEATED_VERTEX,          // face has vertex, or edge vertex - other_vertex, twice
-    SUBDIV_ODD_NO_AREA,                  // face is as thin as rounding of its coordinates
+    SUBDIV_ODD_NO_AREA,                  // face is no thicker than rounding of its coordinates
     SUBDIV_ODD_UNUSED_VERTEX,            // no face has vertex
     SUBDIV_ODD_SAME_PLACE,               // vertex is exactly where the earlier other_vertex is:
                                          // faces that seem to touch may be apart
@@ -755,9 +741,9 @@ typedef size_t (*subdiv_read)(void *user, void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read read, void *user,
                                                   const subdiv_options *opt);
 
-// Writes v (with colours), vt, vn, f between the statements, and tags unless all of them would be
-// the defaults. Faces without UVs have no vt; normals are numbered as the vertices. Numbers have
-// the fewest digits that read back as the same float, in any locale. Error IO.
+// Writes v (with colours), vt and vn, then f with the statements between, then tags unless there is
+// nothing but defaults. Faces without UVs have no vt; normals are numbered as the vertices. Numbers
+// have the fewest digits that read back as the same float, in any locale. Error IO.
 //
 // To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
 // 0 to get the size alone; any other capacity that is too small is error TOO_LARGE.
