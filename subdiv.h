@@ -133,10 +133,7 @@
    [HKD93] Halstead, Kass, DeRose: Efficient, fair interpolation using Catmull-Clark surfaces
    [BLZ00] Biermann, Levin, Zorin: Piecewise smooth subdivision surfaces with normal control
    [Stam98] Stam: Evaluation of Loop subdivision surfaces
-   [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent
-
-   VERSION LOG
-   0.1  The first version. */
+   [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent */
 
 #ifndef SUBDIV_H
 #define SUBDIV_H
@@ -568,8 +565,8 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
                                 const float *b);
 
-// Says how to tessellate. Zero it, then fill what you want; NULL and 0 are no answers. Rates are the
-// first answer in these lists:
+// Says how to tessellate. Zero it, fill what you want; NULL and 0 are no answers. A rate is the
+// first answer in its list:
 //     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
 //     a face     face_rates, the rates of its edges
 typedef struct subdiv_tessellation {
