@@ -116,14 +116,16 @@
      Indices are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
-   A mesh made by the library is one block, which subdiv_mesh_free frees. It also frees the crease
-   lists and normals that the library adds to a mesh of yours. Arrays that you filled in are never
-   written or freed. The library keeps no state, so different threads may call it at once; one call
-   uses the threads that you lend it. The same input gives the same bits on any number of threads,
-   with SIMD and without. (Where the target can fuse multiplications and additions, gcc does so in
-   its default gnu modes: use -ffp-contract=off.) A result has up to 2^31-1 vertices and faces, a
-   cage up to 2^30 face-vertices; larger ones are refused before they are built. Output is
-   overwritten, not freed. An error zeroes it, but leaves a mesh that was to be changed as it was.
+   * A mesh made by the library is one block, which subdiv_mesh_free frees. It also frees the crease
+     lists and normals that the library adds to a mesh of yours. Arrays that you filled in are never
+     written or freed. Output is overwritten, not freed.
+   * An error zeroes the output, but leaves a mesh that was to be changed as it was.
+   * The library keeps no state, so different threads may call it at once. One call uses the threads
+     that you lend it. The same input gives the same bits on any number of threads, with SIMD and
+     without. (Where the target can fuse multiplications and additions, gcc does so in its default
+     gnu modes: use -ffp-contract=off.)
+   * A result has up to 2^31-1 vertices and faces, a cage up to 2^30 face-vertices. Larger ones are
+     refused before they are built.
 
    REFERENCES
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
@@ -355,7 +357,7 @@ SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 // values, 1 or more; indices [sum of face sizes] says which one, -1 stands for none. rule says what
 // happens at seams. You may prepare any number of such surfaces.
 //
-// Evaluation takes [value_count] values with any number of channels and makes [vertex_count].
+// subdiv_evaluate takes [value_count] values of any number of channels and makes [vertex_count];
 // subdiv_surface_faces gives the indices of values, -1 where there are none. Value i stays value i
 // at the first cage vertex that has it. From level 1 on, other vertices that share it have values
 // of their own, numbered from value_count. Cage faces of this surface are only those that have a
