@@ -1,24 +1,18 @@
 /* subdiv.h - v0.1 - subdivision surfaces in one C header - MIT or public domain, see the end
 
-   In goes a cage: a mesh of polygons, with creases, corners and holes if you like. Out comes the
-   mesh refined by Catmull-Clark, Loop or bilinear subdivision, as smooth as you ask. The rules are
-   those of the papers below and of OpenSubdiv, which the tests compare with, vertex by vertex.
+   The library takes a cage: a mesh of polygons, with creases, corners and holes if you like. It
+   refines the cage by Catmull-Clark, Loop or bilinear subdivision, as often as you ask. The rules
+   are those of the papers below and of OpenSubdiv; tests compare every vertex with OpenSubdiv.
+   The library has no GPU code and no hierarchical edits; it never prints and never exits.
 
    DO THIS
-   -------
-   In ONE C or C++ file, to create the implementation:
-
-       #define SUBDIV_IMPLEMENTATION
-       #include "subdiv.h"
-
-   Everywhere else just #include "subdiv.h". C99 or C++11, the standard library alone (-lm).
-
-   If one file is all you have, define SUBDIV_STATIC, too: then the compiler leaves out what you do
-   not call, which takes about half of its time. In a larger program give the implementation a file
-   of its own, which is compiled once.
+   In ONE C or C++ file, define SUBDIV_IMPLEMENTATION before the #include: this creates the
+   implementation. Everywhere else just #include "subdiv.h". You need C99 or C++11 and the standard
+   library (-lm). If your program is a single file, define SUBDIV_STATIC, too: the compiler then
+   leaves out the functions you do not call and takes about half the time. In a larger program give
+   the implementation a file of its own, so that it is compiled once.
 
    QUICK START: one call
-   ---------------------
        #include <stdio.h>
        #define SUBDIV_STATIC
        #define SUBDIV_IMPLEMENTATION
@@ -39,11 +33,10 @@
        }
 
    BY HAND: a cube with a sharp top
-   --------------------------------
        float P[] = {-1,-1,-1, 1,-1,-1, 1,1,-1, -1,1,-1, -1,-1,1, 1,-1,1, 1,1,1, -1,1,1};
        int   F[] = {0,3,2,1, 4,5,6,7, 0,1,5,4, 1,2,6,5, 2,3,7,6, 3,0,4,7};
        int   E[] = {4,5, 5,6, 6,7, 7,4};               // the four edges of the top
-       float S[] = {2, 2, 2, SUBDIV_INFINITE};         // how many levels each stays sharp
+       float S[] = {2, 2, 2, SUBDIV_INFINITE};         // for how many levels each stays sharp
 
        subdiv_mesh cube = {0};
        cube.vertex_count = 8;  cube.positions = P;
@@ -51,63 +44,51 @@
        cube.crease_count = 4;  cube.crease_vertices = E;  cube.crease_sharpness = S;
 
    CONTENTS                     search for the tag, for instance >>masks
-   --------
-   Public:   >>config    macros you may define        >>types      mesh, options, errors
-             >>refine    the one call, in two steps   >>animation  new values, same topology
-             >>limit     points and normals of the    >>creases    from angles, groups, seams
-                         limit surface                >>inspect    what a cage is made of, what
-             >>exact     the same at any (face, u, v)              is odd about it
-             >>tessellation  meshes of it, in any     >>stencils  points as weights of the
-                         pieces                       cage's vertices; points explained
-             >>obj       reading and writing OBJ
-   Inside:   >>platform  >>memory  >>errors  >>validate      the ground everything stands on
-             >>level     a mesh with its edges and sharpness: the state of refinement
-             >>cage      from polygons to level 0: edges, boundaries, what is non-manifold
-        *    >>sharpness how creases and corners fade
-        *    >>masks     THE LECTURE: face, edge and vertex points of every scheme
+   Public:   >>config  >>types    macros you may define; mesh, options, errors
+             >>refine             a cage into a finer mesh, in one call or in two steps
+             >>animation          new values on the same topology, in every frame
+             >>limit  >>exact     the limit surface: at the points of the result; anywhere
+             >>stencils           points as sums of cage vertices; explains a point
+             >>tessellation       meshes of the limit surface, each edge cut as you like
+             >>creases            from angles, smoothing groups and UV seams
+             >>inspect  >>obj     what a cage is made of, what is odd about it; OBJ files
+   Inside:   >>platform  >>memory  >>errors  >>validate     the ground everything stands on
+             >>level     a mesh with its edges and sharpness; >>cage makes level 0 from polygons
+           * >>sharpness how creases and corners fade
+           * >>masks     THE LECTURE: face, edge and vertex points of every scheme
              >>order     where each point of the result stands
-             >>rows      masks written out as rows of weights, and these in batches
-             >>lines     rows of finer levels, which follow from where the points stand
+             >>rows      masks written out as weights of points; >>lines: those of finer levels
              >>face-varying  UVs: a topology of their own
-             >>prepare   a surface: >>limit-rows and >>fill make its rows, >>create all of it
-             >>results   where values go; >>limit-surface: tangents and normals
-        *    >>grids     the general step: points of a level from those of the level before
-             >>evaluate  all levels and any part of the result; >>results-as-meshes
-             >>exact-surface  the limit anywhere between the points: >>split the next level, where
-                         needed, >>patches regular faces, >>nests around irregular vertices, the
-                         >>tree of all leaves, >>locations on it and the >>cells of those, their
-                         >>polynomials, >>samples of them
-             >>stencils  all of them as weights
-             >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
-                         >>tessellator that makes a mesh of them
-             >>normals   of any mesh
-             >>generators  >>inspection  >>oddities    what >>creases and >>inspect do
-             >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
+             >>prepare   what makes a surface: >>limit-rows  >>fill  >>create
+           * >>grids     the general step: points of a level from those of the level before
+             >>results   what makes the result: >>limit-surface  >>evaluate  >>results-as-meshes
+             >>exact-surface  the limit between the points: >>split  >>patches  >>nests  >>tree
+                         >>locations  >>cells  >>polynomials  >>samples
+             >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
+             >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the three sections with a star and may skip the rest.
 
    WORDS
-   -----
    cage            the mesh you start from            level      how often it has been refined
-   face-vertex     one vertex of one face: what others call a face corner or a half-edge
+   face-vertex     one vertex of one face; others call it a face corner or a half-edge
    valence         number of edges at a vertex; 4 is regular for quads, 6 for triangles
    extraordinary   an interior vertex of another valence
-   boundary        an edge with one face              non-manifold  an edge with three or more,
-                   or a vertex whose faces are not one fan
+   boundary        an edge with one face
+   non-manifold    an edge with three or more faces, or a vertex whose faces are not one fan
    face point, edge point, vertex point    what a face, an edge, a vertex becomes one level down
    even, odd       Loop's names: even = vertex points, odd = edge points
    mask            the weights that make such a point from the points around it
-   sharpness       how many levels an edge or vertex stays sharp; 0 smooth, >= 10 forever
+   sharpness       for how many levels an edge or vertex stays sharp; 0 smooth, >= 10 forever
    crease          a sharp edge                       corner     a sharp vertex
    dart            a vertex where one crease ends     semi-sharp 0 < sharpness < 10
    limit           the smooth surface that refinement tends to
 
    THE ORDER OF THE RESULT, a promise
-   ----------------------------------
    With n = 2^levels:
-   * the vertices of the cage come first: vertex i stays vertex i;
-   * then the n-1 points inside each edge of the cage, from its lower-numbered end to the other,
-     edge by edge, in the order in which the faces first meet them (face 0's edge 0-1, 1-2, ...);
-   * then the points inside each face, face by face:
+   * The vertices of the cage come first: vertex i stays vertex i.
+   * The n-1 points inside each edge come next, from its lower-numbered end to the other. Edges are
+     in the order in which the faces first meet them (face 0's edge 0-1, 1-2, ...).
+   * The points inside each face come last, face by face:
 
        a quad                3 . . . 2       a triangle under Loop      2
        row by row from       . 7 8 9 .       row by row from            . .
@@ -115,44 +96,38 @@
        each from edge 3-0    . 1 2 3 .                                  . 1 2 .
        to 1-2                0 . . . 1                                  0 . . . 1
 
-       any other polygon under Catmull-Clark or bilinear: its centre; then the inside of each
-       spoke, from the centre to the middle of edge i; then the inside of each quad at vertex i,
-       whose corners are vertex i, the middle of edge i, the centre, the middle of edge i-1, and
-       whose rows run as those of a quad;
-   * the fine faces of cage face f are one contiguous range, in the order of f, row by row (an
-     n-gon: quad by quad; in a row of triangles those like the parent and those turned by half
-     alternate). The fine face in row r and column c is (r,c) (r,c+1) (r+1,c+1) (r+1,c). A triangle
-     is (r,c) (r,c+1) (r+1,c), a turned one (r+1,c+1) (r+1,c) (r,c+1). Faces that are holes are
-     left out; their points stay.
-
-   WHAT IT DOES NOT DO
-   -------------------
-   GPU code, hierarchical edits, threads of its own, global state, printing, exit().
+     Any other polygon under Catmull-Clark or bilinear has its centre first; then the inside of each
+     spoke, from the centre to the middle of edge i; then the inside of each quad at vertex i, row
+     by row as above. The corners of this quad are vertex i, the middle of edge i, the centre and
+     the middle of edge i-1.
+   * The fine faces of cage face f are one contiguous range, in the order of f. They go row by row,
+     those of an n-gon quad by quad. A quad in row r and column c is (r,c) (r,c+1) (r+1,c+1)
+     (r+1,c). In a row of triangles, those like the parent, (r,c) (r,c+1) (r+1,c), alternate with
+     those turned by half, (r+1,c+1) (r+1,c) (r,c+1). Holes have no faces, but their points stay.
 
    WHERE IT DIFFERS FROM OPENSUBDIV
-   --------------------------------
-   * Chaikin creasing: an edge with sharpness > 1 whose end turns smooth is weighted by at most 1;
-     OpenSubdiv extrapolates (its weight there is the sharpness itself).
-   * Limit: theirs leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents at a
-     crease or boundary are not the surface's unless there are 1 or 2 faces (Loop: 1 to 3) on the
-     side, and are written out of bounds where a vertex has more faces than edges.
-   * UVs: where the values around a vertex go A B A B, theirs takes the second B for a third value.
-   * The boundary default is edge, theirs is none; of UVs it is corners only, theirs is all. Indices
-     are checked. Valence has no limit.
+   * Chaikin creasing: where an end of a crease turns smooth, the crease rule is weighted by the
+     sharpness, but at most by 1. OpenSubdiv has no such bound: above 1, it extrapolates.
+   * Limit: OpenSubdiv leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents
+     at a crease or boundary are wrong unless there are 1 or 2 faces (Loop: 1 to 3) on that side.
+     It writes them out of bounds where a vertex has more faces than edges.
+   * UVs: where values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
+   * Defaults: the boundary is "edge", not "none"; the rule for UVs is "corners only", not "all".
+     Indices are checked. Valence has no limit.
 
    MEMORY, THREADS, LIMITS
-   -----------------------
-   A mesh made by the library is one block, freed by subdiv_mesh_free, as are the crease lists and
-   normals that it adds to yours; arrays that you filled in are never written nor freed. The
-   library keeps no state: different threads may work at once, and one call uses the threads that
-   you lend it.
-   The same input gives the same bits, on any number of threads, with SIMD and without. (gcc fuses
-   multiplications and additions where the target has such instructions, in its default gnu modes:
-   -ffp-contract=off.) Up to 2^31-1 vertices and faces in a result, 2^30 face-vertices in a cage;
-   what does not fit is refused before it is built. Errors leave the output zeroed.
+   * A mesh made by the library is one block, which subdiv_mesh_free frees. It also frees the crease
+     lists and normals that the library adds to a mesh of yours. Arrays that you filled in are never
+     written or freed. Output is overwritten, not freed.
+   * An error zeroes the output, but leaves a mesh that was to be changed as it was.
+   * The library keeps no state, so different threads may call it at once. One call uses the threads
+     that you lend it. The same input gives the same bits on any number of threads, with SIMD and
+     without. (Where the target can fuse multiplications and additions, gcc does so in its default
+     gnu modes: use -ffp-contract=off.)
+   * A result has up to 2^31-1 vertices and faces, a cage up to 2^30 face-vertices. Larger ones are
+     refused before they are built.
 
    REFERENCES
-   ----------
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
@@ -160,12 +135,7 @@
    [HKD93] Halstead, Kass, DeRose: Efficient, fair interpolation using Catmull-Clark surfaces
    [BLZ00] Biermann, Levin, Zorin: Piecewise smooth subdivision surfaces with normal control
    [Stam98] Stam: Evaluation of Loop subdivision surfaces
-   [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent
-
-   VERSION LOG
-   -----------
-   0.1  Catmull-Clark, Loop and bilinear refinement, creases, corners, holes, UVs, limits, exact
-        evaluation, tessellation, stencils, OBJ. */
+   [OSD]   OpenSubdiv 3.5, Sdc and Far: the rules where the papers are silent */
 
 #ifndef SUBDIV_H
 #define SUBDIV_H
@@ -173,18 +143,17 @@
 // -------------------------------------------------------------------------------- >>config
 // Define these before the #include, in the file with SUBDIV_IMPLEMENTATION:
 //
-//     SUBDIV_STATIC                  everything static: private to that file, and compiled only if
-//                                    it is called
+//     SUBDIV_STATIC                  functions are private to that file, compiled only if called
 //     SUBDIV_DEF                     your own decoration of the public functions
-//     SUBDIV_MALLOC(size, user)      both or neither; user is opt->user. Memory must be aligned
-//     SUBDIV_FREE(pointer, user)     as malloc's
-//     SUBDIV_ASSERT(condition)       checks of the library's own logic, assert by default
+//     SUBDIV_MALLOC(size, user)      your own allocator, both or neither: user is opt->user, memory
+//     SUBDIV_FREE(pointer, user)     must be aligned as by malloc
+//     SUBDIV_ASSERT(condition)       checks the library's own logic; assert by default
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
-//     SUBDIV_NO_HUGE_PAGES           Linux: large blocks in pages of the usual size
-//     SUBDIV_NO_SIMD                 plain C where SSE2, NEON or WebAssembly would be used
+//     SUBDIV_NO_HUGE_PAGES           Linux: pages of the usual size for large blocks
+//     SUBDIV_NO_SIMD                 plain C instead of SSE2, NEON or WebAssembly SIMD
 //
-// To leave whole sections out, of the declarations, too. In brackets what that saves of the time to
-// compile all of it, and of its size (gcc -O2):
+// Define these to leave whole sections out, declarations included. The percentages say how much of
+// the full compile time and code size each saves (gcc -O2):
 //
 //     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (34 %)
 //     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (11 %)
@@ -196,7 +165,7 @@
 
 #ifndef SUBDIV_DEF
 #if defined(SUBDIV_STATIC)
-#define SUBDIV_DEF static inline            // inline: no warning about what is not used
+#define SUBDIV_DEF static inline            // inline: no warning about unused functions
 #elif defined(__cplusplus)
 #define SUBDIV_DEF extern "C"
 #else
@@ -208,7 +177,10 @@
 
 #define SUBDIV_INFINITE 10.0f         // this sharpness or more never fades
 
-// Code and text of every result.
+// The code and text of every result. Any function may fail with ARGUMENT (a needed pointer is NULL,
+// a count is negative, a value is out of range) or MEMORY. A function that reads a mesh checks it:
+// EMPTY, INDEX, FACE, NOT_FINITE, TOO_LARGE (see LIMITS) and, if it refines, NOT_TRIANGLE. Comments
+// of functions name further causes only.
 #define SUBDIV_RESULTS(X)                                          \
     X(SUBDIV_OK,                 "no error")                       \
     X(SUBDIV_ERROR_ARGUMENT,     "invalid argument")               \
@@ -234,39 +206,40 @@ typedef enum subdiv_scheme {
 
 typedef enum subdiv_boundary {
     SUBDIV_BOUNDARY_EDGE,             // the boundary is a smooth curve, a B-spline
-    SUBDIV_BOUNDARY_EDGE_AND_CORNER,  // and passes through vertices that have a single face
+    SUBDIV_BOUNDARY_EDGE_AND_CORNER,  // a smooth curve with corners at vertices of a single face
     SUBDIV_BOUNDARY_NONE              // faces that touch an unsharpened boundary become holes
 } subdiv_boundary;
 
 typedef enum subdiv_creasing {
     SUBDIV_CREASING_UNIFORM,          // sharpness falls by 1 a level
-    SUBDIV_CREASING_CHAIKIN           // and is averaged along the crease [DKT98]
+    SUBDIV_CREASING_CHAIKIN           // sharpness is also averaged along the crease [DKT98]
 } subdiv_creasing;
 
 typedef enum subdiv_triangles {
-    SUBDIV_TRIANGLES_CATMULL_CLARK,
-    SUBDIV_TRIANGLES_SMOOTH           // rounder where a Catmull-Clark cage has triangles [OSD]
+    SUBDIV_TRIANGLES_CATMULL_CLARK,   // triangles of a Catmull-Clark cage have no rule of their own
+    SUBDIV_TRIANGLES_SMOOTH           // triangles of a Catmull-Clark cage come out rounder [OSD]
 } subdiv_triangles;
 
-// UVs and other face-varying values: how they go along seams and boundaries. A seam is an edge
-// whose faces have different values at one of its ends.
+// How UVs and other face-varying values behave at seams and boundaries. A seam is an edge whose
+// faces have different values at one of its ends.
 typedef enum subdiv_uv_rule {
-    SUBDIV_UV_CORNERS_ONLY,           // smooth; sharp where one face alone has a value
-    SUBDIV_UV_CORNERS_PLUS1,          // and where three or more values meet, or two and a crease
-    SUBDIV_UV_CORNERS_PLUS2,          // and at ends of seams, and both of two values if one is
+    SUBDIV_UV_CORNERS_ONLY,           // smooth, but sharp where one face alone has a value
+    SUBDIV_UV_CORNERS_PLUS1,          // also where 3 or more values meet, or 2 values and a crease
+    SUBDIV_UV_CORNERS_PLUS2,          // also at ends of seams, and where 2 values meet, one of them
+                                      // sharp
     SUBDIV_UV_BOUNDARIES,             // seams and boundaries straight, all else smooth
     SUBDIV_UV_ALL,                    // everything linear
     SUBDIV_UV_NONE                    // smooth everywhere
 } subdiv_uv_rule;
 
-// A mesh: the cage that goes in and the result that comes out. Zero it, fill what you have. The
-// mesh says what the surface is; the options say what to compute.
+// A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
+// The mesh says what the surface is; the options say what to compute.
 typedef struct subdiv_mesh {
     int    vertex_count;
     float *positions;                 // [3 * vertex_count]   x y z, finite
 
     int    face_count;
-    int    face_size;                 // all faces have this many vertices; or 0: see face_sizes
+    int    face_size;                 // vertices of every face; or 0: see face_sizes
     int   *face_sizes;                // [face_count]         vertices of each face, at least 3
     int   *face_vertices;             // [sum of sizes]       counted from 0, counter-clockwise
 
@@ -275,20 +248,19 @@ typedef struct subdiv_mesh {
     float *crease_sharpness;          // [crease_count]       levels; the later of two entries wins
     int    corner_count;
     int   *corner_vertices;           // [corner_count]
-    float *corner_sharpness;          // [corner_count]
+    float *corner_sharpness;          // [corner_count]       levels
     int    hole_count;
-    int   *holes;                     // [hole_count]         faces that shape the surface unseen
+    int   *holes;                     // [hole_count]         invisible: they only shape the surface
 
     int    uv_count;
     float *uvs;                       // [2 * uv_count]       u v
-    int   *face_uvs;                  // [sum of sizes]       of each face-vertex; -1: it has none
+    int   *face_uvs;                  // [sum of sizes]       the UV of each face-vertex; -1: none
     float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
     float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
     int    statement_count;           // OBJ's g, o, s, usemtl and mtllib, as they stand in the file
-    int   *statement_faces;           // [statement_count]    the face each stands before, rising;
-                                      //                      face_count: behind all faces
-    char **statements;                // [statement_count]    such as "usemtl stone", one blank
-                                      //                      behind the keyword
+    int   *statement_faces;           // [statement_count]    the face that each precedes, rising;
+                                      //                      face_count: after all faces
+    char **statements;                // [statement_count]    "usemtl stone": keyword, blank, text
 
     subdiv_scheme    scheme;
     subdiv_boundary  boundary;
@@ -301,8 +273,8 @@ typedef struct subdiv_mesh {
     void *memory;                     // the library's own, or NULL: the arrays are yours
 } subdiv_mesh;
 
-// What went wrong and where. Zero it once; every call given it writes code, place and message
-// anew, while warnings (something odd was skipped) add up, and the first one is kept.
+// Receives what went wrong, and where. Zero it once. Every call that gets it overwrites code, place
+// and message. Warnings (something odd was skipped) add up, and the first one is kept.
 typedef struct subdiv_error {
     int  line;                        // of the OBJ file, from 1; 0 = none
     subdiv_result code;
@@ -312,50 +284,47 @@ typedef struct subdiv_error {
     char warning[256];
 } subdiv_error;
 
-// Lends threads: calls job(context, 0), ..., job(context, count - 1), each once, in any order and
-// on any threads, and returns when all have. The results do not depend on who does what.
+// Lends threads to the library: calls job(context, 0) to job(context, count - 1), each once, in any
+// order and on any threads, and returns when all have returned. Results do not depend on the order.
 typedef void (*subdiv_run)(void *user, void (*job)(void *context, int i), void *context, int count);
 
-// How to compute. NULL and {0} are right for most people.
+// Says how to compute. NULL and {0} are right for most people.
 typedef struct subdiv_options {
     int           triangulate;        // Loop: cut larger faces into fans instead of refusing them
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
     int           linear;             // split only: points stay on the cage's faces and edges
     int           limit;              // points on the limit surface, with normals (see >>limit)
-    int           no_tags;            // OBJ: write no crease, corner, hole and rule tags
+    int           no_tags;            // OBJ: write no tags for creases, corners, holes and rules
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
 } subdiv_options;
 
-// The text of a result, such as "index out of range". Never NULL.
+// Returns the text of a result, such as "index out of range". Never NULL.
 SUBDIV_DEF const char *subdiv_result_string(subdiv_result result);
 
-// Frees what the library made and zeroes the mesh. Arrays of your own are left alone. (A copy of
-// the struct has the same memory: free one of the two.)
+// Frees what the library allocated for the mesh and zeroes the struct. Your own arrays stay. A copy
+// of the struct has the same memory: free one of the two.
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 
 // -------------------------------------------------------------------------------- >>refine
-
-// Refines a cage: fine = the mesh after so many levels, 0 copies. In THE ORDER OF THE RESULT, with
-// cage_faces filled, positions in floats, and the sharpness that is left in the crease and corner
-// lists, so that fine is a cage again: refine by 2 is refine by 1 twice. (What a mesh cannot tell
-// the next call: holes, unless kept by the option; an edge along which two faces are wound against
+// Refines a cage by this many levels; 0 copies it. fine is in THE ORDER OF THE RESULT, with
+// cage_faces filled. Each level cuts a quad or Loop triangle into 4 faces, any other n-gon into n
+// quads. The crease and corner lists of fine hold the sharpness that is left, so fine is a cage
+// again: refining by 2 levels is refining by 1 level twice. Only what a mesh cannot express is
+// lost: holes, unless opt->keep_holes keeps them; an edge along which two faces are wound against
 // each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
-// the same three vertices.)
+// the same three vertices.
 //
-// fine must be another mesh; what it held is forgotten. A crease between vertices that share no
-// edge is skipped with a warning (level 0 keeps it). Levels multiply the faces by 4 each. Errors:
-// ARGUMENT, EMPTY, INDEX, FACE, NOT_TRIANGLE, NOT_FINITE, TOO_LARGE
-// (more than 2^31-1 vertices or faces), MEMORY.
+// fine must not be the cage itself. A crease between vertices that share no edge is skipped with a
+// warning; level 0 keeps it.
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt);
 
-// The same in two steps. prepare looks at everything but the positions, for a request of so many
-// levels; the cage may be freed afterwards. surface_mesh makes the result for the given
-// positions [3 * cage vertex_count], as often as you like, also from several threads at once.
+// Refines in two steps. subdiv_prepare does all that does not depend on positions; afterwards you
+// may free the cage. subdiv_surface_mesh makes the result for positions [3 * cage vertex_count]:
+// call it as often as you like, also from several threads at once.
 typedef struct subdiv_surface subdiv_surface;
-
 SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
                                         int levels, const subdiv_options *opt);
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
@@ -363,67 +332,62 @@ SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_sur
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 
 // ----------------------------------------------------------------------------- >>animation
-// Prepare once, evaluate often: into arrays of your own, with any number of channels a vertex. Use
-// it for positions every frame, and for whatever else the cage's vertices carry. A surface that
-// was prepared with opt->linear has the same order of points but interpolates straight, as for data
-// that must not overshoot. For instance 5 weights a vertex, and a material a face:
-//
-//     subdiv_evaluate(surface, 5, weights, 0, fine_weights, 0, NULL, NULL);  // smooth or linear
-//     for (int f = 0; f < fine.face_count; f++)
-//         fine_material[f] = material[fine.cage_faces[f]];
+// Prepare a surface once and evaluate it often: into arrays of your own, with any number of
+// channels (floats) a vertex. Use it for positions in every frame and for all other data of
+// vertices. A surface prepared with opt->linear has its points in the same order but interpolates
+// linearly: use it for data that must not overshoot. Look up data of faces by cage_faces.
 
-// What surface_mesh would make. face_size is 4, or 3 under Loop (level 0: 0 for faces of any size).
+// Return the sizes of the result. face_size is 4, or 3 under Loop; on level 0 it is the cage's.
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
 
-// The faces of the result, once: face_vertices [face_size * face_count] and, unless NULL,
-// cage_faces [face_count]. Error ARGUMENT on level 0 if the faces are of several sizes.
+// Writes the faces of the result, which do not depend on positions: face_vertices [face_size *
+// face_count] and, unless NULL, cage_faces [face_count]. Error ARGUMENT: face_size is 0.
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
                                               int *cage_faces, const subdiv_options *opt);
 
-// The edges of the cage: ends [2 * edge_count], the lower-numbered vertex of each first. (None on
-// a surface of 0 levels. Under opt->triangulate, of the triangles.)
+// Writes the edges of the cage in THE ORDER OF THE RESULT: ends [2 * edge_count], of each edge the
+// lower-numbered vertex first. Under opt->triangulate they are the edges of the triangles. A
+// surface of 0 levels has none.
 SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface);
 SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 
-// Face-varying values: as with UVs, each vertex of each face has one of value_count values, 1 or
-// more; indices [sum of face sizes] says which (-1 in faces that have none). They are of any width
-// and in any number of sets, and a surface of their own: evaluate takes [value_count] and makes
-// [vertex_count] values, faces gives the indices of the fine faces (-1 where there are none). Value
-// i stays value i at the first vertex that has it; vertices of the cage that share it have values
-// of their own from level 1 on, behind all others. Faces whose vertices do not all have values are
-// none of its cage faces. rule says what happens at seams, see subdiv_uv_rule. Errors as
-// subdiv_prepare.
+// Prepares a surface of face-varying values: as with UVs, each face-vertex has one of value_count
+// values, 1 or more; indices [sum of face sizes] says which one, -1 stands for none. rule says what
+// happens at seams. You may prepare any number of such surfaces.
+//
+// subdiv_evaluate takes [value_count] values of any number of channels and makes [vertex_count];
+// subdiv_surface_faces gives the indices of values, -1 where there are none. Value i stays value i
+// at the first cage vertex that has it. From level 1 on, other vertices that share it have values
+// of their own, numbered from value_count. Cage faces of this surface are only those that have a
+// value at each vertex.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Bytes of scratch memory that an evaluation of so many channels needs: for the points of all
-// levels but the last and, of a limit, those of the last one. SIZE_MAX if that is more than the
-// machine can address.
+// Returns the bytes of scratch memory that evaluating this many channels takes: for the points of
+// all levels but the last, for a limit of all levels. SIZE_MAX: more than the machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
-// Every point of the result: out [out_stride * vertex_count] from in [in_stride * cage vertices],
-// strides in floats, 0 for as many as there are channels. scratch: subdiv_scratch_size bytes,
-// aligned as float; then nothing is allocated. NULL: allocated for the call. Values should be
-// below 1e35 in size, or sums may overflow. Floats of out behind the channels are left alone.
+// Evaluates every point of the result: out [out_stride * vertex_count] from in [in_stride * cage
+// vertex_count]. Strides are in floats, 0 stands for channels; other floats of out stay as they
+// are. scratch has subdiv_scratch_size bytes, aligned as float: then nothing is allocated. If it is
+// NULL, the call allocates it. Values should be below 1e35 in size, or sums may overflow.
 SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
                                          const float *in, int in_stride,
                                          float *out, int out_stride,
                                          void *scratch, const subdiv_options *opt);
 
-// The same in pieces: begin fills the scratch memory, then each call of evaluate_faces makes the
-// points that belong to the cage faces first_face to first_face + face_count - 1 of the ones
-// prepared (under opt->triangulate: of the triangles), in any order and on any threads. All
-// faces together make every point once, with the same bits as subdiv_evaluate. Error INDEX for
-// faces or points that do not exist.
+// Evaluates in pieces. First, evaluate_begin fills scratch. Then each call of evaluate_faces makes
+// the points that belong to cage faces first_face to first_face + face_count - 1 (under
+// opt->triangulate, of the triangles), in any order and on any threads. All faces together make
+// each point once, with the same bits as subdiv_evaluate. Error INDEX: no such faces or points.
 //
-// first_point, point_count: only these points of the result are written, out[0] being the first
-// value of first_point: so that a part of the result needs memory for that part alone. The points
-// inside cage face f are those from first_inside(f) to first_inside(f + 1) - 1; the points of
-// vertices and edges are those before first_inside(0).
+// Only points first_point to first_point + point_count - 1 are written, the first one to out[0], so
+// that a part of the result needs memory for that part alone. The points inside cage face f are
+// first_inside(f) to first_inside(f + 1) - 1; points of vertices and edges precede first_inside(0).
 SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
                                                const float *in, int in_stride,
                                                void *scratch, const subdiv_options *opt);
@@ -437,24 +401,23 @@ SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face);
 
 // --------------------------------------------------------------------------------- >>limit
-// The surface that refinement tends to. With opt->limit, subdiv_refine moves every point of the
-// result to where it would end up and gives fine its unit normals. In two steps: a surface that was
-// prepared with opt->limit makes such meshes, and every evaluation of it gives limit values, of any
-// channels. (Streamed OBJ has the positions alone.) The function below gives positions, normals
-// and tangents in one pass.
+// With opt->limit, subdiv_refine moves every point of the result to the limit surface and gives
+// fine its unit normals [HKD93] [Loop87] [HDD94]. A surface prepared with opt->limit makes such
+// meshes, and every evaluation of it gives limit values, of any channels. UVs of such a mesh stay
+// those of the refined mesh. Do not use it as a cage: its points belong to an endlessly fine mesh.
 //
-// Sharpness that is left on the last level counts as infinite, as in OpenSubdiv: with a crease of
-// 2.5, ask for 3 levels or more. A dart is taken for smooth, as there: on an infinite crease it is
-// near the limit, and nearer with each level. On level 0 what matters is what is left on level 1.
-// The result is no cage for more of the same: its points are those of a finer mesh than its own.
-// Its UVs are those of the refined mesh, not moved.
+// In two cases, as in OpenSubdiv, this limit differs from the true one, which >>exact and
+// >>tessellation give. Sharpness that is left on the last level (of 0 levels: on level 1) counts as
+// infinite: for a crease of 2.5, ask for 3 levels or more. A dart counts as smooth: at the end of
+// an infinite crease it is only near the true limit, and nearer with each level.
 //
-// A point has one normal and two tangents, the same ones from any call: on a crease those of the
-// surface on one side; at a corner, and where non-manifold faces are no fan between two creases,
-// those of the edges of one face there. The normal is 0 where there is none: without faces, between
-// two triangles back to back, and where one tangent is 0 or both are parallel to within 1e-6.
+// A point has one normal and two tangents, the same in every call. On a crease they belong to the
+// surface on one side. At a corner, and where non-manifold faces are no fan between two creases,
+// they are those of two edges of one face. The normal is 0 where there is none: without faces,
+// between two triangles back to back, where a tangent is 0, and where both are parallel to within
+// 1e-6.
 
-// Where to put them: each an array of so many floats a point, or NULL.
+// Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
     float *positions;                 // [3]  x y z
     float *normals;                   // [3]  of length 1, or 0
@@ -463,10 +426,9 @@ typedef struct subdiv_limit {
     int    stride;                    // floats from point to point in all three; 0: they are dense
 } subdiv_limit;
 
-// Every point of the result, from positions in [in_stride * cage vertices], as subdiv_evaluate;
-// scratch: subdiv_scratch_size for 3 channels, or NULL. And the same in pieces: after
-// subdiv_evaluate_begin with 3 channels, as subdiv_evaluate_faces does; the arrays then start at
-// first_point. Errors: also ARGUMENT if the surface was prepared without opt->limit.
+// Evaluate limit positions, normals and tangents from positions in [in_stride * cage vertex_count]:
+// as subdiv_evaluate does and, in pieces, as subdiv_evaluate_begin and _faces do, with 3 channels.
+// Error ARGUMENT: the surface was prepared without opt->limit.
 SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
                                                const float *in, int in_stride,
                                                const subdiv_limit *out,
@@ -478,33 +440,29 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
                                                      const subdiv_limit *out,
                                                      const subdiv_options *opt);
 
-// Normals of any mesh, on the limit surface or not: each vertex gets the sum of its faces' normals,
-// weighted by their areas, made 1 long; 0 if there is none. Fills mesh->normals; if that is NULL,
-// with a new array, which subdiv_mesh_free frees, also from a mesh whose other arrays are yours.
-// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE, MEMORY.
+// Fills mesh->normals of any mesh, a new array if it is NULL. Each vertex gets the sum of its
+// faces' normals, weighted by their areas and scaled to length 1; or 0 if there is none.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // --------------------------------------------------------------------------------- >>exact
-// The surface itself, at any point of any face: values, derivatives and normals, exactly, also at
-// and arbitrarily near to extraordinary vertices, creases and boundaries.
+// Evaluates the limit surface at any point of any face: values, derivatives and normals. They are
+// exact, also at and arbitrarily near extraordinary vertices, creases and boundaries. A regular
+// face is a bicubic B-spline, under Loop a quartic box spline [Stam98].
 //
-//     subdiv_surface *surface;
 //     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
 //     void *scratch = malloc(subdiv_scratch_size(surface, 3));
 //     subdiv_evaluate_begin(surface, 3, cage.positions, 0, scratch, &opt);
-//     subdiv_location middle = { 7, 0, 0.5f, 0.5f };     // of face 7
-//     float point[3], normal[3];
+//     subdiv_location middle = { 7, 0, 0.5f, 0.5f };                      // of face 7
 //     subdiv_derivatives out = {0};
-//     out.points = point;
-//     out.normals = normal;
+//     out.points = point;  out.normals = normal;                          // float [3] each
 //     subdiv_evaluate_at(surface, 3, scratch, 1, &middle, &out, &opt);
 //
-// Faces of 3 and 4 vertices are those of the schemes below; vertex 0 is at u = v = 0:
+// u and v on a quad and on a triangle under Loop; vertex 0 is at u = v = 0:
 //
-//     3-----2       2             any other polygon under Catmull-Clark and bilinear: a quad for
-//     |     |       | \           each of its vertices, at the vertex, the middle of the edge that
-//   v |     |     v |   \         leads on from there, the centre, and the middle of the edge
-//     0-----1       0-----1       before, counter-clockwise
+//     3-----2       2             Any other n-gon is n quads, one at each vertex i. The quad's
+//     |     |       | \           vertices 0 to 3 are vertex i, the middle of the edge that leads
+//   v |     |     v |   \         on from there, the centre, and the middle of the edge before:
+//     0-----1       0-----1       counter-clockwise.
 //        u             u
 #define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
 
@@ -514,34 +472,33 @@ typedef struct subdiv_location {
     float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
 } subdiv_location;
 
-// Where to put them: each an array of so many channels a location, or NULL.
+// Where to write the results: arrays with all channels of each location, or NULL.
 typedef struct subdiv_derivatives {
     float *points, *du, *dv, *duu, *duv, *dvv;
     float *normals;                   // [3] of length 1, or 0: of the first three channels
     int    stride;                    // floats from location to location in all; 0: they are dense
 } subdiv_derivatives;
 
-// After subdiv_prepare for SUBDIV_EXACT and subdiv_evaluate_begin, as often as you like and on any
-// threads: scratch is only read. Derivatives are with respect to u and v, on a crease on the face's
-// side of it; those beyond the range of floats are not finite. Of the cage's vertices these are not
-// what they tend to beside them:
+// Evaluates count locations of a surface prepared for SUBDIV_EXACT, after subdiv_evaluate_begin. It
+// only reads scratch: call it as often as you like and on any threads. Faces are those of the cage
+// (under opt->triangulate: triangles), holes included. Faces that boundary "none" drops, and faces
+// without face-varying values, have no surface: they give zeros.
 //
-//     extraordinary          du and dv, which go to 0 or infinity there like (2 l)^j at u = 2^-j, l
-//                            the subdominant eigenvalue, are in proportion to what that factor
-//                            leaves, so that du x dv is along the normal; the second ones are 0
-//     with infinite corner   the same, and the lengths of du and dv mean nothing; the point of a
-//       or dart              dart is where the surface around it ends up, and not where >>limit,
-//                            as OpenSubdiv, puts it
-//     with 4 faces or more   the normal is that of the limit masks: there is no tangent plane, as
-//       (Loop: 6) on a side  the crease, or boundary, shrinks by 1/2 a level and other waves across
-//       of a crease          those faces by less
+// Derivatives are with respect to u and v; on a crease they belong to the face's side. Beyond the
+// range of floats they are not finite. At some vertices, results differ from those close by:
 //
-// Faces are those that were prepared (under opt->triangulate: the triangles), holes among them; of
-// face-varying values the cage's. Faces without a surface, by boundary "none" or without values,
-// give zeros. Errors: ARGUMENT (normals of fewer than 3 channels, a surface not prepared so). INDEX
-// or ARGUMENT for the first location that does not exist or is outside its face by more than
-// rounding, and MEMORY (samples close to a vertex of high valence take some): then any part of out
-// may have been written.
+// * Extraordinary: close by, du and dv go to 0 or infinity like (2 l)^j at u = 2^-j, where l is the
+//   subdominant eigenvalue. At the vertex this factor is left out: du x dv is along the normal. The
+//   second derivatives are 0.
+// * Infinite corner or dart: as above, and the lengths of du and dv mean nothing.
+// * 4 faces or more (Loop: 6) on a side of a crease: the normal is that of the limit masks. There
+//   is no tangent plane: the crease, or boundary, shrinks by 1/2 a level, and other waves across
+//   those faces by less.
+//
+// Errors: ARGUMENT if normals have fewer than 3 channels or the surface was not prepared for
+// SUBDIV_EXACT. Three errors may come after part of out has been written: INDEX for a location that
+// does not exist, ARGUMENT for one outside its face by more than rounding, and MEMORY, as samples
+// close to a vertex of high valence take some.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -550,103 +507,99 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 #endif // SUBDIV_NO_EXACT
 
 // ------------------------------------------------------------------------------ >>stencils
-// The points of a surface as sums of the cage's, in plain arrays: for GPUs, solvers, fitting.
+// Writes points of a surface as weighted sums of the cage's vertices, in plain arrays, for GPUs,
+// solvers and fitting:
 //
 //     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
 //
-// A point's weights add up to 1 and those of a tangent to 0, both to within 1e-6 of the largest.
-// Weights that are no more than rounding of the others are left out. Stencils of a surface of
-// face-varying values have numbers of values as indices.
+// The weights of a point add up to 1 and those of a tangent to 0, to within 1e-6 of the largest.
+// Weights no larger than the rounding of others are left out. On a surface of face-varying values,
+// indices are numbers of values.
 typedef struct subdiv_stencils {
     int     count;
     size_t *offsets;                  // [count + 1]
     int    *indices;                  // [offsets[count]]  rising in each stencil
-    float  *weights;                  // [offsets[count]]  of the point,
+    float  *weights;                  // [offsets[count]]  of the point
     float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
     void   *memory;                   // the library's own, one block
 } subdiv_stencils;
 
-// Of point_count points of the result from first_point on: those of subdiv_evaluate or, if the
-// surface was prepared with opt->limit, those of subdiv_evaluate_limit, and its tangents. Each call
-// looks at all rows of the surface, with 30 to 100 bytes of scratch memory for each point of the
-// whole result, besides the stencils: ask for many points at once. Errors: ARGUMENT, INDEX, MEMORY.
+// Makes the stencils of points first_point to first_point + point_count - 1 of the result. If the
+// surface was prepared with opt->limit, these are limit points, with tangents. Each call looks at
+// the whole surface and takes 30 to 100 bytes of scratch memory for each point of the whole result,
+// besides the stencils: ask for many points at once. Error INDEX: no such points.
 SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  const subdiv_surface *surface,
                                                  int first_point, int point_count,
                                                  const subdiv_options *opt);
 
 #ifndef SUBDIV_NO_EXACT
-// Of so many locations on a surface prepared for SUBDIV_EXACT: those of subdiv_evaluate_at, with
-// du and dv. A face without a surface has empty stencils. Errors: as subdiv_evaluate_at.
+// Makes the stencils of the points, du and dv that subdiv_evaluate_at gives for count locations.
+// Stencils of a face without a surface are empty. Errors: as subdiv_evaluate_at.
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
                                             const subdiv_surface *surface, int count,
                                             const subdiv_location *locations,
                                             const subdiv_options *opt);
 #endif // SUBDIV_NO_EXACT
 
-// Frees what the library made and zeroes the struct.
+// Frees what the library allocated and zeroes the struct.
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
 #ifndef SUBDIV_NO_TOOLS
-// Explains a point of the mesh refined once (see THE ORDER OF THE RESULT), for the classroom: what
-// it is, which rule holds there and why, the formula, the paper, and the mask: the weights that
-// refinement uses, as fractions where they are. Lines of up to 80 characters, ended by 0; 2000
-// bytes are enough but for large faces and valences. Errors, which leave text empty: as
-// subdiv_refine, ARGUMENT if there is no room at all, INDEX if there is no such point, TOO_LARGE if
-// the text does not fit.
+// Explains, for the classroom, a point of the mesh refined once, by its number in THE ORDER OF THE
+// RESULT: what it is, which rule holds there and why, the formula, the paper and the mask, in
+// fractions where possible. The text has lines of up to 80 characters and ends with 0; 2000 bytes
+// are enough except for large faces and valences. Errors leave text empty: INDEX for no such point,
+// TOO_LARGE if the text does not fit, ARGUMENT if capacity is 0.
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt);
 #endif // SUBDIV_NO_TOOLS
 
 #ifndef SUBDIV_NO_EXACT
 // --------------------------------------------------------------------------- >>tessellation
-// A mesh of the limit surface that you say the fineness of: into how many pieces each edge of the
-// cage is cut, its rate. Faces share the points of their edges, so there are no cracks, whatever
-// the rates.
-//
-//     subdiv_tessellation how = {0};
-//     how.rate = 5;
-//     subdiv_tessellate(&fine, &cage, &how, &opt);
+// Makes a mesh of the limit surface. You choose the rate of each edge of the cage: the number of
+// pieces that it is cut into. Faces share the points of their edges, so there are no cracks. To
+// begin with, set rate in a subdiv_tessellation to 5 and leave the rest 0.
 
-// The rate of an edge, or 0: as if not asked. a, middle, b: points [3] of the edge on the limit, a
-// that of its lower-numbered vertex. Called once for each edge that has a surface, in order, by the
-// caller's thread.
+// Returns the rate of an edge, or 0 for no answer. a, middle and b [3] are points of the edge on
+// the limit surface, a at its lower-numbered vertex. The library calls it once for each edge that
+// has a surface, in order, on the caller's thread.
 typedef int (*subdiv_edge_rate)(void *user, int edge, const float *a, const float *middle,
                                 const float *b);
 
-// Zero it, fill what you want. What is 0 or NULL says nothing, and the next below decides:
+// Says how to tessellate. Zero it, fill what you want; NULL and 0 are no answers. A rate is the
+// first answer in its list:
 //     an edge    edge_rate, edge_rates, the largest rate of its faces in face_rates, rate, 1
 //     a face     face_rates, the rates of its edges
 typedef struct subdiv_tessellation {
-    int  rate;                        // of everything
-    const int *edge_rates;            // [edge count] edges are numbered as in THE ORDER OF THE
-                                      // RESULT: subdiv_surface_edges lists them
+    int  rate;                        // of all edges
+    const int *edge_rates;            // [edge_count of the cage], as in subdiv_surface_edges
     const int *face_rates;            // [face_count of the cage]
     subdiv_edge_rate edge_rate;
     void *user;                       // handed to edge_rate
     int   triangles;                  // cut quads, from their first vertex to their third
 } subdiv_tessellation;
 
-// fine: a mesh with limit positions, normals, cage_faces, UVs (seams respected) and colours, both
-// on their limit, and the statements; holes are left out, or with opt->keep_holes listed. It has
-// no creases and corners: it is no cage for more of the same.
+// Tessellates a cage. fine gets limit positions, normals, cage_faces, statements, and UVs (seams
+// respected) and colours on their own limit. Holes are treated as by subdiv_refine. Do not use fine
+// as a cage: it has no creases and corners. fine must not be the cage itself. how may be NULL.
 //
-// Its points are in THE ORDER OF THE RESULT, each edge with rate - 1 points inside. The inside of a
-// face is a grid: of a quad c x r pieces, c the larger rate of edges 0-1 and 2-3, r that of the
-// two others; of a triangle under Loop r pieces a side, r the largest rate of its edges; of any
-// other polygon half of that, rounded up, a side of each of its quads. Or face_rates says r, and c.
-// The grid's points are those that are not on the edges, row by row as there.
+// Points are in THE ORDER OF THE RESULT, with rate - 1 points inside each edge. The points inside a
+// face are those inside a grid, row by row. A rate of the face replaces c and r:
 //
-// If the edges are all cut as the grid is, the faces are those of the grid, as there: so one rate
-// 2^k gives the faces of subdiv_refine by k levels with opt->limit, and its points to rounding, but
-// where >>limit takes sharpness that is left for infinite, darts for smooth, and keeps points
-// without a surface. (A polygon that is no quad needs even rates for that; at rate 1 it becomes a
-// fan around its centre.)
+//     a quad                   c x r pieces: c the larger rate of edges 0-1, 2-3; r of the others
+//     a triangle under Loop    r pieces a side: r the largest rate of its edges
+//     any other polygon        a quad at each vertex, with r / 2 pieces a side, rounded up
 //
-// Otherwise the grid has at least 2 pieces a side, in triangles 3, and loses the outermost ones;
-// behind what is left stand, side by side from edge 0-1 on, triangles, and quads where two pieces
-// are opposite. Rates that are far apart make thin triangles and, at curved edges, some that are
-// folded over.
+// If all edges are cut like the sides of the grid, the faces are those of the grid. So one rate 2^k
+// makes the faces of subdiv_refine by k levels with opt->limit. Its points are equal to rounding,
+// too, except where >>limit differs from the true limit or keeps points without a surface. (The
+// other polygons need even rates for this; at rate 1 they are fans around their centres.)
+//
+// Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost ones.
+// Strips join what remains with each edge; they follow its faces, from edge 0-1 on. They consist of
+// triangles and, where two pieces are opposite, quads. Rates that are far apart make thin triangles
+// and, at curved edges, some that are folded over.
 //
 //     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
 //     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
@@ -658,18 +611,13 @@ typedef struct subdiv_tessellation {
 //     | / \ /   \ / \ |
 //     o----o-----o----o
 //
-// Points of vertices and edges are computed once, on the first face that has them and is no hole:
-// a normal on a crease is that of the surface on that side. Where there is no surface, by boundary
-// "none", there are neither points nor faces, but for the vertices.
-//
-// fine must be another mesh; what it held is forgotten. The same bits on any number of threads.
-// Errors: as subdiv_refine; ARGUMENT for negative rates; TOO_LARGE for more than 2^31-1 vertices or
-// faces.
+// A point of a vertex or edge is computed on the first face that has it and is no hole: on a crease
+// its normal belongs to that side. Where boundary "none" drops the surface, only vertices are left.
 SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
                                            const subdiv_tessellation *how,
                                            const subdiv_options *opt);
 
-// The same from a surface prepared for SUBDIV_EXACT levels, as often as you like, for positions
+// Tessellates a surface prepared for SUBDIV_EXACT, as often as you like, with positions
 // [3 * cage vertex_count]. Error ARGUMENT: it was prepared for something else.
 SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
                                                    const subdiv_surface *surface,
@@ -680,38 +628,30 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
 
 #ifndef SUBDIV_NO_TOOLS
 // ------------------------------------------------------------------------------- >>creases
-// Creases from what the mesh has already. Each function adds the edges it finds to the crease
-// list, sharp for so many levels; entries that are there stay, and an edge that is listed keeps
-// the larger sharpness. Boundary and non-manifold edges are sharp by themselves: never listed.
-//
-//     subdiv_crease_by_angle(&cage, 30, SUBDIV_INFINITE, &opt);
-//
-// A list that changes is a new one, which subdiv_mesh_free frees, also from a mesh whose other
-// arrays are yours. To try one angle after the other, do so on a copy of the struct with memory =
-// NULL, and free the copy: that frees its new list alone.
-//
-// Errors, which leave the mesh as it was: ARGUMENT, EMPTY, INDEX, FACE, NOT_FINITE (also if the
-// sharpness is not a number), TOO_LARGE, MEMORY.
+// These functions find edges and add them to the mesh's crease list with the given sharpness. An
+// edge that is already listed keeps the larger sharpness; other entries stay. Boundary and
+// non-manifold edges are sharp by themselves and never added. A list that changes is replaced by a
+// new one. To try several angles, use copies of the struct with memory = NULL: freeing a copy frees
+// its new list alone. Error NOT_FINITE: also if sharpness is not a number.
 
-// Where the normals of two faces differ by more than so many degrees, 0 to 180; what is within
-// 0.001 degrees is rounding and does not count. Faces without area have no normal, so no creases.
+// Finds edges where the normals of the two faces differ by more than this many degrees, 0 to 180;
+// up to 0.001 degrees more is taken for rounding. Faces without area have no normal, so no creases.
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
                                                 const subdiv_options *opt);
 
-// Where two faces are not in the same smoothing group, by the mesh's statements "s 1", "s off".
-// Under "s off", "s 0", and before the first such statement, a face is in no group: all its edges
-// are sharp. A mesh without any such statement says nothing: no creases, a warning.
+// Finds edges whose two faces are not in the same smoothing group, by the mesh's statements "s 1",
+// "s off". Under "s off" or "s 0", and before the first such statement, a face is in no group: all
+// its edges are found. A mesh without any such statement gets a warning and no creases.
 SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, float sharpness,
                                                            const subdiv_options *opt);
 
-// Where the UVs of two faces differ at an end of their edge, or one of them has none there. Equal
-// values are no difference, whatever their indices. A mesh without UVs: no creases, a warning.
+// Finds edges where the UVs of the two faces differ at an end, or one face has none there. Equal
+// values with different indices do not differ. A mesh without UVs gets a warning and no creases.
 SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float sharpness,
                                                    const subdiv_options *opt);
 
 // ------------------------------------------------------------------------------- >>inspect
-
-// What a cage is made of.
+// The parts of a cage.
 typedef struct subdiv_info {
     int vertex_count, edge_count, face_count;
     int triangle_count, quad_count, ngon_count;  // faces of 3, of 4, of more vertices
@@ -722,27 +662,26 @@ typedef struct subdiv_info {
     int nonmanifold_vertex_count;        // at such an edge, or whose faces are not one fan
     int isolated_vertex_count;           // without faces
     int extraordinary_vertex_count;      // interior, valence not 4 (Loop: 6)
-    int crease_count;                    // edges that the crease list makes sharp, and how many
-    int infinite_crease_count;           // of them forever
+    int crease_count;                    // edges that the crease list makes sharp
+    int infinite_crease_count;           // edges that it makes sharp forever
     int corner_count;                    // vertices that the corner list makes sharp
     int hole_count;                      // faces marked as holes
-    int component_count;                 // pieces that share no vertex, isolated vertices apart
+    int component_count;                 // pieces that share no vertex, without isolated vertices
 } subdiv_info;
 
-// Counts. Errors as subdiv_refine; a Loop cage may hold any faces.
+// Counts what a cage is made of. A Loop cage may hold any faces.
 SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *mesh,
                                         const subdiv_options *opt);
 
-// What is odd about a mesh: allowed, but seldom meant.
+// Oddities of a mesh: allowed, but seldom meant.
 typedef enum subdiv_oddity {
     SUBDIV_ODD_NONMANIFOLD_EDGE,         // more than two faces at edge vertex - other_vertex
     SUBDIV_ODD_FLIPPED_FACE,             // face and other_face run the same way along this edge
-    SUBDIV_ODD_NONMANIFOLD_VERTEX,       // the faces at vertex are several fans, one with face, one
-                                         // with other_face; told where no edge is non-manifold
-    SUBDIV_ODD_DUPLICATE_FACE,           // face has the vertices of the earlier other_face, in
-                                         // any order
+    SUBDIV_ODD_NONMANIFOLD_VERTEX,       // face and other_face are in different fans at vertex;
+                                         // reported only if no edge there is non-manifold
+    SUBDIV_ODD_DUPLICATE_FACE,           // earlier other_face has the same vertices in any order
     SUBDIV_ODD_REPEATED_VERTEX,          // face has vertex, or edge vertex - other_vertex, twice
-    SUBDIV_ODD_NO_AREA,                  // face is as thin as rounding of its coordinates
+    SUBDIV_ODD_NO_AREA,                  // face is no thicker than rounding of its coordinates
     SUBDIV_ODD_UNUSED_VERTEX,            // no face has vertex
     SUBDIV_ODD_SAME_PLACE,               // vertex is exactly where the earlier other_vertex is:
                                          // faces that seem to touch may be apart
@@ -761,27 +700,25 @@ typedef struct subdiv_finding {
 
 typedef void (*subdiv_report)(void *user, const subdiv_finding *finding);
 
-// Reports kind by kind, in the order above, and counts into counts [SUBDIV_ODDITY_COUNT]; either
-// may be NULL. Takes time in proportion to the mesh, however odd it is. What subdiv_refine would
-// refuse is an error here, too, and nothing is reported (but a Loop cage may hold any faces).
-// Errors: ARGUMENT, EMPTY, INDEX (of UVs, too), FACE, NOT_FINITE, TOO_LARGE, MEMORY.
+// Reports oddities kind by kind, in the order above, and counts the kinds in counts
+// [SUBDIV_ODDITY_COUNT]. Either of report and counts may be NULL. The time is proportional to the
+// mesh, however odd it is. A mesh that subdiv_refine refuses is an error here, too, and nothing is
+// reported; but a Loop cage may hold any faces.
 SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
                                       void *user, const subdiv_options *opt);
 #endif // SUBDIV_NO_TOOLS
 
 #ifndef SUBDIV_NO_OBJ
 // ----------------------------------------------------------------------------------- >>obj
-
-// Reads Wavefront OBJ, block by block and without ever going back:
+// Reads Wavefront OBJ, block by block, never going back:
 //
 //     v x y z [w], v x y z r g b [a]       w and a are ignored; vertices without a colour are white
 //                                          if others have one
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
-//     f v/vt/vn ...                        in all forms, with negative indices, before or behind
+//     f v/vt/vn ...                        in all forms, with negative indices, before or after
 //                                          what it names; any number of vertices
 //     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
-//                                          a comment if blanks are around it: "Material #25" is a
-//                                          name
+//                                          a comment only between blanks (not in "Material #25")
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
 //
 //     t crease 2/1/0 v0 v1 sharpness       t hole 1/0/0 face         t smoothtriangles 0/0/1 smooth
@@ -789,46 +726,43 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     t interpolateboundary 1/0/0 k        k: 0 none, 1 edge and corner, 2 edge
 //     t facevaryinginterpolateboundary 1/0/0 k      k: 0 none, 1 to 3 corners, 4 boundaries, 5 all
 //
-// The mesh has UVs if a face names a vt at each of its vertices. Faces that do not get the UV -1 at
-// all of theirs, with one warning for those that name some vt and one for those that name none.
-// Normals are passed over, their indices too.
-// Warnings also tell of faces with fewer than three vertices and of tags that make no sense, which
-// are skipped, and how many points and lines, free-form and unknown statements were. What would
-// change the mesh is an error that names line and token. Errors: IO, SYNTAX, INDEX, NOT_FINITE,
-// EMPTY, TOO_LARGE, MEMORY.
+// The mesh has UVs if any face names a vt at each of its vertices. Other faces then have the UV -1,
+// with one warning for faces that name some vt, and one for faces that name none. Normals are
+// ignored. Faces of fewer than three vertices and tags that make no sense are skipped with a
+// warning each. One warning counts the points and lines, one the free-form statements, one the
+// unknown ones. Anything else that would change the mesh is an error that names line and token.
+// Errors: IO, SYNTAX, INDEX, NOT_FINITE, EMPTY, TOO_LARGE.
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt);
 
 // Stores up to size bytes, more than 0, and returns how many; 0 at the end, (size_t)-1 on failure.
 typedef size_t (*subdiv_read)(void *user, void *bytes, size_t size);
-
 SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read read, void *user,
                                                   const subdiv_options *opt);
 
-// Writes v (with colours), vt, vn, f between the statements, and the tags if there is anything to
-// tell. Faces without UVs have no vt; normals are numbered as the vertices. Numbers have the
-// fewest digits that read back as the same float, in any locale. Errors: ARGUMENT, EMPTY, INDEX,
-// FACE, NOT_FINITE, IO, MEMORY.
+// Writes v (with colours), vt and vn, then f with the statements between, then tags unless there is
+// nothing but defaults. Faces without UVs have no vt; normals are numbered as the vertices. Numbers
+// have the fewest digits that read back as the same float, in any locale. Error IO.
 //
-// To memory: *size becomes the bytes of the whole text, without a terminating 0. Call with
-// capacity 0 for the size alone; a capacity that is too small is error TOO_LARGE.
+// To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
+// 0 to get the size alone; any other capacity that is too small is error TOO_LARGE.
 SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *text,
                                                 size_t capacity, size_t *size,
                                                 const subdiv_options *opt);
 
 // Takes size bytes and returns how many it kept; fewer than size is a failure.
 typedef size_t (*subdiv_write)(void *user, const void *bytes, size_t size);
-
 SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
                                                   void *user, const subdiv_options *opt);
 
-// Refines and writes at once, cage face by cage face: the text of surface_mesh and save_obj,
-// without the mesh. What is in memory is the scratch memory of an evaluation, see >>animation.
+// Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
+// subdiv_save_obj, but above level 0 without normals. The mesh is never in memory as a whole; the
+// scratch memory of an evaluation is (see >>animation).
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
 
-// Paths are UTF-8, on Windows too.
+// Files. Paths are UTF-8, on Windows too.
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);

@@ -1,5 +1,5 @@
-// Refines an OBJ file twice. You will see nothing, or what is wrong with the file; fine.obj is the
-// smooth mesh, with 16 faces for each quad of the cage.
+// Refines an OBJ file by two levels and writes the smooth mesh, which has 16 faces for each quad of
+// the cage. The program prints nothing, unless something is wrong with the file.
 //
 //     cc -O2 -I. examples/01_hello.c -o build/01_hello -lm && build/01_hello cage.obj fine.obj
 //

@@ -1,6 +1,6 @@
-// Fills a cube by hand and refines it three times. The four edges of the top are creases: three of
-// them stay sharp for two levels and the last one forever. You will see how the mesh grows and
-// where one corner of the top goes; build/cube.obj is the result.
+// Fills in a cube by hand and refines it by 0 to 3 levels. The four edges of the top are creases:
+// three stay sharp for two levels, the last one forever. The program prints how the mesh grows and
+// where one vertex of the top goes. It writes build/cube.obj, level 3.
 //
 //     cc -O2 -I. examples/02_cube_by_hand.c -o build/02_cube_by_hand -lm && build/02_cube_by_hand
 //

@@ -1,7 +1,7 @@
-// Three quads bent to a channel, refined four times with every sharpness of its two bends and two
-// boundary rules. You will see where the end of a bend, from (-1, -1, -1), and a free corner, from
-// (-1, -1, 1), go: the sharper the crease, the nearer the bend stays to its place, and only
-// edge-and-corner keeps the free corner. build/creases_*.obj are the results to compare.
+// Refines a channel of three quads by four levels, with five values of sharpness for its two bends
+// and with two boundary rules. The program prints where two vertices go: an end of a bend, from
+// (-1, -1, -1), and a free corner, from (-1, -1, 1). The sharper the crease, the nearer the bend
+// stays to its place. Only edge-and-corner keeps the free corner. Compare build/creases_*.obj.
 //
 //     cc -O2 -I. examples/03_creases.c -o build/03_creases -lm && build/03_creases
 //

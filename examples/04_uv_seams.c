@@ -1,8 +1,8 @@
-// A cube whose UVs are an unfolded cross, refined twice with each rule for seams. Seven edges of
-// the cube are seams, so its 8 vertices have 14 values. You will see where two of them go: an outer
-// corner of the cross, which only the last rule rounds off, and an inner one, which curves unless
-// the rule keeps it. The positions do not differ. uv_*.obj are the results to compare, in the folder
-// given or else in build.
+// Refines a cube by two levels with each rule for UVs. The UVs are an unfolded cross: seven edges
+// of the cube are seams, so its 8 vertices have 14 values. The program prints where two values go.
+// Only the last rule rounds off the outer corner of the cross. The inner corner curves, unless the
+// rule keeps it. Positions are the same under all rules. Compare uv_*.obj, which the program writes
+// to the folder you name, or else to build.
 //
 //     cc -O2 -I. examples/04_uv_seams.c -o build/04_uv_seams -lm && build/04_uv_seams
 //

@@ -1,5 +1,6 @@
-// Prepares the octopus once, evaluates it for 100 frames while its arms sway, allocating nothing.
-// You will see what a frame of 43522 vertices costs; build/octopus_*.obj are every 25th of them.
+// Prepares the octopus once and evaluates it for 100 frames while its arms sway. Evaluation
+// allocates nothing. The program prints how long a frame of 43522 vertices takes. It writes every
+// 25th frame to build/octopus_*.obj.
 //
 //     cc -O2 -I. examples/05_animate.c -o build/05_animate -lm && build/05_animate
 //

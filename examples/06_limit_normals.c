@@ -1,6 +1,6 @@
-// Puts the points of the refined octopus on the limit surface, with its exact normals. You will see
-// how far away they were on each level, and how wrong the usual normals, weighted by the areas of
-// the faces. build/octopus_limit.obj is level 3 on the limit surface.
+// Puts the points of the refined octopus on the limit surface, with its exact normals. The program
+// prints, for each level, how far the points were from there and how wrong their usual normals
+// were, those weighted by the areas of faces. It writes level 3 to build/octopus_limit.obj.
 //
 //     cc -O2 -I. examples/06_limit_normals.c -o build/06_limit_normals -lm && build/06_limit_normals
 //

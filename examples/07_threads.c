@@ -1,4 +1,5 @@
-// Lends the library three threads. You will see that the octopus takes less time for the same bits.
+// Lends the library three threads. The program prints that the octopus takes less time with them
+// and has the same bits.
 //
 //     cc -O2 -I. examples/07_threads.c -o build/07_threads -lm -pthread && build/07_threads
 //

@@ -1,6 +1,6 @@
-// Tessellates the octopus for a camera: each edge of the cage is cut as fine as it is seen, into
-// pieces of about 8 pixels. You will see how many faces that takes, that one rate for all of them
-// would take more, and that there are no gaps. The result is build/octopus_seen.obj.
+// Tessellates the octopus for a camera: cuts each edge of the cage into pieces that are about 8
+// pixels long on the screen. The program prints how many faces this takes, how many more one rate
+// for all edges would take, and that there are no gaps. It writes build/octopus_seen.obj.
 //
 //     cc -O2 -I. examples/08_tessellate.c -o build/08_tessellate -lm && build/08_tessellate
 //

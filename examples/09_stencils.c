@@ -1,6 +1,7 @@
-// A point of a surface as a sum of the cage's vertices. You will see how much each vertex of the
-// octopus weighs in vertex 0 after two levels and on the limit surface, with its two tangents; that
-// the sums are the points; and the same after one level, explained.
+// Writes a point of a surface as a weighted sum of the cage's vertices. The program prints the
+// weights that make vertex 0 of the octopus after two levels, and on the limit surface with its two
+// tangents. It prints the sums beside the points, which are equal. Last, it explains the weights
+// after one level.
 //
 //     cc -O2 -I. examples/09_stencils.c -o build/09_stencils -lm && build/09_stencils
 

@@ -1,8 +1,8 @@
-// Grows spines on the octopus, nine on each face of the cage: at places (face, u, v) of the limit
-// surface, along its normals, and as long as a fourth value of the cage's vertices says, which is
-// evaluated with their positions. You will see, too, what happens on the way into a vertex where
-// five faces meet: the normal goes to that of the vertex. build/octopus_spines.obj are the spines,
-// to look at together with build/octopus_limit.obj of 06_limit_normals.
+// Grows nine spines on each face of the octopus. A spine stands at a location (face, u, v) of the
+// limit surface, along the normal there. Its length is a fourth channel of the cage's vertices,
+// evaluated with their positions. The program also walks into a vertex where five faces meet and
+// prints how the normal tends to that of the vertex. It writes build/octopus_spines.obj: look at it
+// together with build/octopus_limit.obj of 06_limit_normals.
 //
 //     cc -O2 -I. examples/10_spines.c -o build/10_spines -lm && build/10_spines
 
@@ -14,7 +14,7 @@
 
 enum { PER_SIDE = 3, PER_FACE = PER_SIDE * PER_SIDE };
 
-// Three points around the foot, across the normal, and the tip.
+// Writes the four points of a spine: three around its foot, across the normal, and its tip.
 static void put_spine(const float *foot, const float *du, const float *normal, float *points)
 {
     float scale = 0.012f / sqrtf(du[0] * du[0] + du[1] * du[1] + du[2] * du[2]);
@@ -28,7 +28,7 @@ static void put_spine(const float *foot, const float *du, const float *normal, f
     }
 }
 
-// Those of one face. Evaluation only reads: faces could go to threads.
+// Makes the spines of one face. Evaluation only reads: faces could go to threads.
 static subdiv_result grow(const subdiv_surface *surface, const void *scratch, int face,
                           float *points)
 {

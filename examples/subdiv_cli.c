@@ -1,4 +1,4 @@
-// subdiv: refines the cage in an OBJ file, or tells what it is made of.
+// subdiv: the command line. Refines the cage in an OBJ file, or tells what the cage is made of.
 //
 //     cc -O2 -I. examples/subdiv_cli.c -o build/subdiv -lm -pthread
 //     x86_64-w64-mingw32-gcc -O2 -I. examples/subdiv_cli.c -o build/subdiv.exe       (no --threads)
