@@ -367,8 +367,9 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
-// Returns the bytes of scratch memory that evaluating this many channels takes: for the points of
-// all levels but the last, for a limit of all levels. SIZE_MAX: more than the machine can address.
+// Returns the bytes of scratch memory that evaluating this many channels takes. Up to level 4 they
+// grow with the result; from there on they only double with each level, as the points on the edges
+// of the cage do. SIZE_MAX: more than the machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Evaluates every point of the result: out [out_stride * vertex_count] from in [in_stride * cage
@@ -756,8 +757,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt);
 
 // Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
-// subdiv_save_obj, but above level 0 without normals. The mesh is never in memory as a whole; the
-// scratch memory of an evaluation is (see >>animation).
+// subdiv_save_obj, but above level 0 without normals. The mesh is never in memory as a whole.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
@@ -1625,6 +1625,7 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 //     row         the weights of one point; batch: rows of the same shape
 //     work point  a point of any level but the last, or of a limit also that; all in one array
 //     line        the points inside an edge of the cage; grid: those inside a face
+//     frame       the points of a grid beside its sides: all that deep levels keep of it
 //     patch       a regular face, its control points; strips: between semi-sharp creases, a part
 //     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks);
 //                 rough: those among them that are no patch on this level
@@ -2631,7 +2632,7 @@ typedef struct sdv_grid {
     int corner[4];
     sdv_side side[4];                   // row 0; last column (triangle: the slanted side), by row;
                                         // last row (quads alone); column 0, by row
-    int frame;                          // inside there are only the points beside the sides
+    int frame;                          // of its inside there are only the points beside its sides
 } sdv_grid;
 
 typedef struct sdv_order {
@@ -2639,9 +2640,9 @@ typedef struct sdv_order {
     int loop, n, m;
     int first_edge_point, first_face_point;
     int count;                          // of points
-    int frame;                          // see sdv_grid, and sdv_frame_point
-    const int *quads;                   // [faces + 1] of a frame: how many of them stand before
-} sdv_order;                            // each face; NULL: all are quads
+    int frame;                          // all grids are frames: see sdv_frame_point
+    const int *quads;                   // [faces + 1] of frames: how many quads come before each
+} sdv_order;                            // face; NULL: all faces are quads
 
 // A side of size segments whose points stand from first on, seen from its one end or the other.
 static inline sdv_side sdv_seen_side(int first, int size, int backwards)
@@ -2772,7 +2773,7 @@ static int sdv_inside_point(int first, int columns, int triangle, int row, int c
     return (int)(first + r * (columns - 1) - cut) + column - 1;
 }
 
-// Of a frame: the points beside the sides stand counter-clockwise, from (1, 1) on.
+// The points of a frame stand counter-clockwise, from (1, 1) on.
 static int sdv_frame_point(const sdv_grid *grid, int row, int column)
 {
     int n = grid->columns, along = n - 2 - grid->triangle, corner = n - 1;
@@ -3424,6 +3425,9 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 // Such rows need no face points: a face point is the mean of four points, a corner of the face
 // each, so that a mask is as well one of the points at the edges' ends and of those across the
 // faces.
+//
+// The next level's lines follow from this level's lines and the points beside them, and so do the
+// points beside the next level's lines. So that is all that deep levels keep: frames.
 
 // A row on an edge that is sharp, or was: most are like the last one.
 typedef struct sdv_last_row {
@@ -3706,7 +3710,8 @@ static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int 
     for (int t = first; t <= last; t++) {
         int k = t / 2, odd = t % 2, next = odd ? k + 1 : k - 1, face = odd && !loop;
         if (made[t] < 0) continue;
-        int *row = sdv_put_row(&fill->writer, face ? fill->face : fill->odd, fill->target + made[t]);
+        int *row = sdv_put_row(&fill->writer, face ? fill->face : fill->odd,
+                               fill->target + made[t]);
         row[0] = line[loop ? k + odd : k];
         row[1] = beside[k];
         row[2] = line[loop ? k + !odd : next];
@@ -5459,9 +5464,9 @@ static void sdv_make_batches(const sdv_batches *batches, const float *work, int 
     }
 }
 
-// Inside a face everything is regular: the points between those of a grid are made row by row, region
-// by region. In a region points are seen from a corner of the grid, so that sums lose nothing by where
-// the mesh stands.
+// Inside a face everything is regular: the points between those of a grid are made row by row,
+// region by region. There points are seen from a corner of the grid, so that sums lose nothing by
+// where the mesh stands.
 #define SDV_REGION 16                     // cells along a side
 
 typedef struct sdv_cells {              // of a grid: those between such rows and columns of points
@@ -6023,10 +6028,9 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
     }
 }
 
-// Work points are there for the whole of a grid up to some level. Beyond, there are frames alone: the
-// points on the grid's sides and, as the next ones follow from them, those beside. So the inside of
-// a deep grid is made region by region, each from the cells that it needs of the last whole level, level
-// by level: in room that the processor keeps at hand, however fine the result is.
+// Beyond SDV_FULL_LEVELS, work points are frames alone. The inside of such a grid is made region by
+// region: from the cells of the last whole level that the region needs, level by level, in room
+// that stays in the processor's nearest cache.
 typedef struct sdv_interior {             // makes the points inside grids:
     const subdiv_surface *surface;
     const float *work;
@@ -6091,15 +6095,16 @@ static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four 
 }
 
 // Makes a region from one of the level before.
-static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step *step, sdv_region *region)
+static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step *step,
+                              sdv_region *region)
 {
     const sdv_cells *cells = &from->cells;
     sdv_window out = { (float *)(void *)region->points, 4, 4, 0, INT_MAX, 0, NULL };
     region->row = 2 * cells->bottom;
     region->column = 2 * cells->left;
     region->width = 2 * (cells->right - cells->left) + 1;
-    sdv_region_out to = { &out, (1 - region->row) * region->width + 1 - region->column, region->width + 1, 0,
-                        sdv_all(0) };
+    int first = (1 - region->row) * region->width + 1 - region->column;
+    sdv_region_out to = { &out, first, region->width + 1, 0, sdv_all(0) };
     if (step->loop) sdv_refine_triangles(from, n, step, &to);
     else sdv_refine_quads(from, step, &to);
 }
@@ -6136,7 +6141,8 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
 static void sdv_make_grid(sdv_interior *in, const sdv_order *order, int target, int f, int i,
                           const sdv_window *out)
 {
-    sdv_region_out to = { out, target + sdv_inside_grid(order, f, i), 0, in->step.loop, sdv_all(0) };
+    int first = target + sdv_inside_grid(order, f, i);
+    sdv_region_out to = { out, first, 0, in->step.loop, sdv_all(0) };
     int h = sdv_face_start(&order->cage, f) + i, n = 0;
     for (int level = in->full; level <= in->level; level++) {
         sdv_grid_at(&in->surface->orders[level], h, &in->grids[level - in->full]);

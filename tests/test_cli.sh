@@ -616,9 +616,8 @@ lines() {
     echo $((8 + 12 * (n - 1) + 5 * (n - 1) * (n - 1) + 5 * n * n + 1 + n))
 }
 
-# Level 10 has five million faces, in 250 MB of text; the mesh would take 168 MB, and the points of
-# level 9 take 21. Level 11 has more than 2^24 vertices, 670 MB of mesh, and is streamed without being
-# asked.
+# Level 10 has five million faces, in 250 MB of text, and the mesh would take 168 MB. Level 11 has more
+# than 2^24 vertices, 670 MB of mesh, and is streamed without being asked.
 if within 64 --version > /dev/null 2>&1; then
     fine "lines 5" test "$(subdiv -l 5 box.obj | wc -l)" -eq "$(lines 5)"
     fine "--stream in 64 MB" test "$(within 64 -l 10 --stream box.obj | wc -l)" -eq "$(lines 10)"
@@ -627,7 +626,7 @@ if within 64 --version > /dev/null 2>&1; then
     within 64 -l 10 box.obj > /dev/null 2> err
     fine "in one piece 64 MB are not enough" test $? = 1
     says "out of memory"
-    { within 144 -l 11 box.obj 2> err; echo $? > status; } | head -n 8 > out
+    { within 64 -l 11 box.obj 2> err; echo $? > status; } | head -n 8 > out
     fine "a large result, not read to its end: exit 1" test "$(cat status)" = 1
     says "standard output"
     counts out 8 0

@@ -17,6 +17,7 @@ static void *count_malloc(size_t size)
 #define SUBDIV_FREE(pointer, user) ((void)(user), free(pointer))
 
 #define SDV_JOB_POINTS 4               // jobs of a few points, so that small cages take many
+#define SDV_FULL_LEVELS 2              // so that shallow levels have frames, as deep ones do
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 #include "lib/cages.h"
@@ -303,6 +304,98 @@ static void check_bilinear(const subdiv_mesh *m, const prepared *p)
 static void test_linear_is_bilinear(void)
 {
     for_cages(200, check_bilinear);
+}
+
+// ---------------------------------------------------------------------------------- deep levels
+
+// How far the points lie in some direction, sorted: lists of the same points in any order agree.
+static int by_value(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static float *project(const float *points, int count, int dimensions, const float *direction)
+{
+    float *along = blank((size_t)count);
+    for (int i = 0; i < count; i++) {
+        double sum = 0;
+        for (int k = 0; k < dimensions; k++)
+            sum += (double)points[dimensions * i + k] * (double)direction[k];
+        along[i] = (float)sum;
+    }
+    qsort(along, (size_t)count, sizeof *along, by_value);
+    return along;
+}
+
+static void check_same_points(const float *a, const float *b, int count, int dimensions)
+{
+    double worst = 0, size = 1;
+    for (int i = 0; i < 3; i++) {
+        float direction[3];
+        for (int k = 0; k < 3; k++) direction[k] = (float)(below(201) - 100) / 100;
+        float *x = project(a, count, dimensions, direction);
+        float *y = project(b, count, dimensions, direction);
+        for (int k = 0; k < count; k++) {
+            worst = fmax(worst, fabs((double)x[k] - (double)y[k]));
+            size = fmax(size, fabs((double)x[k]));
+        }
+        free(x), free(y);
+    }
+    CHECK(worst <= 2e-6 * size);
+}
+
+// Refined by all levels at once, and by two at a time, which needs no frames. Where faces have more
+// than one edge in common, the first step takes them apart.
+static int compared;
+
+static void check_deep(const subdiv_mesh *m, const prepared *p)
+{
+    int levels = face_vertex_count(m) < 40 ? 6 : 5, first = levels - 2;
+    subdiv_mesh whole = {0}, half = {0}, twice = {0};
+    subdiv_options opt = p->opt, then = p->opt;
+    opt.keep_holes = then.keep_holes = 1;
+    opt.limit = then.limit = 0;
+    CHECK_EQUAL(subdiv_refine(&whole, m, levels, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refine(&half, m, 2, &opt), SUBDIV_OK);
+    for (int left = first; left > 0; left -= 2) {
+        CHECK_EQUAL(subdiv_refine(&twice, &half, left < 2 ? left : 2, &then), SUBDIV_OK);
+        subdiv_mesh_free(&half);
+        half = twice;
+    }
+    if (whole.vertex_count == half.vertex_count && whole.uv_count == half.uv_count) {
+        check_same_points(whole.positions, half.positions, whole.vertex_count, 3);
+        if (whole.uv_count) check_same_points(whole.uvs, half.uvs, whole.uv_count, 2);
+        compared++;
+    }
+    subdiv_mesh_free(&whole);
+    subdiv_mesh_free(&half);
+}
+
+static void test_deep_levels(void)
+{
+    compared = 0;
+    for_cages(150, check_deep);
+    CHECK(compared >= 140);
+}
+
+// In the end each level doubles the scratch memory, as it does the points on the edges of the cage.
+static void check_scratch_size(const subdiv_mesh *m, const prepared *p)
+{
+    size_t before = 0;
+    for (int levels = 6; levels <= 9; levels++) {
+        subdiv_surface *surface = NULL;
+        CHECK_EQUAL(subdiv_prepare(&surface, m, levels, &p->opt), SUBDIV_OK);
+        size_t size = surface ? subdiv_scratch_size(surface, 3) : 0;
+        CHECK(levels == 6 || (double)size <= 2.3 * (double)before);
+        before = size;
+        subdiv_surface_free(surface);
+    }
+}
+
+static void test_scratch_size(void)
+{
+    for_cages(60, check_scratch_size);
 }
 
 // ------------------------------------------------------------------------- ranges and windows
@@ -900,6 +993,8 @@ int main(void)
     RUN(test_channels);
     RUN(test_linear_is_straight);
     RUN(test_linear_is_bilinear);
+    RUN(test_deep_levels);
+    RUN(test_scratch_size);
     RUN(test_ranges);
     RUN(test_windows);
     RUN(test_inside_of_faces);
