@@ -62,11 +62,12 @@
              >>prepare   what makes a surface: >>limit-rows  >>fill  >>create
            * >>grids     the general step: points of a level from those of the level before
              >>results   what makes the result: >>limit-surface  >>evaluate  >>results-as-meshes
+           * >>calls     subdiv_refine and the other public functions up to here
              >>exact-surface  the limit between the points: >>split  >>patches  >>nests  >>tree
                          >>locations  >>cells  >>polynomials  >>samples
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
              >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
-   A student needs the three sections with a star and may skip the rest.
+   A student needs the four sections with a star and may skip the rest.
 
    WORDS
    cage            the mesh you start from            level      how often it has been refined
@@ -2471,19 +2472,17 @@ static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
     return mask;
 }
 
-// The mask of a rule at a vertex with so many faces. A dart is smooth.
-static sdv_mask sdv_rule_mask(const sdv_rules *rules, sdv_rule rule, int faces)
-{
-    if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
-    if (rule == SDV_CREASE) return sdv_crease_vertex();
-    return rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
-}
-
+// The mask of a vertex with so many faces: that of its rule, or a blend with that of the next one.
 static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int faces)
 {
-    sdv_mask mask = sdv_rule_mask(rules, fading.rule, faces);
-    if (fading.rule < SDV_CREASE || fading.rule == fading.next) return mask;
-    return sdv_blend(fading.weight, mask, sdv_rule_mask(rules, fading.next, faces));
+    sdv_mask smooth = rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
+    sdv_mask masks[SDV_CORNER + 1];
+    masks[SDV_SMOOTH] = masks[SDV_DART] = smooth;
+    masks[SDV_CREASE] = sdv_crease_vertex();
+    masks[SDV_CORNER] = sdv_corner_vertex();
+    if (rules->linear) return masks[SDV_CORNER];
+    if (fading.rule < SDV_CREASE || fading.rule == fading.next) return masks[fading.rule];
+    return sdv_blend(fading.weight, masks[fading.rule], masks[fading.next]);
 }
 
 // The mask of an edge's edge point: sharp while both its halves stay sharp, a blend where one of
@@ -3030,7 +3029,6 @@ typedef struct sdv_writer {
     sdv_array    batches, starts;       // sdv_batch, int
     sdv_array    strips;                // sdv_strips: of SUBDIV_EXACT, see >>patches
     int          rows, face;            // face: the rows that follow belong to it
-    int          target;                // the point that the next row makes
     int         *points;                // room for those of a row
     sdv_shape    shape;                 // of the last row that was looked up
     int         *smooth;                // [most + 1] open batches of smooth vertices with so many
@@ -3229,14 +3227,14 @@ static void sdv_writer_free(sdv_writer *writer)
 }
 
 #if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
-static void sdv_face_row(const sdv_level *level, int f, sdv_writer *writer)
+static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
     int *point = writer->points;
     int size = end - start;
     sdv_runs runs = { { (float)sdv_face_weight(size), 0, 0, 0 }, { size, 0, 0, 0 }, 0 };
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
-    sdv_add_runs(writer, &runs, writer->target);
+    sdv_add_runs(writer, &runs, target);
 }
 #endif
 
@@ -3334,16 +3332,16 @@ static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
     }
 }
 
-// Without a crease each edge at v lies between two faces. The cage on a later level has no face
-// points: see >>lines.
-static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v,
+// Adds the row that makes point target from vertex v and the points around. Without a crease each
+// edge at v lies between two faces. The cage on a later level has no face points: see >>lines.
+static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v, int target,
                            sdv_writer *writer)
 {
     int faces = level->vertex_faces[v], spread = level->order && !rules->loop;
     sdv_fading fading = sdv_vertex_fading(level, v);
     int *known = rules->linear ? NULL : sdv_known_batch(writer, fading, faces);
     if (known && *known >= 0) {
-        int *row = sdv_put_row(writer, *known, writer->target);
+        int *row = sdv_put_row(writer, *known, target);
         row[0] = level->first_point + v;
         if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, rules->loop, row + 1);
         if (fading.rule == SDV_CREASE) sdv_add_neighbours(level, v, SDV_CREASE, 1, row + 1);
@@ -3373,12 +3371,14 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
             *point++ = spread ? sdv_point_across(level, h)
                               : level->face_point[sdv_face_of(level, h)];
     runs.count[3] = (int)(point - run);
-    int number = sdv_add_runs(writer, &runs, writer->target);
+    int number = sdv_add_runs(writer, &runs, target);
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
 
-// The edge of h: its ends, then on each side the face point or, under Loop, the vertex opposite.
-static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, sdv_writer *writer)
+// Adds the row that makes point target from the edge of h: its ends, then on each side the face point
+// or, under Loop, the vertex opposite.
+static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, int target,
+                         sdv_writer *writer)
 {
     int triangles = 0, beside = 2, k = h, *known = NULL, *point = writer->points;
     int smooth_triangles = rules->triangles == SUBDIV_TRIANGLES_SMOOTH;
@@ -3388,7 +3388,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
     if (stays_sharp) known = &writer->middle;
     if (sharpness <= 0 && !smooth_triangles && !rules->linear) known = &writer->smooth_edge;
     if (known && *known >= 0) {
-        point = sdv_put_row(writer, *known, writer->target);
+        point = sdv_put_row(writer, *known, target);
         if (stays_sharp) beside = 0;
     } else {
         int faces = sdv_edge_faces(level, h);
@@ -3406,7 +3406,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
             level->first_point + level->face_vertices[sdv_previous(level, k)] :
             level->face_point[sdv_face_of(level, k)];
     if (known && *known >= 0) return;
-    int number = sdv_add_runs(writer, &runs, writer->target);
+    int number = sdv_add_runs(writer, &runs, target);
     if (known) *known = number;
 }
 
@@ -4549,41 +4549,33 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
-static void sdv_fill_vertex(sdv_filler *fill, int v)
-{
-    fill->writer.target = fill->target + v;
-    sdv_vertex_row(fill->level, fill->rules, v, &fill->writer);
-}
-
-// The rows that belong to face f: of the vertices and edges that no face before it has, and those
-// inside it that are not on a grid.
-static void sdv_fill_face(sdv_filler *fill, int f)
-{
-    sdv_writer *writer = &fill->writer;
-    const sdv_level *level = fill->level;
-    int start = sdv_face_start(level, f), end = sdv_face_end(level, f), cage = !level->order;
-    sdv_batch_face(writer, f);
-    for (int h = start; h < end; h++) {
-        int v = level->face_vertices[h], e = level->face_edges[h];
-        if (level->vertex_first[v] == h) sdv_fill_vertex(fill, v);
-        if (e != fill->edges) continue;
-        fill->edges++;
-        writer->target = fill->target + fill->to.first_edge_point + e;
-        if (cage) sdv_edge_row(level, fill->rules, h, writer);
-        else sdv_line_rows(fill, h);
-    }
-    if (!cage && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
-    if (fill->to.frame) sdv_frame_rows(fill, f);
-}
-
+// The rows that make a level from the one before, face by face: of the vertices and edges that no
+// face before it has, and those inside it that are not on a grid.
 static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
 {
+    sdv_writer *writer = &fill->writer;
+    const sdv_level *cage = fill->level;
     sdv_begin_fill(fill, surface, level, level + 1 == surface->levels && !surface->rules.limit);
-    for (int v = 0; v < fill->level->vertex_count; v++)
-        if (fill->level->vertex_first[v] < 0) sdv_fill_vertex(fill, v);
-    for (int f = 0; f < fill->level->face_count && !fill->writer.context->result; f++)
-        sdv_fill_face(fill, f);
-    sdv_end_batches(&fill->writer, &surface->refine[level]);
+    for (int v = 0; v < cage->vertex_count; v++)
+        if (cage->vertex_first[v] < 0)
+            sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
+    for (int f = 0; f < cage->face_count && !writer->context->result; f++) {
+        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
+        sdv_batch_face(writer, f);
+        for (int h = start; h < end; h++) {
+            int v = cage->face_vertices[h], e = cage->face_edges[h];
+            if (cage->vertex_first[v] == h)
+                sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
+            if (e != fill->edges) continue;
+            fill->edges++;
+            if (level > 0) sdv_line_rows(fill, h);
+            else sdv_edge_row(cage, fill->rules, h, fill->target + fill->to.first_edge_point + e,
+                              writer);
+        }
+        if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
+        if (fill->to.frame) sdv_frame_rows(fill, f);
+    }
+    sdv_end_batches(writer, &surface->refine[level]);
 }
 
 // The limit of point t of a line: on a crease that of the surface on its left; linear, where the
@@ -4794,28 +4786,6 @@ static void sdv_no_result(subdiv_surface *surface)
     surface->first_face = NULL;
 }
 
-// Level 0: everything as it is.
-static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *work)
-{
-    subdiv_mesh *fine = &surface->fine;
-    sdv_arena *arena = &surface->arena;
-    size_t creases = (size_t)work->crease_count, corners = (size_t)work->corner_count;
-    *fine = *work;
-    surface->work_count = work->vertex_count;
-    fine->positions = NULL;
-    fine->memory = NULL;
-    fine->crease_vertices = (int *)sdv_duplicate(context, arena, work->crease_vertices, creases,
-                                                 2 * sizeof(int));
-    fine->crease_sharpness = (float *)sdv_duplicate(context, arena, work->crease_sharpness, creases,
-                                                    sizeof(float));
-    fine->corner_vertices = (int *)sdv_duplicate(context, arena, work->corner_vertices, corners,
-                                                 sizeof(int));
-    fine->corner_sharpness = (float *)sdv_duplicate(context, arena, work->corner_sharpness, corners,
-                                                    sizeof(float));
-    fine->holes = (int *)sdv_duplicate(context, arena, work->holes, (size_t)work->hole_count,
-                                       sizeof(int));
-}
-
 // ---------------------------------------------------------------------------------- >>create
 // A surface, from the cage and what the options say.
 
@@ -4826,19 +4796,96 @@ typedef struct sdv_values {
     subdiv_uv_rule rule;
 } sdv_values;
 
-// exact: for SUBDIV_EXACT as levels; else NULL.
-static subdiv_surface *sdv_new_surface(sdv_context *context, int levels,
-                                       const sdv_exact_calls *exact)
+// What a surface is to be made from.
+typedef struct sdv_request {
+    const subdiv_mesh *cage;
+    int                levels;
+    const subdiv_options *opt;
+    const sdv_exact_calls *exact;       // NULL: SUBDIV_EXACT is no number of levels
+    int                borrows;         // see subdiv_surface
+    int                alone;           // only values are asked for, and the cage's UVs are not:
+    sdv_values         values;          // these
+} sdv_request;
+
+static sdv_request sdv_request_of(const subdiv_mesh *cage, int levels,
+                                  const sdv_exact_calls *exact, int borrows,
+                                  const subdiv_options *opt)
+{
+    sdv_request request;
+    memset(&request, 0, sizeof request);
+    request.cage = cage;
+    request.levels = levels;
+    request.opt = opt;
+    request.exact = exact;
+    request.borrows = borrows;
+    return request;
+}
+
+static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
+                              const sdv_request *r)
+{
+    const subdiv_mesh *cage = r->cage;
+    if (surface) *surface = NULL;
+    else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
+    if (r->levels < 0 && !(r->levels == SUBDIV_EXACT && r->exact))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", r->levels);
+    if (!context->result) sdv_check_mesh(context, cage);
+    if (!context->result && cage->scheme == SUBDIV_LOOP && !(r->opt && r->opt->triangulate))
+        sdv_check_triangles(context, cage);
+}
+
+// The values that go with the positions, or instead of them.
+static void sdv_check_carried(sdv_context *context, const sdv_request *r)
+{
+    const subdiv_mesh *cage = r->cage;
+    if (context->result) return;
+    if (!r->alone) {
+        sdv_check_finite(context, "UV", 2, cage->uvs, cage->uv_count);
+        if (!context->result && cage->colors)
+            sdv_check_finite(context, "color", 3, cage->colors, cage->vertex_count);
+    } else if (r->values.count < 1 || !r->values.indices) {
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
+                 r->values.indices ? "value_count is %d" : "indices is NULL", r->values.count);
+    } else if (r->values.rule < 0 || r->values.rule > SUBDIV_UV_NONE) {
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)r->values.rule);
+    } else {
+        sdv_check_indices(context, cage, r->values.count, r->values.indices);
+    }
+}
+
+static subdiv_surface *sdv_new_surface(sdv_context *context, const sdv_request *request)
 {
     sdv_arena arena = sdv_new_arena(0);
     subdiv_surface *surface = SDV_NEW(context, &arena, subdiv_surface, 1);
     if (!surface) return NULL;
     memset(surface, 0, sizeof *surface);
     surface->arena = arena;
-    surface->levels = levels;
-    surface->exact_calls = exact;
-    if (levels == SUBDIV_EXACT) exact->create(context, surface);
+    surface->levels = request->levels;
+    surface->borrows = request->borrows;
+    surface->exact_calls = request->exact;
+    if (surface->levels == SUBDIV_EXACT) request->exact->create(context, surface);
     return surface;
+}
+
+// Takes the cage over, as work: its faces, perhaps cut; and begins the surface of the values.
+static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const sdv_request *request,
+                          subdiv_mesh *work, sdv_values *values)
+{
+    const subdiv_mesh *cage = request->cage;
+    const sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
+    *work = *cage;
+    *values = request->alone ? request->values : uvs;
+    if (values->count > 0) surface->uv = sdv_new_surface(context, request);
+    surface->cage_vertex_count = cage->vertex_count;
+    if (!context->result) sdv_copy_faces(context, surface, work, cage);
+    if (!context->result) sdv_cut_holes(context, surface, work, cage);
+    if (context->result) return;
+    sdv_check_size(context, work, surface->exact ? 0 : surface->levels, -1);
+    surface->cage_face_count = surface->face_count = work->face_count;
+    if (!surface->uv || !surface->cage_face || context->result) return;
+    int *indices = SDV_NEW(context, &surface->arena, int, sdv_face_vertex_count(work));
+    if (!context->result) sdv_cut(cage, values->indices, indices);
+    values->indices = indices;
 }
 
 // The rules that all values share with the positions, and the faces that they are seen on.
@@ -4912,6 +4959,30 @@ static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const su
                                                      (size_t)work->face_count, sizeof(int));
 }
 
+// Level 0: everything as it is.
+static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *work,
+                             const sdv_values *values)
+{
+    subdiv_mesh *fine = &surface->fine;
+    sdv_arena *arena = &surface->arena;
+    size_t creases = (size_t)work->crease_count, corners = (size_t)work->corner_count;
+    *fine = *work;
+    surface->work_count = work->vertex_count;
+    fine->positions = NULL;
+    fine->memory = NULL;
+    fine->crease_vertices = (int *)sdv_duplicate(context, arena, work->crease_vertices, creases,
+                                                 2 * sizeof(int));
+    fine->crease_sharpness = (float *)sdv_duplicate(context, arena, work->crease_sharpness, creases,
+                                                    sizeof(float));
+    fine->corner_vertices = (int *)sdv_duplicate(context, arena, work->corner_vertices, corners,
+                                                 sizeof(int));
+    fine->corner_sharpness = (float *)sdv_duplicate(context, arena, work->corner_sharpness, corners,
+                                                    sizeof(float));
+    fine->holes = (int *)sdv_duplicate(context, arena, work->holes, (size_t)work->hole_count,
+                                       sizeof(int));
+    if (surface->uv && !context->result) sdv_copy_values(context, surface->uv, work, values);
+}
+
 // Statements stand before the first fine face of their face, or of the next one that has any.
 static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
                                 const subdiv_mesh *cage)
@@ -4951,9 +5022,11 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 }
 
 // The cage's rules, and what the result will be.
-static void sdv_set_rules(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage,
-                          const sdv_cage *built, const subdiv_options *opt)
+static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
+                          const sdv_request *request, const sdv_cage *built)
 {
+    const subdiv_mesh *cage = request->cage;
+    const subdiv_options *opt = request->opt;
     surface->order.cage = built->level;
     surface->hole = built->hole;
     surface->fine.scheme = cage->scheme;
@@ -4969,135 +5042,46 @@ static void sdv_set_rules(sdv_context *context, subdiv_surface *surface, const s
     sdv_count_fine_faces(context, surface, opt && opt->keep_holes);
 }
 
-// Prepares a surface for the positions and, in made, for values, if there are any; or, if
-// alone, just for the values.
-static void sdv_prepare(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage,
-                        subdiv_surface *made, sdv_values values, int alone,
-                        const subdiv_options *opt)
+// Makes a surface for the positions and for the values that go with them, or for values alone.
+static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *request)
 {
-    subdiv_mesh work = *cage;
-    sdv_cage built;
+    sdv_context context = sdv_begin(request->opt);
     sdv_arena scratch = sdv_scratch();
-    surface->cage_vertex_count = cage->vertex_count;
-    sdv_copy_faces(context, surface, &work, cage);
-    if (context->result) return;
-    sdv_cut_holes(context, surface, &work, cage);
-    sdv_check_size(context, &work, surface->exact ? 0 : surface->levels, -1);
-    surface->cage_face_count = surface->face_count = work.face_count;
-    if (made && surface->cage_face) {
-        int *indices = SDV_NEW(context, &surface->arena, int, sdv_face_vertex_count(&work));
-        if (!context->result) sdv_cut(cage, values.indices, indices);
-        values.indices = indices;
+    subdiv_mesh work;
+    sdv_values values = request->values;
+    sdv_cage built;
+    sdv_check_request(&context, surface, request);
+    sdv_check_carried(&context, request);
+    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, request);
+    if (!made) return context.result;
+    int levels = request->levels, exact = levels == SUBDIV_EXACT;
+    made->rules.limit = !exact && !request->alone && request->opt && request->opt->limit;
+    if (!context.result) sdv_take_cage(&context, made, request, &work, &values);
+    if (levels == 0 && !context.result) sdv_prepare_copy(&context, made, &work, &values);
+    if (levels != 0 && !context.result) {
+        sdv_cage_build(&context, &made->arena, &scratch, &built, &work);
+        if (!exact) sdv_check_size(&context, &work, levels, built.level.edge_count);
     }
-    if (context->result) return;
-    if (surface->levels == 0) {
-        sdv_prepare_copy(context, surface, &work);
-        if (made && !context->result) sdv_copy_values(context, made, &work, &values);
-        return;
-    }
-
-    sdv_cage_build(context, &surface->arena, &scratch, &built, &work);
-    if (!surface->exact)
-        sdv_check_size(context, &work, surface->levels, built.level.edge_count);
-    if (!context->result) {
-        sdv_set_rules(context, surface, cage, &built, opt);
-        if (made && !context->result)
-            sdv_prepare_values(context, made, surface, &work, &built, &values);
-    }
-    if (!context->result && !alone && surface->exact) {
-        sdv_no_result(surface);
-        surface->exact_calls->prepare(context, surface, &built.level, built.hole, &scratch);
-    } else if (!context->result && !alone) {
-        sdv_prepare_rows(context, surface, &built.level, work.crease_count || work.corner_count,
+    if (levels != 0 && !context.result) sdv_set_rules(&context, made, request, &built);
+    if (levels != 0 && made->uv && !context.result)
+        sdv_prepare_values(&context, made->uv, made, &work, &built, &values);
+    if (exact && !request->alone && !context.result) {
+        sdv_no_result(made);
+        made->exact_calls->prepare(&context, made, &built.level, built.hole, &scratch);
+    } else if (levels != 0 && !request->alone && !context.result) {
+        sdv_prepare_rows(&context, made, &built.level, work.crease_count || work.corner_count,
                          &scratch);
     }
     sdv_arena_free(&scratch);
-}
-
-static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
-                              const subdiv_mesh *cage, int levels, const sdv_exact_calls *exact,
-                              const subdiv_options *opt)
-{
-    if (surface) *surface = NULL;
-    else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
-    if (levels < 0 && !(levels == SUBDIV_EXACT && exact))
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", levels);
-    if (!context->result) sdv_check_mesh(context, cage);
-    if (!context->result && cage->scheme == SUBDIV_LOOP && !(opt && opt->triangulate))
-        sdv_check_triangles(context, cage);
-}
-
-static subdiv_result sdv_prepare_surface(subdiv_surface **surface, const subdiv_mesh *cage,
-                                         int levels, int borrows, const sdv_exact_calls *exact,
-                                         const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    sdv_check_request(&context, surface, cage, levels, exact, opt);
-    if (!context.result) sdv_check_finite(&context, "UV", 2, cage->uvs, cage->uv_count);
-    if (!context.result && cage->colors)
-        sdv_check_finite(&context, "color", 3, cage->colors, cage->vertex_count);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, exact);
-    if (!made) return context.result;
-    sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
-    if (cage->uv_count > 0) made->uv = sdv_new_surface(&context, levels, exact);
-    made->rules.limit = opt && opt->limit && !made->exact;
-    made->borrows = borrows;
-    if (made->uv) made->uv->borrows = borrows;
-    if (!context.result) sdv_prepare(&context, made, cage, made->uv, uvs, 0, opt);
-    if (!context.result) sdv_keep_data(&context, made, cage);
-    if (!context.result && levels == 0 && made->rules.limit)
-        context.result = sdv_prepare_surface(&made->at_level_1, cage, 1, borrows, NULL, opt);
+    if (!context.result && !request->alone) sdv_keep_data(&context, made, request->cage);
+    if (!context.result && levels == 0 && made->rules.limit) {
+        sdv_request first = *request;
+        first.levels = 1;
+        context.result = sdv_prepare(&made->at_level_1, &first);
+    }
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
     return context.result;
-}
-
-SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
-                                        int levels, const subdiv_options *opt)
-{
-    return sdv_prepare_surface(surface, cage, levels, 0, sdv_find_exact_calls(), opt);
-}
-
-SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
-                                                     const subdiv_mesh *cage, int value_count,
-                                                     const int *indices, subdiv_uv_rule rule,
-                                                     int levels, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    const sdv_exact_calls *exact = sdv_find_exact_calls();
-    sdv_check_request(&context, surface, cage, levels, exact, opt);
-    if (!context.result && (value_count < 1 || !indices))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT,
-                 indices ? "value_count is %d" : "indices is NULL", value_count);
-    if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
-    if (!context.result) sdv_check_indices(&context, cage, value_count, indices);
-    subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, exact);
-    subdiv_surface *shape = made ? sdv_new_surface(&context, levels, exact) : NULL;
-    sdv_values values = { value_count, indices, rule };
-    if (made) made->is_values = 1;
-    if (shape) sdv_prepare(&context, shape, cage, made, values, 1, opt);
-    subdiv_surface_free(shape);
-    if (context.result) subdiv_surface_free(made);
-    else *surface = made;
-    return context.result;
-}
-
-// Frees what the fine faces do not need.
-static void sdv_free_points(subdiv_surface *surface)
-{
-    sdv_arena_free(&surface->points);
-}
-
-// The surface is itself the arena's first block, so the arena is taken out before it is freed.
-SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
-{
-    if (!surface) return;
-    subdiv_surface_free(surface->uv);
-    subdiv_surface_free(surface->at_level_1);
-    sdv_arena arena = surface->arena;
-    sdv_free_points(surface);
-    sdv_arena_free(&arena);
 }
 
 // --------------------------------------------------------------------------------- >>results
@@ -6404,48 +6388,6 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
     sdv_run(opt, sdv_face_job, e, e->jobs);
 }
 
-SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface)
-{
-    return surface->fine.vertex_count;
-}
-
-SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface)
-{
-    return surface->fine.face_count;
-}
-
-SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface)
-{
-    return surface->fine.face_size;
-}
-
-SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
-{
-    return surface->cage_face_count;
-}
-
-SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
-{
-    return surface->order.cage.edge_count;
-}
-
-SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
-{
-    const sdv_level *cage = &surface->order.cage;
-    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
-        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
-        ends[2 * cage->face_edges[h]] = a < b ? a : b;
-        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
-    }
-}
-
-SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
-{
-    if (surface->levels == 0 || surface->cage_face_count == 0 || surface->exact)
-        return surface->fine.vertex_count;
-    return sdv_first_inside(&surface->order, cage_face);
-}
-
 // What makes the points: the surface, but for a limit on level 0.
 static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
 {
@@ -6458,14 +6400,6 @@ static int sdv_addressable(int channels, double bytes)
     return ((double)channels + 3) * bytes < (double)(SIZE_MAX / 2);
 }
 
-SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
-{
-    if (surface->exact) return surface->exact_calls->size(surface, channels);
-    surface = sdv_maker(surface);
-    if (!sdv_addressable(channels, sizeof(float) * (double)surface->work_count)) return SIZE_MAX;
-    return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
-}
-
 static void sdv_check_values(sdv_context *context, const subdiv_surface *surface, int channels,
                              const void *values, int *stride)
 {
@@ -6475,29 +6409,6 @@ static void sdv_check_values(sdv_context *context, const subdiv_surface *surface
     if (*stride < channels)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d channels",
                  *stride, channels);
-}
-
-SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
-                                               const float *in, int in_stride,
-                                               void *scratch, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    sdv_check_values(&context, surface, channels, in, &in_stride);
-    sdv_check_values(&context, surface, channels, scratch, &in_stride);
-    if (context.result) return context.result;
-    if (surface->exact) {
-        surface->exact_calls->begin(surface, channels, in, (size_t)in_stride, scratch, opt);
-        return SUBDIV_OK;
-    }
-    sdv_evaluation evaluation;
-    memset(&evaluation, 0, sizeof evaluation);
-    evaluation.surface = sdv_maker(surface);
-    evaluation.channels = channels;
-    evaluation.in = in;
-    evaluation.in_stride = (size_t)in_stride;
-    evaluation.work = (float *)scratch;
-    sdv_make_work(&evaluation, opt);
-    return SUBDIV_OK;
 }
 
 // SUBDIV_EXACT has no points to make.
@@ -6525,122 +6436,6 @@ static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
         sdv_fail(context, SUBDIV_ERROR_INDEX, "the cage has %d faces", faces);
     if (first_point < 0 || point_count < 0 || first_point > points - point_count)
         sdv_fail(context, SUBDIV_ERROR_INDEX, "the result has %d points", points);
-}
-
-static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
-                                        const void *scratch, int first_face, int face_count,
-                                        int first_point, int point_count)
-{
-    sdv_evaluation evaluation;
-    memset(&evaluation, 0, sizeof evaluation);
-    evaluation.surface = sdv_maker(surface);
-    evaluation.channels = channels;
-    evaluation.work = (float *)(size_t)scratch;     // only read
-    evaluation.first_point = first_point;
-    evaluation.end_point = first_point + point_count;
-    evaluation.first_face = first_face;
-    evaluation.end_face = first_face + face_count;
-    return evaluation;
-}
-
-SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, int channels,
-                                               const void *scratch,
-                                               int first_face, int face_count,
-                                               int first_point, int point_count,
-                                               float *out, int out_stride,
-                                               const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    sdv_check_values(&context, surface, channels, out, &out_stride);
-    sdv_check_values(&context, surface, channels, scratch, &out_stride);
-    sdv_check_result(&context, surface);
-    if (!context.result)
-        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation = sdv_evaluation_of(surface, channels, scratch, first_face,
-                                                  face_count, first_point, point_count);
-    evaluation.out = out;
-    evaluation.out_stride = (size_t)out_stride;
-    sdv_make_points(&evaluation, opt);
-    return SUBDIV_OK;
-}
-
-SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
-                                         const float *in, int in_stride,
-                                         float *out, int out_stride,
-                                         void *scratch, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    sdv_arena arena = sdv_scratch();
-    sdv_check_values(&context, surface, channels, in, &in_stride);
-    sdv_check_values(&context, surface, channels, out, &out_stride);
-    sdv_check_result(&context, surface);
-    if (context.result) return context.result;
-    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
-    if (!context.result)
-        context.result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
-    if (!context.result)
-        context.result = subdiv_evaluate_faces(surface, channels, scratch,
-                                               0, surface->cage_face_count,
-                                               0, surface->fine.vertex_count, out, out_stride, opt);
-    sdv_arena_free(&arena);
-    return context.result;
-}
-
-static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
-                            const subdiv_limit *out)
-{
-    if (!surface || !out) {
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-        return;
-    }
-    int least = out->tangents ? 6 : 3;
-    sdv_check_result(context, surface);
-    if (!surface->rules.limit)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
-    if (out->stride && out->stride < least)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d",
-                 out->stride, least);
-}
-
-SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surface,
-                                                     const void *scratch,
-                                                     int first_face, int face_count,
-                                                     int first_point, int point_count,
-                                                     const subdiv_limit *out,
-                                                     const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    sdv_check_limit(&context, surface, out);
-    if (!scratch) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "scratch is NULL");
-    if (!context.result)
-        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation = sdv_evaluation_of(surface, 3, scratch, first_face, face_count,
-                                                  first_point, point_count);
-    evaluation.limit = out;
-    sdv_make_points(&evaluation, opt);
-    return SUBDIV_OK;
-}
-
-SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
-                                               const float *in, int in_stride,
-                                               const subdiv_limit *out,
-                                               void *scratch, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    sdv_arena arena = sdv_scratch();
-    sdv_check_limit(&context, surface, out);
-    if (!context.result) sdv_check_values(&context, surface, 3, in, &in_stride);
-    if (context.result) return context.result;
-    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, 3), 1);
-    if (!context.result)
-        context.result = subdiv_evaluate_begin(surface, 3, in, in_stride, scratch, opt);
-    if (!context.result)
-        context.result = subdiv_evaluate_limit_faces(surface, scratch, 0, surface->cage_face_count,
-                                                     0, surface->fine.vertex_count, out, opt);
-    sdv_arena_free(&arena);
-    return context.result;
 }
 
 // ----------------------------------------------------------------------- >>results-as-meshes
@@ -6766,19 +6561,6 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertice
     sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
 }
 
-SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
-                                              int *cage_faces, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    if (!surface || !face_vertices)
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else if (!surface->fine.face_size && surface->fine.face_count)
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
-    sdv_check_result(&context, surface);
-    if (!context.result) sdv_make_fine_faces(surface, face_vertices, cage_faces, opt);
-    return context.result;
-}
-
 // The fine faces that are holes, in order.
 static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
 {
@@ -6856,8 +6638,8 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     }
     if (!context.result) context.result = sdv_make_data(&made, surface, opt);
     sdv_arena_free(&arena);
-    if (once) sdv_free_points(once);
-    if (once && once->uv) sdv_free_points(once->uv);
+    if (once) sdv_arena_free(&once->points);
+    if (once && once->uv) sdv_arena_free(&once->uv->points);
     if (!context.result) {
         sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
@@ -6869,11 +6651,14 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     return context.result;
 }
 
-SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
-                                             const float *positions, const subdiv_options *opt)
-{
-    return sdv_make_mesh(fine, surface, NULL, positions, opt);
-}
+// ----------------------------------------------------------------------------------- >>calls
+// The public functions of >>refine, >>animation and >>limit: all that stands above is called from
+// here. subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
+//
+//     sdv_prepare        the cage's topology (sdv_cage_build), then sdv_prepare_rows: level by level
+//                        sdv_fill_level, where sdv_vertex_row asks sdv_vertex_mask for the weights
+//     subdiv_evaluate    sdv_make_work, then sdv_make_points: rows and grids add up the points
+//     sdv_make_mesh      the arrays of the result, its faces and what it carries along
 
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt)
@@ -6890,11 +6675,259 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
         if (fine && fine != cage) *fine = out;
         return context.result;
     }
-    subdiv_result result = sdv_prepare_surface(&surface, cage, levels, 1, NULL, opt);
+    sdv_request request = sdv_request_of(cage, levels, NULL, 1, opt);
+    subdiv_result result = sdv_prepare(&surface, &request);
     if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
     *fine = out;
     return result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
+                                             const float *positions, const subdiv_options *opt)
+{
+    return sdv_make_mesh(fine, surface, NULL, positions, opt);
+}
+
+SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_mesh *cage,
+                                        int levels, const subdiv_options *opt)
+{
+    sdv_request request = sdv_request_of(cage, levels, sdv_find_exact_calls(), 0, opt);
+    return sdv_prepare(surface, &request);
+}
+
+// The surface of the values is taken from that of the cage.
+SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
+                                                     const subdiv_mesh *cage, int value_count,
+                                                     const int *indices, subdiv_uv_rule rule,
+                                                     int levels, const subdiv_options *opt)
+{
+    sdv_request request = sdv_request_of(cage, levels, sdv_find_exact_calls(), 0, opt);
+    request.alone = 1;
+    request.values.count = value_count;
+    request.values.indices = indices;
+    request.values.rule = rule;
+    subdiv_result result = sdv_prepare(surface, &request);
+    if (result) return result;
+    subdiv_surface *shape = *surface;
+    *surface = shape->uv;
+    (*surface)->is_values = 1;
+    shape->uv = NULL;
+    subdiv_surface_free(shape);
+    return SUBDIV_OK;
+}
+
+// The surface is itself the arena's first block, so the arena is taken out before it is freed.
+SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
+{
+    if (!surface) return;
+    subdiv_surface_free(surface->uv);
+    subdiv_surface_free(surface->at_level_1);
+    sdv_arena arena = surface->arena;
+    sdv_arena_free(&surface->points);
+    sdv_arena_free(&arena);
+}
+
+SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface)
+{
+    return surface->fine.vertex_count;
+}
+
+SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface)
+{
+    return surface->fine.face_count;
+}
+
+SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface)
+{
+    return surface->fine.face_size;
+}
+
+SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
+{
+    return surface->cage_face_count;
+}
+
+SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
+{
+    return surface->order.cage.edge_count;
+}
+
+SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
+{
+    const sdv_level *cage = &surface->order.cage;
+    for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
+        int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
+        ends[2 * cage->face_edges[h]] = a < b ? a : b;
+        ends[2 * cage->face_edges[h] + 1] = a < b ? b : a;
+    }
+}
+
+SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
+{
+    if (surface->levels == 0 || surface->cage_face_count == 0 || surface->exact)
+        return surface->fine.vertex_count;
+    return sdv_first_inside(&surface->order, cage_face);
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
+                                              int *cage_faces, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (!surface || !face_vertices)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (!surface->fine.face_size && surface->fine.face_count)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
+    sdv_check_result(&context, surface);
+    if (!context.result) sdv_make_fine_faces(surface, face_vertices, cage_faces, opt);
+    return context.result;
+}
+
+SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
+{
+    if (surface->exact) return surface->exact_calls->size(surface, channels);
+    surface = sdv_maker(surface);
+    if (!sdv_addressable(channels, sizeof(float) * (double)surface->work_count)) return SIZE_MAX;
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
+}
+
+static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
+                                        const void *scratch, int first_face, int face_count,
+                                        int first_point, int point_count)
+{
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.surface = sdv_maker(surface);
+    evaluation.channels = channels;
+    evaluation.work = (float *)(size_t)scratch;     // only read
+    evaluation.first_point = first_point;
+    evaluation.end_point = first_point + point_count;
+    evaluation.first_face = first_face;
+    evaluation.end_face = first_face + face_count;
+    return evaluation;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
+                                               const float *in, int in_stride,
+                                               void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_values(&context, surface, channels, in, &in_stride);
+    sdv_check_values(&context, surface, channels, scratch, &in_stride);
+    if (context.result) return context.result;
+    if (surface->exact) {
+        surface->exact_calls->begin(surface, channels, in, (size_t)in_stride, scratch, opt);
+        return SUBDIV_OK;
+    }
+    sdv_evaluation evaluation;
+    memset(&evaluation, 0, sizeof evaluation);
+    evaluation.surface = sdv_maker(surface);
+    evaluation.channels = channels;
+    evaluation.in = in;
+    evaluation.in_stride = (size_t)in_stride;
+    evaluation.work = (float *)scratch;
+    sdv_make_work(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, int channels,
+                                               const void *scratch,
+                                               int first_face, int face_count,
+                                               int first_point, int point_count,
+                                               float *out, int out_stride,
+                                               const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_values(&context, surface, channels, out, &out_stride);
+    sdv_check_values(&context, surface, channels, scratch, &out_stride);
+    sdv_check_result(&context, surface);
+    if (!context.result)
+        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
+    if (context.result) return context.result;
+    sdv_evaluation evaluation = sdv_evaluation_of(surface, channels, scratch, first_face,
+                                                  face_count, first_point, point_count);
+    evaluation.out = out;
+    evaluation.out_stride = (size_t)out_stride;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
+                                         const float *in, int in_stride,
+                                         float *out, int out_stride,
+                                         void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    sdv_check_values(&context, surface, channels, in, &in_stride);
+    sdv_check_values(&context, surface, channels, out, &out_stride);
+    sdv_check_result(&context, surface);
+    if (context.result) return context.result;
+    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context.result)
+        context.result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
+    if (!context.result)
+        context.result = subdiv_evaluate_faces(surface, channels, scratch,
+                                               0, surface->cage_face_count,
+                                               0, surface->fine.vertex_count, out, out_stride, opt);
+    sdv_arena_free(&arena);
+    return context.result;
+}
+
+static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
+                            const subdiv_limit *out)
+{
+    if (!surface || !out) {
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+        return;
+    }
+    int least = out->tangents ? 6 : 3;
+    sdv_check_result(context, surface);
+    if (!surface->rules.limit)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
+    if (out->stride && out->stride < least)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d",
+                 out->stride, least);
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surface,
+                                                     const void *scratch,
+                                                     int first_face, int face_count,
+                                                     int first_point, int point_count,
+                                                     const subdiv_limit *out,
+                                                     const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_limit(&context, surface, out);
+    if (!scratch) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "scratch is NULL");
+    if (!context.result)
+        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
+    if (context.result) return context.result;
+    sdv_evaluation evaluation = sdv_evaluation_of(surface, 3, scratch, first_face, face_count,
+                                                  first_point, point_count);
+    evaluation.limit = out;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
+                                               const float *in, int in_stride,
+                                               const subdiv_limit *out,
+                                               void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    sdv_check_limit(&context, surface, out);
+    if (!context.result) sdv_check_values(&context, surface, 3, in, &in_stride);
+    if (context.result) return context.result;
+    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, 3), 1);
+    if (!context.result)
+        context.result = subdiv_evaluate_begin(surface, 3, in, in_stride, scratch, opt);
+    if (!context.result)
+        context.result = subdiv_evaluate_limit_faces(surface, scratch, 0, surface->cage_face_count,
+                                                     0, surface->fine.vertex_count, out, opt);
+    sdv_arena_free(&arena);
+    return context.result;
 }
 
 #ifndef SUBDIV_NO_EXACT
@@ -7766,22 +7799,14 @@ static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_s
     int edges = faces + split->face_points;
     for (int f = 0; f < level->face_count && !rules->loop && !writer->context->result; f++) {
         level->face_point[f] = next + split->face[f];
-        writer->target = level->face_point[f];
-        if (split->face[f] >= 0) sdv_face_row(level, f, writer);
+        if (split->face[f] >= 0) sdv_face_row(level, f, level->face_point[f], writer);
     }
     sdv_end_batches(writer, &refine[0]);
-    writer->target = next;
-    for (int v = 0; v < level->vertex_count && !writer->context->result; v++) {
-        if (!split->active[v]) continue;
-        sdv_vertex_row(level, rules, v, writer);
-        writer->target++;
-    }
-    writer->target = edges;
-    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++) {
-        if (split->edge[h] < 0 || !sdv_is_edge(level, h)) continue;
-        sdv_edge_row(level, rules, h, writer);
-        writer->target++;
-    }
+    for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
+        if (split->active[v]) sdv_vertex_row(level, rules, v, next++, writer);
+    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
+        if (split->edge[h] >= 0 && sdv_is_edge(level, h))
+            sdv_edge_row(level, rules, h, edges++, writer);
     sdv_end_batches(writer, &refine[1]);
 }
 
@@ -12090,9 +12115,8 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
     sdv_context context = sdv_begin(opt);
     if (!fine || fine == cage)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
-    if (!context.result)
-        context.result = sdv_prepare_surface(&surface, cage, SUBDIV_EXACT, 1,
-                                             sdv_find_exact_calls(), opt);
+    sdv_request request = sdv_request_of(cage, SUBDIV_EXACT, sdv_find_exact_calls(), 1, opt);
+    if (!context.result) context.result = sdv_prepare(&surface, &request);
     if (!context.result)
         context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
     subdiv_surface_free(surface);
@@ -14873,14 +14897,14 @@ static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
     x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
     for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
     for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
-    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
-    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
-    if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
+    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, 0, &writer);
+    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, 0, &writer);
+    if (!x->context->result && f >= 0) sdv_face_row(level, f, 0, &writer);
     if (!x->context->result) sdv_spread_row(x, &writer, 1);
     for (int i = 0; i < level->face_count && !x->context->result; i++) {
         double weight = x->weights[level->vertex_count + i];
         if (!(fabs(weight) > 0)) continue;
-        sdv_face_row(level, i, &writer);
+        sdv_face_row(level, i, 0, &writer);
         if (!x->context->result) sdv_spread_row(x, &writer, weight);
     }
     if (!x->context->result) sdv_find_order(x);
@@ -15286,11 +15310,12 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     memset(&x, 0, sizeof x);
     if (text && capacity) text[0] = 0;
     else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
-    if (!context.result) sdv_check_request(&context, &cut, cage, 1, NULL, opt);
+    sdv_request request = sdv_request_of(cage, 1, NULL, 0, opt);
+    if (!context.result) sdv_check_request(&context, &cut, &request);
     if (context.result) return context.result;
 
     subdiv_mesh work = *cage;
-    cut = sdv_new_surface(&context, 1, NULL);
+    cut = sdv_new_surface(&context, &request);
     x.context = &context;
     x.arena = sdv_scratch();
     x.out.text = text;
