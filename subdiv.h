@@ -5346,48 +5346,64 @@ static void sdv_make_rows(const sdv_batch *batch, int first, int end, const floa
     else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
 }
 
-// The limit at a regular smooth vertex: of points p its own p[0], those of its neighbours, and
-// under Catmull-Clark those across its faces, counter-clockwise. Its weights [3][count] are a few:
-// of each kind of point, of pairs of opposite ones in the tangents.
-SDV_INLINE void sdv_limit_ring(const float *w, int loop, const sdv_four *p, sdv_four *sums)
+// The limit at a regular smooth vertex. Its weights are a few: of the vertex, of its neighbours, and
+// under Catmull-Clark of the vertices across its faces; of pairs of opposite ones in the tangents.
+typedef struct sdv_ring_weights {
+    sdv_four self, edge, face, along[2], across[2];
+} sdv_ring_weights;
+
+// From weights [3][points]: of the vertex, those around it, and those across the faces, both
+// counter-clockwise.
+static sdv_ring_weights sdv_ring_of(const float *w, int loop)
 {
+    sdv_ring_weights ring;
+    const float *t0 = w + (loop ? 7 : 9), *t1 = t0 + (loop ? 7 : 9);
+    ring.self = sdv_all(w[0]);
+    ring.edge = sdv_all(w[1]);
+    ring.face = sdv_all(w[loop ? 1 : 5]);
+    ring.along[0] = sdv_all(t0[1]);
+    ring.along[1] = sdv_all(t0[loop ? 2 : 5]);
+    ring.across[0] = sdv_all(t1[2]);
+    ring.across[1] = sdv_all(t1[loop ? 2 : 5]);
+    return ring;
+}
+
+// sums: of the points p around alone, and two tangents.
+SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_four *p,
+                               sdv_four *sums)
+{
+    sdv_four edges = sdv_plus(sdv_plus(p[1], p[loop ? 4 : 3]), sdv_plus(p[2], p[loop ? 5 : 4]));
     if (loop) {
-        const float *t0 = w + 7, *t1 = w + 14;
-        sdv_four d0 = sdv_minus(p[1], p[4]), d1 = sdv_minus(p[2], p[5]), d2 = sdv_minus(p[3], p[6]);
-        sdv_four edges = sdv_plus(sdv_plus(sdv_plus(p[1], p[4]), sdv_plus(p[2], p[5])),
-                                  sdv_plus(p[3], p[6]));
-        sums[0] = sdv_times(sdv_all(w[1]), edges);
-        sums[1] = sdv_plus(sdv_times(sdv_all(t0[1]), d0),
-                           sdv_times(sdv_all(t0[2]), sdv_minus(d1, d2)));
-        sums[2] = sdv_times(sdv_all(t1[2]), sdv_plus(d1, d2));
+        sdv_four d1 = sdv_minus(p[2], p[5]), d2 = sdv_minus(p[3], p[6]);
+        sums[0] = sdv_times(w->edge, sdv_plus(edges, sdv_plus(p[3], p[6])));
+        sums[1] = sdv_plus(sdv_times(w->along[0], sdv_minus(p[1], p[4])),
+                           sdv_times(w->along[1], sdv_minus(d1, d2)));
+        sums[2] = sdv_times(w->across[0], sdv_plus(d1, d2));
         return;
     }
-    const float *t0 = w + 9, *t1 = w + 18;
-    sdv_four right = sdv_plus(p[5], p[8]), left = sdv_plus(p[6], p[7]);
-    sdv_four up = sdv_plus(p[5], p[6]), down = sdv_plus(p[7], p[8]);
-    sdv_four edges = sdv_plus(sdv_plus(p[1], p[3]), sdv_plus(p[2], p[4]));
-    sums[0] = sdv_plus(sdv_times(sdv_all(w[1]), edges),
-                       sdv_times(sdv_all(w[5]), sdv_plus(right, left)));
-    sums[1] = sdv_plus(sdv_times(sdv_all(t0[1]), sdv_minus(p[1], p[3])),
-                       sdv_times(sdv_all(t0[5]), sdv_minus(right, left)));
-    sums[2] = sdv_plus(sdv_times(sdv_all(t1[2]), sdv_minus(p[2], p[4])),
-                       sdv_times(sdv_all(t1[5]), sdv_minus(up, down)));
+    sdv_four d0 = sdv_minus(p[5], p[7]), d1 = sdv_minus(p[8], p[6]);
+    sdv_four faces = sdv_plus(sdv_plus(p[5], p[7]), sdv_plus(p[8], p[6]));
+    sums[0] = sdv_plus(sdv_times(w->edge, edges), sdv_times(w->face, faces));
+    sums[1] = sdv_plus(sdv_times(w->along[0], sdv_minus(p[1], p[3])),
+                       sdv_times(w->along[1], sdv_plus(d0, d1)));
+    sums[2] = sdv_plus(sdv_times(w->across[0], sdv_minus(p[2], p[4])),
+                       sdv_times(w->across[1], sdv_minus(d0, d1)));
 }
 
 // A row of a limit: its point and two tangents.
-SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width, int regular,
-                                   const float *work, sdv_four *p, sdv_four *t0, sdv_four *t1)
+SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width,
+                                   const sdv_ring_weights *ring, const float *work, sdv_four *p, sdv_four *t0, sdv_four *t1)
 {
     const float *w = weights, *w0 = w + width, *w1 = w0 + width;
     const sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
     sdv_four sums[3] = { sdv_all(0), sdv_all(0), sdv_all(0) };
-    if (regular) {
+    if (ring) {
         sdv_four d[9];
         for (int k = 1; k < width; k++)
             d[k] = sdv_minus(sdv_load(work + 4 * (size_t)points[k]), p0);
-        sdv_limit_ring(w, width == 7, d, sums);
+        sdv_limit_ring(ring, width == 7, d, sums);
     }
-    for (int k = 1; k < width && !regular; k++) {
+    for (int k = 1; k < width && !ring; k++) {
         sdv_four d = sdv_minus(sdv_load(work + 4 * (size_t)points[k]), p0);
         sums[0] = sdv_plus(sums[0], sdv_times(sdv_all(w[k]), d));
         sums[1] = sdv_plus(sums[1], sdv_times(sdv_all(w0[k]), d));
@@ -5403,9 +5419,11 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
                                   int regular, const float *work, const sdv_window *out)
 {
     const int *row = batch->items + (size_t)(1 + width) * (size_t)first;
+    sdv_ring_weights ring;
+    if (regular) ring = sdv_ring_of(batch->limit, width == 7);
     sdv_four p, t0, t1;
     for (int i = first; i < end; i++, row += 1 + width) {
-        sdv_limit_row_sums(batch->limit, row + 1, width, regular, work, &p, &t0, &t1);
+        sdv_limit_row_sums(batch->limit, row + 1, width, regular ? &ring : NULL, work, &p, &t0, &t1);
         sdv_put_point(out, row[0], p);
         if (out->tangents) sdv_put_tangents(out, row[0], t0, t1);
     }
@@ -5841,141 +5859,84 @@ static int sdv_grids_of(const sdv_order *order, int f)
                                  : 1;
 }
 
-// The limit masks of what is regular and smooth: weights of the vertex, of those around it, and of
-// those across the faces; of tangents along the rows and a quarter turn away.
+// The limit of what is regular and smooth. Linear tangents are the edges to points 1 and 2.
 typedef struct sdv_grid_limit {
-    sdv_mask mask;
-    double along[13], across[13];
-    int    linear;
+    float w[3 * 9];                     // see sdv_ring_of
+    int   linear;
 } sdv_grid_limit;
 
 static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
 {
     sdv_grid_limit limit;
-    int n = rules->loop ? 6 : 4;
-    limit.mask = sdv_limit_mask(rules, SDV_SMOOTH, n);
+    int n = rules->loop ? 6 : 4, count = rules->loop ? 7 : 9;
+    sdv_mask mask = sdv_limit_mask(rules, SDV_SMOOTH, n);
+    double t0[9], t1[9];
+    sdv_smooth_tangents(n, rules->loop, t0, t1);
     limit.linear = rules->linear;
-    sdv_smooth_tangents(n, rules->loop, limit.along, limit.across);
+    for (int k = 0; k < count; k++) {
+        limit.w[k] = (float)(k == 0 ? mask.self : k <= n ? mask.edge : mask.face);
+        limit.w[count + k] = rules->linear ? (float)(k == 1) : (float)t0[k];
+        limit.w[2 * count + k] = rules->linear ? (float)(k == 2) : (float)t1[k];
+    }
     return limit;
 }
 
-// Three rows of points, a below b below c, and what moves along b: the points before, at and behind
-// the one that is made, and of quads the sums and differences of those above and below.
-typedef struct sdv_limit_lines {
-    const sdv_four *a, *b, *c;
-    sdv_four self, edge, face, along1, along2, across;
-    int      linear;
-} sdv_limit_lines;
-
-typedef struct sdv_limit_place {
-    sdv_four b[3], sum[3], difference[3];
-} sdv_limit_place;
-
-static void sdv_begin_limit_lines(const sdv_grid_limit *limit, int triangle, sdv_limit_lines *q)
+// The limit of a point of row b, between rows a and c, and two tangents.
+SDV_INLINE void sdv_limit_point(const sdv_ring_weights *w, int loop, int linear, const sdv_four *a,
+                                const sdv_four *b, const sdv_four *c, sdv_four *sums)
 {
-    q->self = sdv_all((float)limit->mask.self);
-    q->edge = sdv_all((float)limit->mask.edge);
-    q->face = sdv_all((float)limit->mask.face);
-    q->along1 = sdv_all((float)limit->along[1]);
-    q->along2 = sdv_all((float)limit->along[triangle ? 2 : 5]);
-    q->across = sdv_all((float)limit->across[2]);
-    q->linear = limit->linear;
+    const sdv_four of_quads[9] = { b[0], b[1], c[0], b[-1], a[0], c[1], c[-1], a[-1], a[1] };
+    const sdv_four of_triangles[7] = { b[0], b[1], c[0], c[-1], b[-1], a[0], a[1] };
+    if (loop) sdv_limit_ring(w, 1, of_triangles, sums);
+    else sdv_limit_ring(w, 0, of_quads, sums);
+    sums[0] = sdv_plus(sdv_times(w->self, b[0]), sums[0]);
+    if (!linear) return;
+    sums[0] = b[0];
+    sums[1] = sdv_minus(b[1], b[0]);
+    sums[2] = sdv_minus(c[0], b[0]);
 }
 
-SDV_INLINE void sdv_limit_next(const sdv_limit_lines *q, int k, sdv_limit_place *at)
+// The limit of count points of row b, between rows a and c, which stand from index on: four at a
+// time, and the others wait for more.
+SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, const sdv_four *a,
+                                     const sdv_four *b, const sdv_four *c, int count, int index,
+                                     sdv_four origin, const sdv_window *out)
 {
-    at->b[0] = at->b[1];
-    at->b[1] = at->b[2];
-    at->b[2] = q->b[k];
-    at->sum[0] = at->sum[1];
-    at->sum[1] = at->sum[2];
-    at->sum[2] = sdv_plus(q->a[k], q->c[k]);
-    at->difference[0] = at->difference[1];
-    at->difference[1] = at->difference[2];
-    at->difference[2] = sdv_minus(q->c[k], q->a[k]);
-}
-
-// The limit of point k of row b and two tangents.
-SDV_INLINE void sdv_limit_quad(const sdv_limit_lines *q, int k, sdv_limit_place *at, sdv_four *p,
-                               sdv_four *t0, sdv_four *t1)
-{
-    const sdv_four *b = at->b, *s = at->sum, *d = at->difference;
-    sdv_limit_next(q, k + 1, at);
-    sdv_four edges = sdv_plus(sdv_plus(b[0], b[2]), s[1]);
-    *p = sdv_plus(sdv_plus(sdv_times(q->self, b[1]), sdv_times(q->edge, edges)),
-                  sdv_times(q->face, sdv_plus(s[0], s[2])));
-    *t0 = sdv_plus(sdv_times(q->along1, sdv_minus(b[2], b[0])),
-                   sdv_times(q->along2, sdv_minus(s[2], s[0])));
-    *t1 = sdv_plus(sdv_times(q->across, d[1]), sdv_times(q->along2, sdv_plus(d[0], d[2])));
-}
-
-// Around a vertex, counter-clockwise from the right: b[k+1] c[k] c[k-1] b[k-1] a[k] a[k+1].
-SDV_INLINE void sdv_limit_triangle(const sdv_limit_lines *q, int k, sdv_four *p, sdv_four *t0,
-                                   sdv_four *t1)
-{
-    const sdv_four *a = q->a, *b = q->b, *c = q->c;
-    sdv_four d1 = sdv_minus(c[k], a[k]), d2 = sdv_minus(c[k - 1], a[k + 1]);
-    sdv_four edges = sdv_plus(sdv_plus(sdv_plus(b[k - 1], b[k + 1]), sdv_plus(c[k - 1], c[k])),
-                              sdv_plus(a[k], a[k + 1]));
-    *p = sdv_plus(sdv_times(q->self, b[k]), sdv_times(q->edge, edges));
-    *t0 = sdv_plus(sdv_times(q->along1, sdv_minus(b[k + 1], b[k - 1])),
-                   sdv_times(q->along2, sdv_minus(d1, d2)));
-    *t1 = sdv_times(q->across, sdv_plus(d1, d2));
-}
-
-SDV_INLINE void sdv_limit_point(const sdv_limit_lines *q, int triangle, int k, sdv_limit_place *at,
-                                sdv_four *p, sdv_four *t0, sdv_four *t1)
-{
-    if (triangle) sdv_limit_triangle(q, k, p, t0, t1);
-    else sdv_limit_quad(q, k, at, p, t0, t1);
-    if (!q->linear) return;
-    *p = q->b[k];
-    *t0 = sdv_minus(q->b[k + 1], q->b[k]);
-    *t1 = sdv_minus(q->c[k], q->b[k]);
-}
-
-// The limit of points 1 to count of row b, which stand from index on: four at a time, and the
-// others wait for more.
-SDV_INLINE void sdv_limit_row_points(const sdv_limit_lines *lines, int triangle, int count,
-                                     int index, sdv_four origin, const sdv_window *out)
-{
-    const sdv_limit_lines q = *lines;
-    sdv_limit_place at;
-    sdv_four p[4], t0[4], t1[4];
-    int fours = out->tangents && !out->tangents->tangents && !out->clip && out->values, k = 1;
+    const sdv_ring_weights w = sdv_ring_of(limit->w, loop);
+    sdv_four sums[3], t0[4], t1[4];
+    int fours = out->tangents && !out->tangents->tangents && !out->clip && out->values, k = 0;
     float *to = fours ? out->values + out->stride * (size_t)index : NULL;
-    for (int i = 0; i < 2 && !triangle; i++) sdv_limit_next(&q, i, &at);
-    for (; fours && k + 3 <= count; k += 4, index += 4) {
-        for (int i = 0; i < 4; i++, to += out->stride) {
-            sdv_limit_point(&q, triangle, k + i, &at, &p[i], &t0[i], &t1[i]);
-            sdv_store_three(to, sdv_plus(origin, p[i]));
+    for (; fours && k + 4 <= count; k += 4, index += 4) {
+        for (int i = 0; i < 4; i++, a++, b++, c++, to += out->stride) {
+            sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
+            sdv_store_three(to, sdv_plus(origin, sums[0]));
+            t0[i] = sums[1];
+            t1[i] = sums[2];
         }
         sdv_put_normals(out->tangents, index, t0, t1);
     }
-    for (; k <= count; k++, index++) {
-        sdv_limit_point(&q, triangle, k, &at, p, t0, t1);
-        sdv_put_point(out, index, sdv_plus(origin, p[0]));
-        if (out->tangents) sdv_put_tangents(out, index, t0[0], t1[0]);
+    for (; k < count; k++, index++, a++, b++, c++) {
+        sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
+        sdv_put_point(out, index, sdv_plus(origin, sums[0]));
+        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2]);
     }
 }
 
 // The limit points inside a region of a grid of n segments, and their tangents.
 static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_limit *limit,
-                           const sdv_region_out *to)
+                             const sdv_region_out *to)
 {
     const sdv_cells *cells = &region->cells;
     int first = cells->left ? cells->left : 1;
-    sdv_limit_lines q;
-    sdv_begin_limit_lines(limit, to->triangle, &q);
     for (int r = cells->bottom ? cells->bottom : 1; r < cells->top; r++) {
         int end = to->triangle && n - r < cells->right ? n - r : cells->right;
         int index = sdv_inside_point(to->first, to->columns, to->triangle, r, first);
         if (end <= first) continue;
-        q.a = sdv_region_at(region, r - 1, first - 1);
-        q.b = sdv_region_at(region, r, first - 1);
-        q.c = sdv_region_at(region, r + 1, first - 1);
-        if (to->triangle) sdv_limit_row_points(&q, 1, end - first, index, to->origin, to->out);
-        else sdv_limit_row_points(&q, 0, end - first, index, to->origin, to->out);
+        const sdv_four *a = sdv_region_at(region, r - 1, first);
+        const sdv_four *b = sdv_region_at(region, r, first), *c = sdv_region_at(region, r + 1, first);
+        if (to->triangle)
+            sdv_limit_row_points(limit, 1, a, b, c, end - first, index, to->origin, to->out);
+        else sdv_limit_row_points(limit, 0, a, b, c, end - first, index, to->origin, to->out);
     }
 }
 
@@ -5984,12 +5945,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
                               const float *points, int face, int end, const sdv_window *out)
 {
     const float *on_edges = points + 4 * (size_t)order->first_edge_point;
-    float w[27];
-    for (int k = 0; k < 9; k++) {
-        w[k] = (float)(k == 0 ? limit->mask.self : k < 5 ? limit->mask.edge : limit->mask.face);
-        w[9 + k] = (float)limit->along[k];
-        w[18 + k] = (float)limit->across[k];
-    }
+    const sdv_ring_weights w = sdv_ring_of(limit->w, 0);
     for (int f = face; f < end; f++) {
         if (sdv_is_ngon(order, f)) continue;
         const int *v = order->cage.face_vertices + sdv_face_start(&order->cage, f);
@@ -6001,7 +5957,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
             p[1 + i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[(i + 1) & 3]), p0);
             p[5 + i] = sdv_minus(sdv_load(points + 4 * (size_t)v[(i + 2) & 3]), p0);
         }
-        sdv_limit_ring(w, 0, p, sums);
+        sdv_limit_ring(&w, 0, p, sums);
         if (limit->linear) {
             sums[0] = sdv_all(0);
             sums[1] = p[1];
@@ -10680,7 +10636,7 @@ static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
     const int *row = make->rows[make->work_count + i];
     sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
     sdv_stencil_row *room = &make->room[0];
-    float weights[3 * 9];
+    const sdv_mask none = { 0, 0, 0, 0 };             // points are asked for, not weights
     if (row) {
         room->count = sdv_row_points(&batch->shape);
         for (int k = 0; k < room->count; k++) room->points[k] = sdv_whole_point(make, row[1 + k]);
@@ -10691,15 +10647,8 @@ static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
     sdv_grid grid;
     sdv_grid_at(&surface->order, h, &grid);
     room->count = 0;
-    sdv_grid_ring(&grid, make->bases[surface->levels], r, c, limit.mask, room);
-    for (int k = 0; k < room->count; k++) {
-        weights[k] = (float)room->weights[k];
-        weights[room->count + k] = limit.linear ? (float)(k == 1) : (float)limit.along[k];
-        weights[2 * room->count + k] = limit.linear ? (float)(k == 2) : (float)limit.across[k];
-    }
-    int points[9], count = room->count;
-    memcpy(points, room->points, (size_t)count * sizeof *points);
-    sdv_add_limit_weights(make, weights, count, points);
+    sdv_grid_ring(&grid, make->bases[surface->levels], r, c, none, room);
+    sdv_add_limit_weights(make, limit.w, room->count, room->points);
 }
 
 // Point i of the result.
