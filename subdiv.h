@@ -1311,11 +1311,7 @@ SUBDIV_DEF const char *subdiv_result_string(subdiv_result result)
 
 static sdv_context sdv_begin(const subdiv_options *opt)
 {
-    sdv_context context = { SUBDIV_OK, NULL, NULL, NULL };
-    if (opt) {
-        context.error = opt->error;
-        context.user = opt->user;
-    }
+    sdv_context context = { SUBDIV_OK, opt ? opt->error : NULL, opt ? opt->user : NULL, NULL };
     if (context.error) {
         context.error->code = SUBDIV_OK;
         context.error->line = 0;
@@ -1347,15 +1343,6 @@ static char *sdv_digits(char *end, uint64_t number)
     return end;
 }
 
-static void sdv_put_int(sdv_text *out, int number)
-{
-    char digits[24];
-    uint64_t size = number < 0 ? (uint64_t)-(int64_t)number : (uint64_t)number;
-    char *first = sdv_digits(digits + sizeof digits, size);
-    if (number < 0) *--first = '-';
-    sdv_put(out, first, (size_t)(digits + sizeof digits - first));
-}
-
 // printf for messages, without locale or stdio. %d: int; %s: text; %t: pointer and int, so many
 // bytes, cut short after 40.
 static void sdv_format(sdv_text *out, const char *format, va_list args)
@@ -1363,55 +1350,55 @@ static void sdv_format(sdv_text *out, const char *format, va_list args)
     for (const char *p = format; *p; p++) {
         if (*p != '%') {
             sdv_put(out, p, 1);
-            continue;
-        }
-        p++;
-        if (*p == 'd') {
-            sdv_put_int(out, va_arg(args, int));
-        } else if (*p == 's') {
-            const char *text = va_arg(args, const char *);
-            sdv_put(out, text, strlen(text));
+        } else if (*++p == 'd') {
+            char digits[24], *end = digits + sizeof digits;
+            int number = va_arg(args, int);
+            char *first = sdv_digits(end, (uint64_t)(number < 0 ? -(int64_t)number : number));
+            if (number < 0) *--first = '-';
+            sdv_put(out, first, (size_t)(end - first));
         } else {
             const char *text = va_arg(args, const char *);
-            int size = va_arg(args, int);
-            sdv_put(out, text, (size_t)(size < 40 ? size : 40));
+            int size = *p == 't' ? va_arg(args, int) : 0;
+            sdv_put(out, text, *p == 's' ? strlen(text) : (size_t)(size < 40 ? size : 40));
             if (size > 40) sdv_put(out, "...", 3);
         }
     }
 }
 
-// "cage.obj:44: ", where the message belongs to a line. Of a long path the end is kept.
-static void sdv_put_place(sdv_text *out, const char *name, int line)
+static void sdv_say(sdv_text *out, const char *format, ...)
 {
-    if (name) {
-        size_t size = strlen(name), skip = size > 100 ? size - 100 : 0;
-        if (skip) sdv_put(out, "...", 3);
-        sdv_put(out, name + skip, size - skip);
-        sdv_put(out, ":", 1);
-    } else if (line) {
-        sdv_put(out, "line ", 5);
-    }
-    if (line) {
-        sdv_put_int(out, line);
-        sdv_put(out, ":", 1);
-    }
-    if (name || line) sdv_put(out, " ", 1);
+    va_list args;
+    va_start(args, format);
+    sdv_format(out, format, args);
+    va_end(args);
+}
+
+// A message or warning behind the file and line that it belongs to: "cage.obj:44: ". Of a long path
+// the end is kept.
+static void sdv_say_at(char text[256], const char *name, int line, const char *format,
+                       va_list args)
+{
+    sdv_text out = { text, 0, 256 };
+    size_t size = name ? strlen(name) : 0;
+    if (size > 100) sdv_say(&out, "...%s:", name + size - 100);
+    else if (name) sdv_say(&out, "%s:", name);
+    if (line) sdv_say(&out, name ? "%d:" : "line %d:", line);
+    if (name || line) sdv_put(&out, " ", 1);
+    sdv_format(&out, format, args);
 }
 
 static void sdv_fail_at(sdv_context *context, subdiv_result code, int line, int face, int vertex,
                         const char *format, va_list args)
 {
+    subdiv_error *error = context->error;
     if (context->result) return;
     context->result = code;
-    if (!context->error) return;
-    subdiv_error *error = context->error;
+    if (!error) return;
     error->code = code;
     error->line = line;
     error->face = face;
     error->vertex = vertex;
-    sdv_text out = { error->message, 0, sizeof error->message };
-    sdv_put_place(&out, context->name, line);
-    sdv_format(&out, format, args);
+    sdv_say_at(error->message, context->name, line, format, args);
 }
 
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...)
@@ -1437,9 +1424,7 @@ static void sdv_warn(sdv_context *context, int line, const char *format, ...)
     if (!error || error->warning_count == INT_MAX || error->warning_count++ > 0) return;
     va_list args;
     va_start(args, format);
-    sdv_text out = { error->warning, 0, sizeof error->warning };
-    sdv_put_place(&out, context->name, line);
-    sdv_format(&out, format, args);
+    sdv_say_at(error->warning, context->name, line, format, args);
     va_end(args);
 }
 
@@ -12354,11 +12339,9 @@ static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
         if (count < 3) continue;
         char text[128];
         sdv_text faces = { text, 0, sizeof text };
-        for (int i = 0; i < count && i < 8; i++, h = level->across[h]) {
-            sdv_put(&faces, ", ", i ? 2 : 0);
-            sdv_put_int(&faces, sdv_face_of(level, h));
-        }
-        sdv_put(&faces, ", ...", count > 8 ? 5 : 0);
+        for (int i = 0; i < count && i < 8; i++, h = level->across[h])
+            sdv_say(&faces, i ? ", %d" : "%d", sdv_face_of(level, h));
+        if (count > 8) sdv_say(&faces, ", ...");
         sdv_edge_ends(level, e, &a, &b);
         sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_EDGE, sdv_face_of(level, first),
                   sdv_face_of(level, level->across[first]), a, b, "edge %d-%d has %d faces: %s",
@@ -14538,19 +14521,26 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 // -------------------------------------------------------------------------------- >>explain
 // The words for what >>sharpness and >>masks decide, and the row that they write for a point.
 
-enum { SDV_GROUPS = 4 };
+typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+
+typedef struct sdv_group {              // of vertices that weigh the same
+    char text[32];                      // their weight
+    const int *vertices;
+    int size;
+} sdv_group;
 
 typedef struct sdv_explainer {
     sdv_context *context;
     sdv_arena    arena;
-    sdv_text     out;
+    sdv_text    *out;
     sdv_cage     cage;
     sdv_rules    rules;
-    unsigned     papers;                // a bit for each that was named
-    double      *weights;               // [vertices, faces] the mask
-    int         *order;                 // [vertices] those that have a weight, heavy ones first
-    int          count;
-    int          group_sizes[SDV_GROUPS];   // how many of them weigh the same; 0: no more
+    sdv_point_kind kind;                // of the point,
+    int          item;                  // of this vertex, edge or face
+    double      *weights;               // [vertices, faces] its mask
+    int         *order;                 // [vertices] those of all groups
+    sdv_group   *groups;                // [vertices]
+    int          group_count;
 } sdv_explainer;
 
 static const struct { const char *tag, *title; } sdv_papers[] = {
@@ -14562,52 +14552,29 @@ static const struct { const char *tag, *title; } sdv_papers[] = {
     { "[OSD]", "OpenSubdiv 3.5: the rules where the papers are silent" }
 };
 
-enum { SDV_CC78, SDV_LOOP87, SDV_HDD94, SDV_DKT98, SDV_OSD, SDV_PAPERS };
-
-static void sdv_say(sdv_explainer *x, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    sdv_format(&x->out, format, args);
-    va_end(args);
-}
-
-static void sdv_cite(sdv_explainer *x, int paper)
-{
-    x->papers |= 1u << paper;
-    sdv_say(x, "  %s\n", sdv_papers[paper].tag);
-}
-
-// A number as a fraction, if it is a simple one as far as floats can tell; else as a float.
-static const char *sdv_number_text(double number, char *text)
+// Writes a number as a fraction, if it is a simple one as far as floats can tell; else as a float.
+static const char *sdv_fraction(double number, char text[32])
 {
     sdv_text out = { text, 0, 32 };
     for (int q = 1; q <= 400; q++) {
         int p = (int)(number * q + 0.5);
         if (p == 0 || fabs(number * q - p) > (double)FLT_EPSILON * p) continue;
-        sdv_put_int(&out, p);
-        if (q > 1) sdv_put(&out, "/", 1);
-        if (q > 1) sdv_put_int(&out, q);
+        sdv_say(&out, q > 1 ? "%d/%d" : "%d", p, q);
         return text;
     }
     *sdv_write_exactly(text, (float)number) = 0;
     return text;
 }
 
-static const char *sdv_float_text(float number, char *text)
-{
-    *sdv_write_exactly(text, number) = 0;
-    return text;
-}
-
 // ---- the mask
 
-// The last row goes to the weights of vertices and face points, factor times.
+// Adds the row that was written last to the weights of vertices and face points, factor times.
 static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double factor)
 {
     const sdv_shape *shape = &writer->shape;
     const int *point = writer->points + sdv_row_points(shape) - 1;
     double left = factor;
+    if (x->context->result) return;
     for (int k = 3; k-- > 0; )
         for (int i = 0; i < shape->count[k]; i++, point--) {
             x->weights[*point] += factor * (double)shape->weight[k];
@@ -14616,38 +14583,9 @@ static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double fa
     x->weights[*point] += left;
 }
 
-// How many vertices from place i of the order on weigh the same.
-static int sdv_group_size(const sdv_explainer *x, int i)
-{
-    double weight = x->weights[x->order[i]];
-    int size = 1;
-    while (i + size < x->count &&
-           x->weights[x->order[i + size]] > weight - 1e-6 * fabs(weight)) size++;
-    return size;
-}
-
-// Puts the vertices with a weight in order.
-static void sdv_find_order(sdv_explainer *x)
-{
-    const double *w = x->weights;
-    int groups = 0;
-    for (int v = 0; v < x->cage.level.vertex_count; v++) {
-        int at = x->count;
-        if (!(fabs(w[v]) > 0)) continue;
-        for (; at > 0 && w[x->order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
-            x->order[at] = x->order[at - 1];
-        x->order[at] = v;
-        x->count++;
-    }
-    for (int i = 0, size; i < x->count; i += size) {
-        size = sdv_group_size(x, i);
-        if (groups < SDV_GROUPS) x->group_sizes[groups++] = size;
-    }
-}
-
-// The mask of vertex v, of the edge that leads on from h, or of face f, whichever is not -1, on the
-// vertices of the cage: its row, then those of the face points in it.
-static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
+// Finds the weights of the cage's vertices: by the row of the point, then by those of the face
+// points in it.
+static void sdv_find_mask(sdv_explainer *x)
 {
     sdv_level *level = &x->cage.level;
     size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
@@ -14655,189 +14593,216 @@ static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
     sdv_writer_new(x->context, &x->arena, level, &writer);
     x->weights = SDV_NEW(x->context, &x->arena, double, points);
     x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
-    for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
-    for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
-    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, &writer);
-    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, &writer);
-    if (!x->context->result && f >= 0) sdv_face_row(level, f, &writer);
-    if (!x->context->result) sdv_spread_row(x, &writer, 1);
-    for (int i = 0; i < level->face_count && !x->context->result; i++) {
-        double weight = x->weights[level->vertex_count + i];
-        if (!(fabs(weight) > 0)) continue;
-        sdv_face_row(level, i, &writer);
-        if (!x->context->result) sdv_spread_row(x, &writer, weight);
+    x->groups = SDV_NEW(x->context, &x->arena, sdv_group, level->vertex_count);
+    if (!x->context->result) {
+        for (size_t i = 0; i < points; i++) x->weights[i] = 0;
+        for (int f = 0; f < level->face_count; f++) level->face_point[f] = level->vertex_count + f;
+        if (x->kind == SDV_VERTEX_POINT) sdv_vertex_row(level, &x->rules, x->item, &writer);
+        else if (x->kind == SDV_FACE_POINT) sdv_face_row(level, x->item, &writer);
+        else sdv_edge_row(level, &x->rules, level->edge_first[x->item], &writer);
+        sdv_spread_row(x, &writer, 1);
     }
-    if (!x->context->result) sdv_find_order(x);
+    for (int f = 0; f < level->face_count && !x->context->result; f++) {
+        double weight = x->weights[level->vertex_count + f];
+        if (!(fabs(weight) > 0)) continue;
+        sdv_face_row(level, f, &writer);
+        sdv_spread_row(x, &writer, weight);
+    }
     sdv_writer_free(&writer);
+}
+
+// Puts the vertices that have a weight into groups of the same weight, heavy ones first.
+static void sdv_find_groups(sdv_explainer *x)
+{
+    double *w = x->weights;
+    for (int vertices = x->cage.level.vertex_count, count = 0;;) {
+        int heavy = -1;
+        for (int v = 0; v < vertices; v++)
+            if (fabs(w[v]) > 0 && (heavy < 0 || w[v] > w[heavy])) heavy = v;
+        if (heavy < 0) return;
+        double least = w[heavy] - 1e-6 * fabs(w[heavy]);
+        sdv_group *group = &x->groups[x->group_count++];
+        group->vertices = x->order + count;
+        group->size = 0;
+        for (int v = 0; v < vertices; v++) {
+            if (!(fabs(w[v]) > 0 && w[v] > least)) continue;
+            if (group->size++ == 0) sdv_fraction(w[v], group->text);
+            x->order[count++] = v;
+            w[v] = 0;
+        }
+    }
 }
 
 static void sdv_say_blanks(sdv_explainer *x, size_t count)
 {
-    while (count--) sdv_put(&x->out, " ", 1);
+    while (count--) sdv_say(x->out, " ");
 }
 
 // One line a weight, with all the vertices that have it.
 static void sdv_say_table(sdv_explainer *x)
 {
-    char text[32];
     size_t width = 6;                               // of the weights
-    for (int i = 0; i < x->count; i += sdv_group_size(x, i)) {
-        size_t size = strlen(sdv_number_text(x->weights[x->order[i]], text));
-        if (size > width) width = size;
-    }
-    for (int i = 0, size; i < x->count; i += size) {
-        size_t start = x->out.size;
-        size = sdv_group_size(x, i);
-        sdv_number_text(x->weights[x->order[i]], text);
-        sdv_say(x, "    %s", text);
-        sdv_say_blanks(x, width + 2 - strlen(text));
-        sdv_say(x, size == 1 ? "vertex" : "vertices");
-        for (int j = i; j < i + size; j++) {
-            if (x->out.size > start + 68) {
-                sdv_say(x, "\n");
-                start = x->out.size;
+    for (int g = 0; g < x->group_count; g++)
+        if (strlen(x->groups[g].text) > width) width = strlen(x->groups[g].text);
+    for (int g = 0; g < x->group_count; g++) {
+        const sdv_group *group = &x->groups[g];
+        size_t start = x->out->size;
+        sdv_say(x->out, "    %s", group->text);
+        sdv_say_blanks(x, width + 2 - strlen(group->text));
+        sdv_say(x->out, group->size == 1 ? "vertex" : "vertices");
+        for (int i = 0; i < group->size; i++) {
+            if (x->out->size > start + 68) {
+                sdv_say(x->out, "\n");
+                start = x->out->size;
                 sdv_say_blanks(x, width + 14);
             }
-            sdv_say(x, " %d", x->order[j]);
+            sdv_say(x->out, " %d", group->vertices[i]);
         }
-        sdv_say(x, "\n");
+        sdv_say(x->out, "\n");
     }
 }
 
 // Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
-// weights, heavy ones first, in six places each.
-typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
-
-static const struct { sdv_point_kind kind; int sizes[SDV_GROUPS]; const char *text; }
+// weights, heavy ones first.
+static const struct sdv_picture { sdv_point_kind kind; int sizes[4]; const char *text; }
 sdv_pictures[] = {
     { SDV_FACE_POINT, { 4, 0, 0, 0 },
-      "  aaaaaa --- aaaaaa\n"
+      "     a----------a\n"
       "     |          |\n"
       "     |    F     |\n"
       "     |          |\n"
-      "  aaaaaa --- aaaaaa\n" },
+      "     a----------a\n" },
     { SDV_FACE_POINT, { 3, 0, 0, 0 },
-      "       aaaaaa\n"
+      "          a\n"
       "         / \\\n"
       "        / F \\\n"
       "       /     \\\n"
-      "  aaaaaa -- aaaaaa\n" },
+      "     a---------a\n" },
     { SDV_EDGE_POINT, { 2, 0, 0, 0 },
-      "  aaaaaa -- E -- aaaaaa\n" },
+      "     a----- E ------a\n" },
     { SDV_EDGE_POINT, { 2, 4, 0, 0 },
-      "  bbbbbb ------- bbbbbb\n"
+      "     b--------------b\n"
       "     |              |\n"
-      "  aaaaaa -- E -- aaaaaa\n"
+      "     a----- E ------a\n"
       "     |              |\n"
-      "  bbbbbb ------- bbbbbb\n" },
+      "     b--------------b\n" },
     { SDV_EDGE_POINT, { 2, 2, 0, 0 },
-      "         bbbbbb\n"
+      "            b\n"
       "        /      \\\n"
       "       /        \\\n"
-      "  aaaaaa -- E -- aaaaaa\n"
+      "     a----- E ------a\n"
       "       \\        /\n"
       "        \\      /\n"
-      "         bbbbbb\n" },
+      "            b\n" },
     { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
-      "  bbbbbb --- aaaaaa --- bbbbbb\n" },
+      "     b----------a----------b\n" },
     { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
-      "  cccccc --- bbbbbb --- cccccc\n"
+      "     c----------b----------c\n"
       "     |          |          |\n"
-      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     b----------a----------b\n"
       "     |          |          |\n"
-      "  cccccc --- bbbbbb --- cccccc\n" },
+      "     c----------b----------c\n" },
     { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
-      "       bbbbbb --- bbbbbb\n"
+      "          b----------b\n"
       "        /    \\     /    \\\n"
-      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     b----------a----------b\n"
       "        \\    /     \\    /\n"
-      "       bbbbbb --- bbbbbb\n" }
+      "          b----------b\n" }
 };
 
-// The picture with its weights, if they fit.
-static void sdv_draw(sdv_explainer *x, const char *picture)
+// Does a picture show the mask, and is there room in it for the weights?
+static int sdv_fits(const sdv_explainer *x, const struct sdv_picture *picture)
 {
-    char texts[SDV_GROUPS][32];
-    for (int i = 0, g = 0; g < SDV_GROUPS && x->group_sizes[g]; i += x->group_sizes[g++]) {
-        sdv_number_text(x->weights[x->order[i]], texts[g]);
-        if (strlen(texts[g]) > 6) return;
-    }
-    size_t start = x->out.size;
-    for (const char *p = picture; *p; p++) {
-        if (*p < 'a' || *p > 'c') {
-            while (*p == '\n' && x->out.text[x->out.size - 1] == ' ') x->out.size--;
-            sdv_put(&x->out, p, 1);
-            continue;
-        }
-        const char *text = texts[*p - 'a'];
-        size_t size = strlen(text), left = (7 - size) / 2;
-        sdv_put(&x->out, "   ", left);
-        sdv_put(&x->out, text, size);
-        sdv_put(&x->out, "   ", 6 - left - size);
-        p += 5;
-    }
-    char *line = x->out.text + start;               // lines reach all weights but for a blank
-    size_t end = x->out.size - start;
-    for (size_t i = 0; i + 2 < end; i++)
-        if (line[i] == '-' && line[i + 1] == ' ' && line[i + 2] == ' ') line[i + 1] = '-';
-    for (size_t i = end; i > 2; i--)
-        if (line[i - 1] == '-' && line[i - 2] == ' ' && line[i - 3] == ' ') line[i - 2] = '-';
-    sdv_say(x, "\n");
+    if (picture->kind != x->kind || x->group_count > 3) return 0;
+    for (int g = 0; g < x->group_count; g++)
+        if (picture->sizes[g] != x->groups[g].size || strlen(x->groups[g].text) > 6) return 0;
+    return picture->sizes[x->group_count] == 0;
 }
 
-static void sdv_say_mask(sdv_explainer *x, sdv_point_kind kind)
+// Draws a picture, with the weights in place of the letters and a blank on either side.
+static void sdv_draw(sdv_explainer *x, const char *picture)
 {
-    sdv_say(x, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
+    for (size_t size; *picture; picture += size + 1) {
+        char line[40];
+        size = strcspn(picture, "\n");
+        memset(line, ' ', sizeof line);
+        memcpy(line, picture, size);
+        for (size_t i = 0; i < size; i++) {
+            if (line[i] < 'a' || line[i] > 'c') continue;
+            const char *text = x->groups[line[i] - 'a'].text;
+            size_t length = strlen(text), from = i - length / 2;
+            memcpy(line + from, text, length);
+            line[from - 1] = line[from + length] = ' ';
+        }
+        size_t end = sizeof line;
+        while (line[end - 1] == ' ') end--;
+        sdv_put(x->out, line, end);
+        sdv_say(x->out, "\n");
+    }
+    sdv_say(x->out, "\n");
+}
+
+static void sdv_say_mask(sdv_explainer *x)
+{
+    const char *gap = "\n";
+    sdv_say(x->out, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
     for (size_t i = 0; i < sizeof sdv_pictures / sizeof *sdv_pictures; i++)
-        if (sdv_pictures[i].kind == kind &&
-            memcmp(sdv_pictures[i].sizes, x->group_sizes, sizeof x->group_sizes) == 0)
-            sdv_draw(x, sdv_pictures[i].text);
+        if (sdv_fits(x, &sdv_pictures[i])) sdv_draw(x, sdv_pictures[i].text);
     sdv_say_table(x);
-    if (x->papers) sdv_say(x, "\n");
-    for (int i = 0; i < SDV_PAPERS; i++)
-        if (x->papers >> i & 1)
-            sdv_say(x, "%s %s\n", sdv_papers[i].tag, sdv_papers[i].title);
+    for (size_t i = 0; i < sizeof sdv_papers / sizeof *sdv_papers; i++) {
+        if (!strstr(x->out->text, sdv_papers[i].tag)) continue;
+        sdv_say(x->out, "%s%s %s\n", gap, sdv_papers[i].tag, sdv_papers[i].title);
+        gap = "";
+    }
 }
 
 // ---- vertices
 
-// What a rule makes of a vertex, behind "V = ".
-static void sdv_say_rule(sdv_explainer *x, sdv_rule rule, int n)
+// A blend of two formulas, each with a letter as its name.
+static void sdv_say_blend(sdv_explainer *x, const char *name, double weight, const char *sharp,
+                          const char *smooth)
 {
-    char text[32];
-    if (rule == SDV_CORNER || x->rules.linear) {
-        sdv_say(x, "v\n");
-    } else if (rule == SDV_CREASE) {
-        sdv_say(x, "(a + 6 v + b) / 8");
-        sdv_cite(x, SDV_HDD94);
-    } else if (x->rules.loop) {
-        sdv_say(x, "(1 - n b) v + b (e1 + ... + en)");
-        sdv_cite(x, SDV_LOOP87);
-        sdv_say(x, "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
-                sdv_number_text(sdv_loop_vertex(n).edge, text), n);
-    } else {
-        sdv_say(x, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d", n);
-        sdv_cite(x, SDV_CC78);
-    }
+    char more[32], less[32];
+    sdv_say(x->out, "\n    %s = %s %s + %s %s  [DKT98]\n", name, sdv_fraction(weight, more), sharp,
+            sdv_fraction(1 - weight, less), smooth);
 }
 
+// The formula of a rule at a vertex of valence n.
+static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
+{
+    char text[32];
+    sdv_say(x->out, "    %s = ", name);
+    if (rule == SDV_CORNER || x->rules.linear)
+        sdv_say(x->out, "v\n");
+    else if (rule == SDV_CREASE)
+        sdv_say(x->out, "(a + 6 v + b) / 8  [HDD94]\n");
+    else if (x->rules.loop)
+        sdv_say(x->out, "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
+                "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
+                sdv_fraction(sdv_loop_vertex(n).edge, text), n);
+    else
+        sdv_say(x->out, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d"
+                "  [CC78]\n", n);
+}
+
+// What the letters in the formulas of two rules are.
 static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
 {
     int crease = rule == SDV_CREASE || next == SDV_CREASE;
     int smooth = rule < SDV_CREASE || next < SDV_CREASE;
-    sdv_say(x, "\nHere v is the vertex");
-    if (crease) sdv_say(x, " and a, b are its neighbours along the crease");
-    if (smooth && crease) sdv_say(x, ";\nthe e are all its neighbours");
-    else if (smooth) sdv_say(x, ", the e are its neighbours");
-    if (smooth && !x->rules.loop) sdv_say(x, ", the f the face points there");
-    sdv_say(x, ".\n");
+    sdv_say(x->out, "\nHere v is the vertex%s%s%s.\n",
+            crease ? " and a, b are its neighbours along the crease" : "",
+            !smooth ? "" :
+            crease ? ";\nthe e are all its neighbours" : ", the e are its neighbours",
+            smooth && !x->rules.loop ? ", the f the face points there" : "");
 }
 
 static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
 {
     char text[32];
-    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, ", sharp forever");
-    else sdv_say(x, ", of sharpness %s", sdv_float_text(sharpness, text));
+    *sdv_write_exactly(text, sharpness) = 0;
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x->out, ", sharp forever");
+    else sdv_say(x->out, ", of sharpness %s", text);
 }
 
 // The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
@@ -14846,113 +14811,108 @@ static void sdv_say_edge(sdv_explainer *x, int h, int v)
     const sdv_level *level = &x->cage.level;
     int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
     int from = a == v || b == v ? v : a < b ? a : b;
-    sdv_say(x, "%d-%d", from, a + b - from);
+    sdv_say(x->out, "%d-%d", from, a + b - from);
 }
 
-// Lists the sharp edges at a vertex, if they are few; how many they are, and how many boundaries.
-static sdv_edges_at sdv_say_sharp_edges(sdv_explainer *x, int v, int say)
+// Counts the sharp edges at a vertex and, if asked to, lists them.
+static int sdv_say_sharp_edges(sdv_explainer *x, int v, int list)
 {
     const sdv_level *level = &x->cage.level;
-    sdv_edges_at sharp = { 0, 0, 0 };
+    int count = 0;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
         for (int i = 0; i < 2; i++) {
             if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
-            if (say && sharp.count) sdv_say(x, " and ");
-            if (say) sdv_say_edge(x, two[i], v);
-            sharp.boundary += sdv_is_boundary(level, two[i]);
-            sharp.count++;
+            if (list && count) sdv_say(x->out, " and ");
+            if (list) sdv_say_edge(x, two[i], v);
+            count++;
         }
     }
-    return sharp;
+    return count;
 }
 
 static void sdv_say_corner(sdv_explainer *x, int v)
 {
     float sharpness = x->cage.level.vertex_sharpness[v];
     if (x->cage.level.vertex_faces[v] == 0) {
-        sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
+        sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
         return;
     }
-    sdv_say(x, "Vertex %d is a corner", v);
-    if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
-        sdv_say(x, ": the surface is non-manifold there");
-    else if (sharpness > SUBDIV_INFINITE)
-        sdv_say(x, ": it has one face, and the rule is \"edge and corner\"");
+    sdv_say(x->out, "Vertex %d is a corner", v);
+    if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x->out, x->cage.vertex_nonmanifold[v]
+                        ? ": the surface is non-manifold there"
+                        : ": it has one face, and the rule is \"edge and corner\"");
     else if (sharpness > 0)
         sdv_say_sharpness(x, sharpness);
     else
-        sdv_say(x, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
-    sdv_say(x, ".\n");
+        sdv_say(x->out, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0));
+    sdv_say(x->out, ".\n");
 }
 
 static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
 {
-    int boundary = sdv_say_sharp_edges(x, v, 0).boundary == 2;
     if (x->rules.linear) {
-        sdv_say(x, "Refinement is linear: vertex %d stays where it is.\n", v);
+        sdv_say(x->out, "Refinement is linear: vertex %d stays where it is.\n", v);
     } else if (rule == SDV_CORNER) {
         sdv_say_corner(x, v);
     } else if (rule == SDV_SMOOTH) {
-        sdv_say(x, "Vertex %d is interior, of valence %d, and smooth.\n", v,
+        sdv_say(x->out, "Vertex %d is interior, of valence %d, and smooth.\n", v,
                 x->cage.level.vertex_faces[v]);
-    } else {
-        sdv_say(x, rule == SDV_DART ? "Vertex %d is a dart: the crease " :
-                boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
-                "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
+    } else if (rule == SDV_DART) {
+        sdv_say(x->out, "Vertex %d is a dart: the crease ", v);
         sdv_say_sharp_edges(x, v, 1);
-        sdv_say(x, rule == SDV_DART ? " ends there.\nIt moves as if it were smooth.\n" :
-                ", a cubic B-spline.\n");
+        sdv_say(x->out, " ends there.\nIt moves as if it were smooth.\n");
+    } else {
+        int boundary = sdv_count_edges_at(&x->cage, v).boundary == 2;
+        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n", v,
+                boundary ? "the boundary" : "a crease");
+        sdv_say_sharp_edges(x, v, 1);
+        sdv_say(x->out, ", a cubic B-spline.\n");
     }
 }
 
 static void sdv_explain_vertex(sdv_explainer *x, int v)
 {
     static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
-    static const char letters[] = "SSCK";
+    static const char *const letters[] = { "S", "S", "C", "K" };
     sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
     sdv_rule rule = fading.rule, next = fading.next;
     int n = x->cage.level.vertex_faces[v];
-    char more[32], less[32];
-    int blend = rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear;
+    char mean[32];
     sdv_say_vertex_rule(x, v, rule);
-    if (!blend) {
-        sdv_say(x, "\n    V = ");
-        sdv_say_rule(x, rule, n);
+    if (rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear) {
+        sdv_say(x->out, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
+                "and so much of the point is still sharp:\n", names[next],
+                sdv_fraction(fading.weight, mean));
+        sdv_say_blend(x, "V", fading.weight, letters[rule], letters[next]);
+        sdv_say_formula(x, letters[rule], rule, n);
+        sdv_say_formula(x, letters[next], next, n);
+        sdv_say_letters(x, rule, next);
     } else {
-        sdv_say(x, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
-                "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
-                sdv_number_text(fading.weight, more), more, letters + rule, 1,
-                sdv_number_text(1 - fading.weight, less), letters + next, 1);
-        sdv_cite(x, SDV_DKT98);
-        sdv_say(x, "    %t = ", letters + rule, 1);
-        sdv_say_rule(x, rule, n);
-        sdv_say(x, "    %t = ", letters + next, 1);
-        sdv_say_rule(x, next, n);
+        sdv_say(x->out, "\n");
+        sdv_say_formula(x, "V", rule, n);
+        if (!x->rules.linear && rule != SDV_CORNER) sdv_say_letters(x, rule, rule);
     }
-    if (!blend) next = rule;
-    if (!x->rules.linear && (rule != SDV_CORNER || blend)) sdv_say_letters(x, rule, next);
 }
 
 // ---- edges and faces
 
-// The smooth point of an edge, behind "E = ".
-static void sdv_say_smooth_edge(sdv_explainer *x, int h)
+// The formula of the smooth point of the edge of h.
+static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
 {
     const sdv_level *level = &x->cage.level;
     int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
     char ends[32], faces[32];
+    sdv_say(x->out, "    %s = ", name);
     if (x->rules.loop) {
-        sdv_say(x, "(3 a + 3 b + c + d) / 8");
-        sdv_cite(x, SDV_LOOP87);
+        sdv_say(x->out, "(3 a + 3 b + c + d) / 8  [Loop87]\n");
     } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
         sdv_mask mask = sdv_smooth_triangle_edge(triangles);
-        sdv_say(x, "%s (a + b) + %s (f + g)", sdv_number_text(mask.self, ends),
-                sdv_number_text(mask.face, faces));
-        sdv_cite(x, SDV_OSD);
+        sdv_say(x->out, "%s (a + b) + %s (f + g)  [OSD]\n", sdv_fraction(mask.self, ends),
+                sdv_fraction(mask.face, faces));
     } else {
-        sdv_say(x, "(a + b + f + g) / 4");
-        sdv_cite(x, SDV_CC78);
+        sdv_say(x->out, "(a + b + f + g) / 4  [CC78]\n");
     }
 }
 
@@ -14961,24 +14921,23 @@ static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
     const sdv_level *level = &x->cage.level;
     int h = level->edge_first[e];
     float sharpness = level->sharpness[h];
-    sdv_say(x, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge " :
-            "Edge ");
+    sdv_say(x->out, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge "
+                                    : "Edge ");
     sdv_say_edge(x, h, -1);
     if (x->rules.linear) {
-        sdv_say(x, ".\n");
+        sdv_say(x->out, ".\n");
     } else if (x->cage.edge_nonmanifold[e]) {
-        sdv_say(x, " is non-manifold, and so a crease.\n");
+        sdv_say(x->out, " is non-manifold, and so a crease.\n");
     } else if (sdv_is_boundary(level, h)) {
-        sdv_say(x, " is on the boundary, which is a crease.\n");
+        sdv_say(x->out, " is on the boundary, which is a crease.\n");
     } else if (sharpness <= 0) {
-        sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
+        sdv_say(x->out, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
                 sdv_face_of(level, level->across[h]));
     } else {
-        sdv_say(x, " is a crease");
+        sdv_say(x->out, " is a crease");
         sdv_say_sharpness(x, sharpness);
-        sdv_say(x, stays_sharp ? ".\n" : ".\nIt ends before the next level");
-        if (!stays_sharp) sdv_say(x, sharpness < 1 ? ", and so much of the point is still sharp:\n"
-                                                   : ".\n");
+        sdv_say(x->out, stays_sharp ? ".\n" : ".\nIt ends before the next level%s\n",
+                sharpness < 1 ? ", and so much of the point is still sharp:" : ".");
     }
 }
 
@@ -14989,82 +14948,68 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
     float sharpness = level->sharpness[h];
     int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
-    int smooth = !crease && sharpness <= 0;
-    char more[32], less[32];
     sdv_say_edge_rule(x, e, stays_sharp);
-    if (!crease && !smooth) {
-        sdv_say(x, "\n    E = %s C + %s S",
-                sdv_number_text((double)sharpness, more),
-                sdv_number_text(1 - (double)sharpness, less));
-        sdv_cite(x, SDV_DKT98);
-        sdv_say(x, "    C = (a + b) / 2\n    S = ");
+    if (crease) {
+        sdv_say(x->out, "\n    E = (a + b) / 2\n");
+    } else if (sharpness <= 0) {
+        sdv_say(x->out, "\n");
+        sdv_say_smooth_edge(x, "E", h);
     } else {
-        sdv_say(x, "\n    E = %s", crease ? "(a + b) / 2\n" : "");
+        sdv_say_blend(x, "E", (double)sharpness, "C", "S");
+        sdv_say(x->out, "    C = (a + b) / 2\n");
+        sdv_say_smooth_edge(x, "S", h);
     }
-    if (!crease) sdv_say_smooth_edge(x, h);
-    sdv_say(x, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
+    sdv_say(x->out, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
             x->rules.loop ? ", and c and d the vertices opposite" :
             ", and f and g the face points beside it");
-}
-
-static void sdv_explain_face(sdv_explainer *x, int f)
-{
-    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
-    sdv_say(x, "Face %d has %d vertices; its face point is their mean.\n\n"
-            "    F = (v1 + ... + vn) / n, n = %d", f, n, n);
-    sdv_cite(x, SDV_CC78);
 }
 
 // The first line, the words, the mask.
 static void sdv_explain_point(sdv_explainer *x, int point)
 {
-    const sdv_level *level = &x->cage.level;
-    int e = point - level->vertex_count, f = e - level->edge_count;
-    int h = e >= 0 && f < 0 ? level->edge_first[e] : -1;
-    sdv_find_mask(x, e < 0 ? point : -1, h, f >= 0 ? f : -1);
-    if (x->context->result) return;
-    sdv_say(x, "Point %d of the mesh refined once is the ", point);
-    if (e < 0) {
-        sdv_say(x, "vertex point of vertex %d.\n", point);
+    sdv_level *level = &x->cage.level;
+    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
+    if (x->kind == SDV_VERTEX_POINT) {
+        sdv_say(x->out, "vertex point of vertex %d.\n", point);
         sdv_explain_vertex(x, point);
-    } else if (f < 0) {
-        sdv_say(x, "edge point of edge ");
-        sdv_say_edge(x, h, -1);
-        sdv_say(x, ".\n");
-        sdv_explain_edge(x, e);
+    } else if (x->kind == SDV_EDGE_POINT) {
+        sdv_say(x->out, "edge point of edge ");
+        sdv_say_edge(x, level->edge_first[x->item], -1);
+        sdv_say(x->out, ".\n");
+        sdv_explain_edge(x, x->item);
     } else {
-        sdv_say(x, "face point of face %d.\n", f);
-        sdv_explain_face(x, f);
+        int f = x->item, n = sdv_face_end(level, f) - sdv_face_start(level, f);
+        sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
+                "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
     }
-    sdv_say_mask(x, e < 0 ? SDV_VERTEX_POINT : f < 0 ? SDV_EDGE_POINT : SDV_FACE_POINT);
+    sdv_say_mask(x);
 }
 
-static void sdv_check_point(sdv_context *context, const sdv_level *level, int loop, int point)
+// Finds what kind of point it is, and which of these.
+static void sdv_find_point(sdv_explainer *x, int point)
 {
-    char message[256];
-    sdv_text out = { message, 0, sizeof message };
-    const char *const names[3] = { "vertices", "edges", "faces" };
-    int counts[3] = { level->vertex_count, level->edge_count, loop ? 0 : level->face_count };
-    int first = 0;
-    message[0] = 0;
-    for (int i = 0; i < 3; first += counts[i++]) {
-        if (!counts[i]) continue;
-        sdv_put(&out, i ? ", " : "", i ? 2 : 0);
-        sdv_put_int(&out, first);
-        sdv_put(&out, " to ", 4);
-        sdv_put_int(&out, first + counts[i] - 1);
-        sdv_put(&out, " of ", 4);
-        sdv_put(&out, names[i], strlen(names[i]));
+    static const char *const names[] = { "vertices", "edges", "faces" };
+    const sdv_level *level = &x->cage.level;
+    int counts[] = { level->vertex_count, level->edge_count, level->face_count }, first = 0;
+    char ranges[256];
+    sdv_text out = { ranges, 0, sizeof ranges };
+    for (int i = 0; i < (x->rules.loop ? 2 : 3); first += counts[i++]) {
+        if (counts[i] == 0) continue;
+        sdv_say(&out, "%s%d to %d of %s", i ? ", " : "", first, first + counts[i] - 1, names[i]);
+        if (point < first || point - first >= counts[i]) continue;
+        x->kind = (sdv_point_kind)i;
+        x->item = point - first;
+        return;
     }
-    if (point < 0 || point >= first)
-        sdv_fail(context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
-                 point, message);
+    sdv_fail(x->context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+             point, ranges);
 }
 
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_text out = { text, 0, capacity };
     subdiv_surface *cut = NULL;
     sdv_explainer x;
     memset(&x, 0, sizeof x);
@@ -15077,19 +15022,22 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     cut = sdv_new_surface(&context, 1, NULL);
     x.context = &context;
     x.arena = sdv_scratch();
-    x.out.text = text;
-    x.out.capacity = capacity;
+    x.out = &out;
     x.rules.loop = cage->scheme == SUBDIV_LOOP;
     x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     x.rules.triangles = cage->triangles;
     if (cut) sdv_copy_faces(&context, cut, &work, cage);
     if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
     if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
-    if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
+    if (!context.result) sdv_find_point(&x, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
-    if (!context.result) sdv_explain_point(&x, point);
-    if (!context.result && x.out.size + 1 == capacity)
-        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    if (!context.result) sdv_find_mask(&x);
+    if (!context.result) {
+        sdv_find_groups(&x);
+        sdv_explain_point(&x, point);
+        if (out.size + 1 == capacity)
+            sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    }
     if (context.result) text[0] = 0;
     sdv_arena_free(&x.arena);
     subdiv_surface_free(cut);
