@@ -1445,12 +1445,25 @@ static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
     return count;
 }
 
-static void sdv_check_array(sdv_context *context, const char *name, int count, const void *array)
+static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
 {
-    if (count < 0)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "%s: the count is %d", name, count);
-    else if (count > 0 && !array)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "%s is NULL, its count %d", name, count);
+    const struct { const char *name; int count; const void *array; } arrays[] = {
+        { "face_vertices",    mesh->face_count,                         mesh->face_vertices },
+        { "face_sizes",       mesh->face_size ? 0 : mesh->face_count,   mesh->face_sizes },
+        { "crease_vertices",  mesh->crease_count,                       mesh->crease_vertices },
+        { "crease_sharpness", mesh->crease_count,                       mesh->crease_sharpness },
+        { "corner_vertices",  mesh->corner_count,                       mesh->corner_vertices },
+        { "corner_sharpness", mesh->corner_count,                       mesh->corner_sharpness },
+        { "holes",            mesh->hole_count,                         mesh->holes },
+        { "uvs",              mesh->uv_count,                           mesh->uvs },
+        { "face_uvs",         mesh->uv_count ? mesh->face_count : 0,    mesh->face_uvs },
+        { "statement_faces",  mesh->statement_count,                    mesh->statement_faces },
+        { "statements",       mesh->statement_count,                    mesh->statements }
+    };
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (arrays[i].count < 0 || (arrays[i].count > 0 && !arrays[i].array))
+            sdv_fail(context, SUBDIV_ERROR_ARGUMENT, arrays[i].count < 0 ? "%s: the count is %d"
+                     : "%s is NULL, its count %d", arrays[i].name, arrays[i].count);
 }
 
 static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
@@ -1477,20 +1490,25 @@ static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
     return f;
 }
 
-// Numbers are checked by the block, without a branch for each: bit 31 tells.
+// The first of count numbers of 4 bytes whose bits of the mask are not at least low and below high;
+// count if there is none. Looks at blocks of numbers without a branch for each: bit 31 tells.
 #define SDV_CHECKED 256
 
-// The first number that is not at least low and below high; count if there is none.
-static size_t sdv_find_outside(const int *numbers, size_t count, int low, int high)
+static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask, int low, int high)
 {
+    const char *number = (const char *)numbers;
+    uint32_t least = (uint32_t)low, most = (uint32_t)high - 1, bad = 0, n;
     size_t i = 0;
-    for (unsigned bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
-        for (size_t k = 0; k < SDV_CHECKED; k++)
-            bad |= ((unsigned)numbers[i + k] - (unsigned)low) |
-                   ((unsigned)high - 1 - (unsigned)numbers[i + k]);
-        if (bad >> 31) break;
+    for (; count - i >= SDV_CHECKED && !(bad >> 31); i += SDV_CHECKED)
+        for (size_t k = 0; k < SDV_CHECKED; k++) {
+            memcpy(&n, number + 4 * (i + k), 4);
+            bad |= ((n & mask) - least) | (most - (n & mask));
+        }
+    if (bad >> 31) i -= SDV_CHECKED;
+    for (; i < count; i++) {
+        memcpy(&n, number + 4 * i, 4);
+        if ((((n & mask) - least) | (most - (n & mask))) >> 31) break;
     }
-    while (i < count && numbers[i] >= low && numbers[i] < high) i++;
     return i;
 }
 
@@ -1498,22 +1516,21 @@ static size_t sdv_find_outside(const int *numbers, size_t count, int low, int hi
 #define SDV_ENDLESS 255                 // infinite or not a number
 #define SDV_HUGE 243                    // 2^116 or more
 
-static size_t sdv_find_exponent(const float *numbers, size_t count, uint32_t exponent)
+static size_t sdv_find_exponent(const float *numbers, size_t count, int exponent)
 {
-    uint32_t lack = (256 - exponent) << 23, bits;
-    size_t i = 0;
-    for (uint32_t bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
-        for (size_t k = 0; k < SDV_CHECKED; k++) {
-            memcpy(&bits, &numbers[i + k], sizeof bits);
-            bad |= (bits & 0x7fffffff) + lack;
-        }
-        if (bad >> 31) break;
-    }
-    for (; i < count; i++) {
-        memcpy(&bits, &numbers[i], sizeof bits);
-        if ((bits & 0x7fffffff) >> 23 >= exponent) break;
-    }
-    return i;
+    return sdv_find_outside(numbers, count, 0x7fffffff, 0, exponent << 23);
+}
+
+// The vertex, UV or other value of each face-vertex. With low = -1 a face-vertex may have none.
+static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const int *indices,
+                              int low, int count, const char *message)
+{
+    size_t all = sdv_face_vertex_count(mesh);
+    size_t i = sdv_find_outside(indices, all, 0xffffffff, low, count);
+    if (i == all) return;
+    int f = sdv_find_face(mesh, i);
+    sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, low ? -1 : indices[i], message, f, indices[i],
+                  count);
 }
 
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
@@ -1525,47 +1542,38 @@ static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
             return;
         }
     }
-    size_t count = sdv_face_vertex_count(mesh), i;
-    i = sdv_find_outside(mesh->face_vertices, count, 0, mesh->vertex_count);
-    if (i < count) {
-        int f = sdv_find_face(mesh, i), v = mesh->face_vertices[i];
-        sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, v,
-                      "face %d: vertex %d does not exist (the mesh has %d)", f, v,
-                      mesh->vertex_count);
-    }
-    i = mesh->uv_count ? sdv_find_outside(mesh->face_uvs, count, -1, mesh->uv_count) : count;
-    if (i < count) {
-        int f = sdv_find_face(mesh, i);
-        sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                      "face %d: UV %d does not exist (the mesh has %d)", f, mesh->face_uvs[i],
-                      mesh->uv_count);
-    }
+    sdv_check_indices(context, mesh, mesh->face_vertices, 0, mesh->vertex_count,
+                      "face %d: vertex %d does not exist (the mesh has %d)");
+    if (mesh->uv_count)
+        sdv_check_indices(context, mesh, mesh->face_uvs, -1, mesh->uv_count,
+                          "face %d: UV %d does not exist (the mesh has %d)");
 }
 
-// The vertices of creases or corners, and their sharpness: any number, infinity included.
-static void sdv_check_sharp(sdv_context *context, const subdiv_mesh *mesh, const char *what,
-                            int count, int ends, const int *vertices, const float *sharpness)
+// A list of creases, corners or, without sharpness, of holes. Any sharpness is a number; it may be
+// infinite.
+static void sdv_check_list(sdv_context *context, const char *what, int count, const int *items,
+                           int ends, int most, const float *sharpness)
 {
     for (int i = 0; i < count && !context->result; i++) {
-        for (int j = 0; j < ends; j++) {
-            int v = vertices[ends * i + j];
-            if (v < 0 || v >= mesh->vertex_count)
-                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, -1, v,
-                              "%s %d: vertex %d does not exist (the mesh has %d)",
-                              what, i, v, mesh->vertex_count);
-        }
-        if (sharpness[i] != sharpness[i])
-            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, vertices[ends * i],
+        for (int j = ends * i; j < ends * (i + 1); j++)
+            if (items[j] < 0 || items[j] >= most)
+                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, sharpness ? -1 : items[j],
+                              sharpness ? items[j] : -1,
+                              "%s %d: %s %d does not exist (the mesh has %d)", what, i,
+                              sharpness ? "vertex" : "face", items[j], most);
+        if (sharpness && sharpness[i] != sharpness[i])
+            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, items[ends * i],
                           "%s %d: the sharpness is not a number", what, i);
     }
 }
 
-// One line each, of the kinds that are kept: anything else would change the file that is written.
 static int sdv_ends_word(char c)
 {
     return c == 0 || c == ' ' || c == '\t';
 }
 
+// Each statement is one line, of a kind that is kept: any other would change the file that is
+// written.
 static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
 {
     static const char *const words[] = { "g", "o", "s", "usemtl", "mtllib" };
@@ -1585,18 +1593,6 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
                      "statement %d is not a line with g, o, s, usemtl or mtllib", i);
         last = face;
     }
-}
-
-// Values at the vertices of faces.
-static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, int value_count,
-                              const int *indices)
-{
-    size_t count = sdv_face_vertex_count(mesh);
-    size_t i = sdv_find_outside(indices, count, -1, value_count);
-    if (i == count) return;
-    int f = sdv_find_face(mesh, i);
-    sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                  "face %d: value %d does not exist (there are %d)", f, indices[i], value_count);
 }
 
 // So many numbers each of count things.
@@ -1626,18 +1622,7 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     if (mesh->vertex_count == 0) sdv_fail(context, SUBDIV_ERROR_EMPTY, "the mesh has no vertices");
     if (mesh->vertex_count < 0)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "vertex_count is %d", mesh->vertex_count);
-    sdv_check_array(context, "face_vertices", mesh->face_count, mesh->face_vertices);
-    if (mesh->face_size == 0)
-        sdv_check_array(context, "face_sizes", mesh->face_count, mesh->face_sizes);
-    sdv_check_array(context, "crease_vertices", mesh->crease_count, mesh->crease_vertices);
-    sdv_check_array(context, "crease_sharpness", mesh->crease_count, mesh->crease_sharpness);
-    sdv_check_array(context, "corner_vertices", mesh->corner_count, mesh->corner_vertices);
-    sdv_check_array(context, "corner_sharpness", mesh->corner_count, mesh->corner_sharpness);
-    sdv_check_array(context, "holes", mesh->hole_count, mesh->holes);
-    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
-    if (mesh->uv_count) sdv_check_array(context, "face_uvs", mesh->face_count, mesh->face_uvs);
-    sdv_check_array(context, "statement_faces", mesh->statement_count, mesh->statement_faces);
-    sdv_check_array(context, "statements", mesh->statement_count, mesh->statements);
+    sdv_check_arrays(context, mesh);
     sdv_check_rules(context, mesh);
     uint64_t size = mesh->face_size > 0 ? (uint64_t)mesh->face_size : 0;
     if (size * (uint64_t)mesh->face_count > PTRDIFF_MAX / sizeof(int))
@@ -1646,15 +1631,11 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 
     sdv_check_faces(context, mesh);
     sdv_check_statements(context, mesh);
-    sdv_check_sharp(context, mesh, "crease", mesh->crease_count, 2, mesh->crease_vertices,
-                    mesh->crease_sharpness);
-    sdv_check_sharp(context, mesh, "corner", mesh->corner_count, 1, mesh->corner_vertices,
-                    mesh->corner_sharpness);
-    for (int i = 0; i < mesh->hole_count && !context->result; i++)
-        if (mesh->holes[i] < 0 || mesh->holes[i] >= mesh->face_count)
-            sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, mesh->holes[i], -1,
-                          "hole %d: face %d does not exist (the mesh has %d)",
-                          i, mesh->holes[i], mesh->face_count);
+    sdv_check_list(context, "crease", mesh->crease_count, mesh->crease_vertices, 2,
+                   mesh->vertex_count, mesh->crease_sharpness);
+    sdv_check_list(context, "corner", mesh->corner_count, mesh->corner_vertices, 1,
+                   mesh->vertex_count, mesh->corner_sharpness);
+    sdv_check_list(context, "hole", mesh->hole_count, mesh->holes, 1, mesh->face_count, NULL);
 }
 
 static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
@@ -4986,7 +4967,9 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                  indices ? "value_count is %d" : "indices is NULL", value_count);
     if (!context.result && (rule < 0 || rule > SUBDIV_UV_NONE))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)rule);
-    if (!context.result) sdv_check_indices(&context, cage, value_count, indices);
+    if (!context.result)
+        sdv_check_indices(&context, cage, indices, -1, value_count,
+                          "face %d: value %d does not exist (there are %d)");
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, levels, exact);
     subdiv_surface *shape = made ? sdv_new_surface(&context, levels, exact) : NULL;
     sdv_values values = { value_count, indices, rule };
