@@ -11927,7 +11927,7 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 typedef struct sdv_generator {
     const subdiv_mesh *mesh;
     sdv_arena arena;
-    sdv_cage cage;                      // without the mesh's lists
+    sdv_cage cage;                      // without creases and corners
     double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
     double limit;                       // radians
     const char **groups;                // [face_count]      smoothing groups; "": none
@@ -11936,12 +11936,14 @@ typedef struct sdv_generator {
 // Is the edge sharp along which one face runs from face-vertex h, the other back from g?
 typedef int (*sdv_question)(const sdv_generator *generator, int h, int g);
 
-// A mesh and its edges, without its lists: sharp is what is no edge of two faces.
+// Builds a cage without the mesh's creases and corners, so that only edges without two faces are
+// sharp; and without the boundary rule, so that only the mesh's own holes are holes.
 static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cage,
                            const subdiv_mesh *mesh)
 {
     subdiv_mesh shape = *mesh;
-    shape.crease_count = shape.corner_count = shape.hole_count = 0;
+    shape.crease_count = shape.corner_count = 0;
+    shape.boundary = SUBDIV_BOUNDARY_EDGE;
     sdv_cage_build(context, arena, arena, cage, &shape);
 }
 
@@ -11955,53 +11957,43 @@ static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
     if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
 }
 
-// Marks the edges that are found: finds[e]. Returns how many.
-static int sdv_find_creases(const sdv_generator *generator, sdv_question is_crease,
-                            unsigned char *finds)
-{
-    const sdv_level *level = &generator->cage.level;
-    int count = 0;
-    for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e], g = sdv_across(level, h);
-        finds[e] = g >= 0 && is_crease(generator, h, g);
-        count += finds[e];
-    }
-    return count;
-}
-
 // Gives the mesh a longer list: what it had, with sharpness raised where a listed edge is found,
 // then the other edges that are found, in their order.
-static void sdv_lengthen_creases(sdv_context *context, sdv_generator *generator, subdiv_mesh *mesh,
-                                 const unsigned char *finds, float sharpness)
+static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator, subdiv_mesh *mesh,
+                              sdv_question is_crease, float sharpness)
 {
     const sdv_level *level = &generator->cage.level;
     sdv_arena owned = sdv_new_arena(0);
     owned.blocks = (sdv_block *)mesh->memory;
-    int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
     int *listed = SDV_NEW(context, &generator->arena, int, mesh->crease_count);
+    int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
+    int *found = SDV_NEW(context, &generator->arena, int, level->edge_count);
+    size_t count = (size_t)mesh->crease_count, finds = 0;
     sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, listed);
     if (context->result) return;
-    size_t old = (size_t)mesh->crease_count, count = old;
-    for (int e = 0; e < level->edge_count; e++) entry[e] = -1;
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e], g = sdv_across(level, h);
+        if (g >= 0 && is_crease(generator, h, g)) found[finds++] = e;
+        entry[e] = -1;
+    }
     for (int i = 0; i < mesh->crease_count; i++)
         if (listed[i] >= 0) entry[listed[i]] = i;   // the last one counts
-    for (int e = 0; e < level->edge_count; e++) count += finds[e] && entry[e] < 0;
-    if (count > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
-    int *vertices = (int *)sdv_new(context, &owned, count, 2 * sizeof(int) + sizeof(float));
+    if (finds == 0) return;
+    if (count + finds > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
+    int *vertices = (int *)sdv_new(context, &owned, count + finds, 2 * sizeof(int) + sizeof(float));
     if (context->result) return;
 
-    float *sharp = (float *)(void *)(vertices + 2 * count);
-    sdv_copy(vertices, mesh->crease_vertices, old, 2 * sizeof(int));
-    sdv_copy(sharp, mesh->crease_sharpness, old, sizeof(float));
-    for (int e = 0; e < level->edge_count; e++) {
-        if (finds[e] && entry[e] >= 0) {
-            float *old_one = sharp + entry[e];
-            if (*old_one < sharpness) *old_one = sharpness;
-        } else if (finds[e]) {
-            int h = level->edge_first[e];
-            vertices[2 * old] = level->face_vertices[h];
-            vertices[2 * old + 1] = level->face_vertices[sdv_next(level, h)];
-            sharp[old++] = sharpness;
+    float *sharp = (float *)(void *)(vertices + 2 * (count + finds));
+    sdv_copy(vertices, mesh->crease_vertices, count, 2 * sizeof(int));
+    sdv_copy(sharp, mesh->crease_sharpness, count, sizeof(float));
+    for (size_t i = 0; i < finds; i++) {
+        int e = found[i], h = level->edge_first[e];
+        if (entry[e] < 0) {
+            vertices[2 * count] = level->face_vertices[h];
+            vertices[2 * count + 1] = level->face_vertices[sdv_next(level, h)];
+            sharp[count++] = sharpness;
+        } else if (sharp[entry[e]] < sharpness) {
+            sharp[entry[e]] = sharpness;
         }
     }
     mesh->crease_count = (int)count;
@@ -12014,18 +12006,17 @@ static void sdv_lengthen_creases(sdv_context *context, sdv_generator *generator,
 static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *generator,
                                        subdiv_mesh *mesh, sdv_question is_crease, float sharpness)
 {
-    unsigned char *finds = SDV_NEW(context, &generator->arena, unsigned char,
-                                   generator->cage.level.edge_count);
-    if (!context->result && is_crease && sdv_find_creases(generator, is_crease, finds) > 0)
-        sdv_lengthen_creases(context, generator, mesh, finds, sharpness);
+    if (!context->result && is_crease)
+        sdv_lengthen_list(context, generator, mesh, is_crease, sharpness);
     sdv_arena_free(&generator->arena);
     return context->result;
 }
 
 // Of length 1. A face that is so thin that rounding could have made it so has none: 0.
-static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+static void sdv_face_normal(const float *positions, const sdv_level *level, int f, double normal[3])
 {
-    double n[3], error = sdv_area_normal(positions, vertices, size, n);
+    int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
+    double n[3], error = sdv_area_normal(positions, level->face_vertices + start, size, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
@@ -12053,15 +12044,10 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     if (!context.result)
         generator.normals = SDV_NEW(&context, &generator.arena, double,
                                     3 * (size_t)mesh->face_count);
-    if (!context.result) {
-        const sdv_level *level = &generator.cage.level;
-        for (int f = 0; f < mesh->face_count; f++) {
-            int start = sdv_face_start(level, f);
-            sdv_face_normal(mesh->positions, level->face_vertices + start,
-                            sdv_face_end(level, f) - start, generator.normals + 3 * (size_t)f);
-        }
-        generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
-    }
+    for (int f = 0; !context.result && f < mesh->face_count; f++)
+        sdv_face_normal(mesh->positions, &generator.cage.level, f,
+                        generator.normals + 3 * (size_t)f);
+    generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
     return sdv_generator_end(&context, &generator, mesh, sdv_is_bent, sharpness);
 }
 
@@ -12151,55 +12137,46 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
 
 // ---------------------------------------------------------------------------- >>inspection
 
-static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
-{
-    for (int f = 0; f < mesh->face_count; f++) {
-        int size = sdv_face_size(mesh, f);
-        if (size == 3) info->triangle_count++;
-        else if (size == 4) info->quad_count++;
-        else info->ngon_count++;
-        if (size > info->max_face_size) info->max_face_size = size;
-    }
-}
-
-// Creases and corners as the lists have them, whatever is sharp by shape. The last entry counts.
-static void sdv_count_sharp(sdv_context *context, sdv_arena *arena, subdiv_info *info,
-                            const sdv_level *level, const subdiv_mesh *mesh)
-{
-    int *edges = SDV_NEW(context, arena, int, mesh->crease_count);
-    float *crease = SDV_NEW(context, arena, float, level->edge_count);
-    float *corner = SDV_NEW(context, arena, float, level->vertex_count);
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
-    if (context->result) return;
-    for (int e = 0; e < level->edge_count; e++) crease[e] = 0;
-    for (int v = 0; v < level->vertex_count; v++) corner[v] = 0;
-    for (int i = 0; i < mesh->crease_count; i++)
-        if (edges[i] >= 0) crease[edges[i]] = mesh->crease_sharpness[i];
-    for (int i = 0; i < mesh->corner_count; i++)
-        corner[mesh->corner_vertices[i]] = mesh->corner_sharpness[i];
-    for (int e = 0; e < level->edge_count; e++) {
-        info->crease_count += crease[e] > 0;
-        info->infinite_crease_count += crease[e] >= SUBDIV_INFINITE;
-    }
-    for (int v = 0; v < level->vertex_count; v++) info->corner_count += corner[v] > 0;
-}
-
-static void sdv_count_topology(subdiv_info *info, const sdv_cage *cage, subdiv_scheme scheme)
+// Counts what is sharp by the lists, as the cage has it, and not by shape.
+static void sdv_count_edges(subdiv_info *info, const sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    int regular = scheme == SUBDIV_LOOP ? 6 : 4;
+    info->edge_count = level->edge_count;
     for (int e = 0; e < level->edge_count; e++) {
-        info->boundary_edge_count += sdv_is_boundary(level, level->edge_first[e]);
+        int h = level->edge_first[e];
+        info->boundary_edge_count += sdv_is_boundary(level, h);
         info->nonmanifold_edge_count += cage->edge_nonmanifold[e];
+        info->crease_count += level->sharpness[h] > 0;
+        info->infinite_crease_count += level->sharpness[h] >= SUBDIV_INFINITE;
     }
+}
+
+static void sdv_count_vertices(subdiv_info *info, const sdv_cage *cage, int regular)
+{
+    const sdv_level *level = &cage->level;
+    info->vertex_count = level->vertex_count;
     for (int v = 0; v < level->vertex_count; v++) {
         int faces = level->vertex_faces[v], valence = sdv_count_edges_at(cage, v).count;
         if (valence > info->max_valence) info->max_valence = valence;
         if (faces == 0) info->isolated_vertex_count++;
         else if (cage->vertex_nonmanifold[v]) info->nonmanifold_vertex_count++;
         else if (valence == faces && valence != regular) info->extraordinary_vertex_count++;
+        info->corner_count += level->vertex_sharpness[v] > 0;
     }
-    for (int f = 0; f < level->face_count; f++) info->hole_count += cage->hole[f];
+}
+
+static void sdv_count_faces(subdiv_info *info, const sdv_cage *cage)
+{
+    const sdv_level *level = &cage->level;
+    info->face_count = level->face_count;
+    for (int f = 0; f < level->face_count; f++) {
+        int size = sdv_face_end(level, f) - sdv_face_start(level, f);
+        if (size == 3) info->triangle_count++;
+        else if (size == 4) info->quad_count++;
+        else info->ngon_count++;
+        if (size > info->max_face_size) info->max_face_size = size;
+        info->hole_count += cage->hole[f];
+    }
 }
 
 static int sdv_root(int *parent, int v)
@@ -12233,17 +12210,13 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 
     sdv_arena arena = sdv_scratch();
     sdv_cage cage;
-    subdiv_mesh shape = *mesh;
-    shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
-    sdv_cage_build(&context, &arena, &arena, &cage, &shape);
+    sdv_plain_cage(&context, &arena, &cage, mesh);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
-    if (!context.result) sdv_count_sharp(&context, &arena, info, &cage.level, mesh);
+    if (!context.result) sdv_user_sharpness(&context, &arena, &cage, mesh);
     if (!context.result) {
-        info->vertex_count = mesh->vertex_count;
-        info->edge_count = cage.level.edge_count;
-        info->face_count = mesh->face_count;
-        sdv_count_faces(info, mesh);
-        sdv_count_topology(info, &cage, mesh->scheme);
+        sdv_count_edges(info, &cage);
+        sdv_count_vertices(info, &cage, mesh->scheme == SUBDIV_LOOP ? 6 : 4);
+        sdv_count_faces(info, &cage);
         sdv_count_components(info, &cage.level, parent);
     }
     sdv_arena_free(&arena);
@@ -12484,10 +12457,8 @@ static void sdv_report_no_area(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f);
         double n[3];
-        sdv_face_normal(checker->mesh->positions, level->face_vertices + start,
-                        sdv_face_end(level, f) - start, n);
+        sdv_face_normal(checker->mesh->positions, level, f, n);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0)
             sdv_found(checker, SUBDIV_ODD_NO_AREA, f, -1, -1, -1, "face %d has no area", f);
     }
