@@ -12226,36 +12226,16 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 // ------------------------------------------------------------------------------ >>oddities
 // What subdiv_check finds, kind by kind. Each kind looks at every face, edge, vertex or entry once.
 
-// Does the edge that leads on from h join a and b?
-static int sdv_joins(const sdv_level *level, int h, int a, int b)
-{
-    int from = level->face_vertices[h], to = level->face_vertices[sdv_next(level, h)];
-    return (from == a && to == b) || (from == b && to == a);
-}
-
-// The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
-// met in rising order, but for the last of a face that leads to its first.
-static int sdv_find_edge(const sdv_level *level, int a, int b)
-{
-    int closing = -1, k = level->vertex_first[sdv_smaller_end(level, a, b)];
-    for (; k >= 0; k = level->vertex_next[k]) {
-        int before = sdv_previous(level, k), joins = sdv_joins(level, before, a, b);
-        if (closing >= 0 && sdv_face_of(level, k) != sdv_face_of(level, closing)) break;
-        if (joins && before < k) return level->face_edges[before];
-        if (sdv_joins(level, k, a, b)) return level->face_edges[k];
-        if (joins) closing = before;
-    }
-    return closing < 0 ? -1 : level->face_edges[closing];
-}
-
 typedef struct sdv_checker {
     const subdiv_mesh *mesh;
-    sdv_cage cage;                      // without the mesh's lists
+    sdv_cage cage;                      // without creases and corners
     int *counts;
     subdiv_report report;
     void *user;
-    int *last;                          // [max of vertices, edges, faces]  to mark them with
+    int *ends;                          // [2 * edge_count]  vertices of each edge, the lower first
+    int *first;                         // [edge_count]  the first edge with the same ends
     int *crease_edges;                  // [crease_count]  -1: no edge
+    int *last;                          // [max of vertices, edges, faces]  to mark them with
     unsigned char *marks;               // [face_vertex_count]
     uint64_t *hashes;                   // [max of vertices, faces]
     int *slots;                         // [mask + 1]  a hash table of vertices or faces; -1: free
@@ -12277,31 +12257,22 @@ static void sdv_found(const sdv_checker *checker, subdiv_oddity kind, int face, 
     checker->report(checker->user, &finding);
 }
 
-// The ends of an edge, the lower first.
-static void sdv_edge_ends(const sdv_level *level, int e, int *low, int *high)
-{
-    int h = level->edge_first[e], a = level->face_vertices[h];
-    int b = level->face_vertices[sdv_next(level, h)];
-    *low = a < b ? a : b;
-    *high = a < b ? b : a;
-}
-
 // Edges with more than two faces. (An edge that a face has twice counts once for it.)
 static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int e = 0; e < level->edge_count; e++) {
-        int first = level->edge_first[e], count = sdv_edge_faces(level, first), h = first, a, b;
+        const int *ends = checker->ends + 2 * (size_t)e;
+        int first = level->edge_first[e], count = sdv_edge_faces(level, first), h = first;
         if (count < 3) continue;
         char text[128];
         sdv_text faces = { text, 0, sizeof text };
         for (int i = 0; i < count && i < 8; i++, h = level->across[h])
             sdv_say(&faces, i ? ", %d" : "%d", sdv_face_of(level, h));
         if (count > 8) sdv_say(&faces, ", ...");
-        sdv_edge_ends(level, e, &a, &b);
         sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_EDGE, sdv_face_of(level, first),
-                  sdv_face_of(level, level->across[first]), a, b, "edge %d-%d has %d faces: %s",
-                  a, b, count, text);
+                  sdv_face_of(level, level->across[first]), ends[0], ends[1],
+                  "edge %d-%d has %d faces: %s", ends[0], ends[1], count, text);
     }
 }
 
@@ -12309,21 +12280,20 @@ static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
 static void sdv_report_flipped_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
-    int *twice = checker->last, a, b;
+    int *twice = checker->last;
     for (int e = 0; e < level->edge_count; e++) {
-        sdv_edge_ends(level, e, &a, &b);
-        int first = sdv_find_edge(level, a, b);
         twice[e] = 0;
-        if (first != e) twice[first] = 1;           // first < e
+        if (checker->first[e] != e) twice[checker->first[e]] = 1;
     }
     for (int e = 0; e < level->edge_count; e++) {
+        const int *ends = checker->ends + 2 * (size_t)e;
         int h = level->edge_first[e], k = level->across[h];
         if (k == h || level->across[k] != h || twice[e]) continue;
         if (level->face_vertices[h] != level->face_vertices[k]) continue;
         int f = sdv_face_of(level, h), g = sdv_face_of(level, k);
-        sdv_edge_ends(level, e, &a, &b);
-        sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, a, b,
-                  "faces %d and %d run along edge %d-%d in the same direction", f, g, a, b);
+        sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, ends[0], ends[1],
+                  "faces %d and %d run along edge %d-%d in the same direction", f, g, ends[0],
+                  ends[1]);
     }
 }
 
@@ -12412,44 +12382,30 @@ static void sdv_report_duplicate_faces(const sdv_checker *checker)
     }
 }
 
-// Says what a face repeats: a vertex twice in a row, an edge, or just a vertex, which is given.
-static void sdv_report_repeated(const sdv_checker *checker, int f, int vertex)
-{
-    const sdv_level *level = &checker->cage.level;
-    int edge = -1;
-    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
-        int v = level->face_vertices[h], next = level->face_vertices[sdv_next(level, h)];
-        if (v == next) {
-            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, v, -1,
-                      "face %d has vertex %d twice in a row", f, v);
-            return;
-        }
-        if (edge < 0 && sdv_find_edge(level, v, next) != level->face_edges[h])
-            edge = level->face_edges[h];
-    }
-    if (edge >= 0) {
-        int a, b;
-        sdv_edge_ends(level, edge, &a, &b);
-        sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, a, b,
-                  "face %d has edge %d-%d more than once", f, a, b);
-    } else {
-        sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, vertex, -1,
-                  "face %d has vertex %d more than once", f, vertex);
-    }
-}
-
+// Says the worst that a face repeats: a vertex twice in a row, an edge, or just a vertex.
 static void sdv_report_repeated_vertices(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int v = 0; v < level->vertex_count; v++) checker->last[v] = -1;
     for (int f = 0; f < level->face_count; f++) {
-        int repeated = -1;
+        int in_row = -1, edge = -1, vertex = -1;
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
-            int v = level->face_vertices[h];
-            if (checker->last[v] == f && repeated < 0) repeated = v;
+            int v = level->face_vertices[h], e = level->face_edges[h];
+            if (in_row < 0 && v == level->face_vertices[sdv_next(level, h)]) in_row = v;
+            if (edge < 0 && checker->first[e] != e) edge = e;
+            if (vertex < 0 && checker->last[v] == f) vertex = v;
             checker->last[v] = f;
         }
-        if (repeated >= 0) sdv_report_repeated(checker, f, repeated);
+        const int *ends = edge < 0 ? NULL : checker->ends + 2 * (size_t)edge;
+        if (in_row >= 0)
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, in_row, -1,
+                      "face %d has vertex %d twice in a row", f, in_row);
+        else if (ends)
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, ends[0], ends[1],
+                      "face %d has edge %d-%d more than once", f, ends[0], ends[1]);
+        else if (vertex >= 0)
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, vertex, -1,
+                      "face %d has vertex %d more than once", f, vertex);
     }
 }
 
@@ -12510,37 +12466,32 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     }
 }
 
+// Entries of a list of items, most of them at most: of edges (ends: 2), vertices (1) or faces (0).
+static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int most,
+                             int ends, const char *format)
+{
+    int *last = checker->last;
+    for (int i = 0; i < most; i++) last[i] = -1;
+    for (int i = 0; i < count; i++) {
+        int item = list[i];
+        if (item < 0) continue;
+        const int *end = ends == 2 ? checker->ends + 2 * (size_t)item : &item;
+        if (last[item] >= 0)
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? end[0] : -1,
+                      ends == 2 ? end[1] : -1, format, last[item], i, end[0], end[ends / 2]);
+        last[item] = i;
+    }
+}
+
 static void sdv_report_listed_twice(const sdv_checker *checker)
 {
     const subdiv_mesh *mesh = checker->mesh;
-    const sdv_level *level = &checker->cage.level;
-    int *last = checker->last, a, b;
-    for (int e = 0; e < level->edge_count; e++) last[e] = -1;
-    for (int i = 0; i < mesh->crease_count; i++) {
-        int e = checker->crease_edges[i];
-        if (e < 0) continue;
-        sdv_edge_ends(level, e, &a, &b);
-        if (last[e] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, -1, -1, a, b,
-                      "creases %d and %d are both edge %d-%d", last[e], i, a, b);
-        last[e] = i;
-    }
-    for (int v = 0; v < mesh->vertex_count; v++) last[v] = -1;
-    for (int i = 0; i < mesh->corner_count; i++) {
-        int v = mesh->corner_vertices[i];
-        if (last[v] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, -1, -1, v, -1,
-                      "corners %d and %d are both vertex %d", last[v], i, v);
-        last[v] = i;
-    }
-    for (int f = 0; f < mesh->face_count; f++) last[f] = -1;
-    for (int i = 0; i < mesh->hole_count; i++) {
-        int f = mesh->holes[i];
-        if (last[f] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, f, -1, -1, -1,
-                      "holes %d and %d are both face %d", last[f], i, f);
-        last[f] = i;
-    }
+    sdv_report_twice(checker, checker->crease_edges, mesh->crease_count,
+                     checker->cage.level.edge_count, 2, "creases %d and %d are both edge %d-%d");
+    sdv_report_twice(checker, mesh->corner_vertices, mesh->corner_count, mesh->vertex_count, 1,
+                     "corners %d and %d are both vertex %d");
+    sdv_report_twice(checker, mesh->holes, mesh->hole_count, mesh->face_count, 0,
+                     "holes %d and %d are both face %d");
 }
 
 static void sdv_report_partial_uvs(const sdv_checker *checker)
@@ -12558,20 +12509,28 @@ static void sdv_report_partial_uvs(const sdv_checker *checker)
 static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checker *checker,
                               const subdiv_mesh *mesh)
 {
+    const sdv_level *level = &checker->cage.level;
     checker->mesh = mesh;
     sdv_plain_cage(context, arena, &checker->cage, mesh);
-    if (context->result) return;
-    int edges = checker->cage.level.edge_count;
+    int edges = level->edge_count;
     int items = mesh->vertex_count > mesh->face_count ? mesh->vertex_count : mesh->face_count;
     checker->mask = 1;
     while (checker->mask < 2 * (size_t)items) checker->mask = 2 * checker->mask + 1;
+    checker->ends = SDV_NEW(context, arena, int, 2 * (size_t)edges);
+    checker->first = SDV_NEW(context, arena, int, edges);
+    checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
     checker->last = SDV_NEW(context, arena, int, items > edges ? items : edges);
-    checker->marks = SDV_NEW(context, arena, unsigned char,
-                             checker->cage.level.face_vertex_count);
+    checker->marks = SDV_NEW(context, arena, unsigned char, level->face_vertex_count);
     checker->hashes = SDV_NEW(context, arena, uint64_t, items);
     checker->slots = SDV_NEW(context, arena, int, checker->mask + 1);
-    checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
-    sdv_find_edges(context, &checker->cage.level, mesh->crease_vertices, mesh->crease_count,
+    for (int e = 0; e < edges && !context->result; e++) {
+        int h = level->edge_first[e], a = level->face_vertices[h];
+        int b = level->face_vertices[sdv_next(level, h)];
+        checker->ends[2 * e] = a < b ? a : b;
+        checker->ends[2 * e + 1] = a < b ? b : a;
+    }
+    sdv_find_edges(context, level, checker->ends, edges, checker->first);
+    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count,
                    checker->crease_edges);
 }
 
