@@ -1572,6 +1572,13 @@ static int sdv_ends_word(char c)
     return c == 0 || c == ' ' || c == '\t';
 }
 
+// Do two texts begin with the same word?
+static int sdv_same_word(const char *a, const char *b)
+{
+    while (!sdv_ends_word(*a) && *a == *b) a++, b++;
+    return sdv_ends_word(*a) && sdv_ends_word(*b);
+}
+
 // Each statement is one line, of a kind that is kept: any other would change the file that is
 // written.
 static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
@@ -1584,10 +1591,7 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
             sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, face, -1,
                           face < last ? "statement %d: face %d is not in order"
                                       : "statement %d: face %d does not exist", i, face);
-        for (int k = 0; k < 5 && text; k++) {
-            size_t size = strlen(words[k]);
-            known |= strncmp(text, words[k], size) == 0 && sdv_ends_word(text[size]);
-        }
+        for (int k = 0; k < 5 && text; k++) known |= sdv_same_word(text, words[k]);
         if (!known || strpbrk(text, "\r\n"))
             sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
                      "statement %d is not a line with g, o, s, usemtl or mtllib", i);
@@ -11925,7 +11929,8 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 // Boundary and non-manifold edges are sharp by shape, nobody asks about them.
 
 typedef struct sdv_generator {
-    const subdiv_mesh *mesh;
+    subdiv_mesh *mesh;
+    float sharpness;                    // of the creases that are found
     sdv_arena arena;
     sdv_cage cage;                      // without creases and corners
     double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
@@ -11948,10 +11953,11 @@ static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cag
 }
 
 static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
-                                const subdiv_mesh *mesh, float sharpness)
+                                subdiv_mesh *mesh, float sharpness)
 {
     memset(generator, 0, sizeof *generator);
     generator->mesh = mesh;
+    generator->sharpness = sharpness;
     if (sharpness != sharpness)
         sdv_fail(context, SUBDIV_ERROR_NOT_FINITE, "the sharpness is not a number");
     if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
@@ -11959,10 +11965,11 @@ static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
 
 // Gives the mesh a longer list: what it had, with sharpness raised where a listed edge is found,
 // then the other edges that are found, in their order.
-static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator, subdiv_mesh *mesh,
-                              sdv_question is_crease, float sharpness)
+static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
+                              sdv_question is_crease)
 {
     const sdv_level *level = &generator->cage.level;
+    subdiv_mesh *mesh = generator->mesh;
     sdv_arena owned = sdv_new_arena(0);
     owned.blocks = (sdv_block *)mesh->memory;
     int *listed = SDV_NEW(context, &generator->arena, int, mesh->crease_count);
@@ -11991,9 +11998,9 @@ static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator, su
         if (entry[e] < 0) {
             vertices[2 * count] = level->face_vertices[h];
             vertices[2 * count + 1] = level->face_vertices[sdv_next(level, h)];
-            sharp[count++] = sharpness;
-        } else if (sharp[entry[e]] < sharpness) {
-            sharp[entry[e]] = sharpness;
+            sharp[count++] = generator->sharpness;
+        } else if (sharp[entry[e]] < generator->sharpness) {
+            sharp[entry[e]] = generator->sharpness;
         }
     }
     mesh->crease_count = (int)count;
@@ -12004,10 +12011,9 @@ static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator, su
 
 // Asks about every edge, unless is_crease is NULL.
 static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *generator,
-                                       subdiv_mesh *mesh, sdv_question is_crease, float sharpness)
+                                       sdv_question is_crease)
 {
-    if (!context->result && is_crease)
-        sdv_lengthen_list(context, generator, mesh, is_crease, sharpness);
+    if (!context->result && is_crease) sdv_lengthen_list(context, generator, is_crease);
     sdv_arena_free(&generator->arena);
     return context->result;
 }
@@ -12048,13 +12054,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
         sdv_face_normal(mesh->positions, &generator.cage.level, f,
                         generator.normals + 3 * (size_t)f);
     generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
-    return sdv_generator_end(&context, &generator, mesh, sdv_is_bent, sharpness);
-}
-
-static int sdv_same_word(const char *a, const char *b)
-{
-    while (!sdv_ends_word(*a) && *a == *b) a++, b++;
-    return sdv_ends_word(*a) && sdv_ends_word(*b);
+    return sdv_generator_end(&context, &generator, sdv_is_bent);
 }
 
 // The word that names the smoothing group: "1" for "s 1", "" for "s off" and "s 0" (some programs
@@ -12103,8 +12103,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, fl
         generator.groups = SDV_NEW(&context, &generator.arena, const char *, mesh->face_count);
     int known = !context.result && sdv_smoothing_groups(mesh, generator.groups);
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no smoothing groups");
-    return sdv_generator_end(&context, &generator, mesh,
-                             known ? sdv_groups_differ : NULL, sharpness);
+    return sdv_generator_end(&context, &generator, known ? sdv_groups_differ : NULL);
 }
 
 static int sdv_uvs_differ(const subdiv_mesh *mesh, int h, int g)
@@ -12131,8 +12130,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     int known = !context.result && mesh->uv_count > 0;
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no UVs");
-    return sdv_generator_end(&context, &generator, mesh,
-                             known ? sdv_is_seam : NULL, sharpness);
+    return sdv_generator_end(&context, &generator, known ? sdv_is_seam : NULL);
 }
 
 // ---------------------------------------------------------------------------- >>inspection
@@ -12235,10 +12233,9 @@ typedef struct sdv_checker {
     int *ends;                          // [2 * edge_count]  vertices of each edge, the lower first
     int *first;                         // [edge_count]  the first edge with the same ends
     int *crease_edges;                  // [crease_count]  -1: no edge
-    int *last;                          // [max of vertices, edges, faces]  to mark them with
-    unsigned char *marks;               // [face_vertex_count]
-    uint64_t *hashes;                   // [max of vertices, faces]
-    int *slots;                         // [mask + 1]  a hash table of vertices or faces; -1: free
+    int *last;                          // [max of vertices, face-vertices]  to mark things with
+    int *heads;                         // [mask + 1]  a hash table of vertices or faces: the first
+    int *next;                          // [max of vertices, faces]  one of a list, the next; or -1
     size_t mask;
 } sdv_checker;
 
@@ -12298,7 +12295,7 @@ static void sdv_report_flipped_faces(const sdv_checker *checker)
 }
 
 // Marks the face-vertices of one fan around a vertex.
-static void sdv_mark_fan(const sdv_level *level, int h, unsigned char *marks)
+static void sdv_mark_fan(const sdv_level *level, int h, int *marks)
 {
     for (int at = h; at >= 0 && !marks[at]; at = sdv_clockwise(level, at)) marks[at] = 1;
     int at = sdv_counter_clockwise(level, h);
@@ -12309,15 +12306,15 @@ static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
 {
     const sdv_cage *cage = &checker->cage;
     const sdv_level *level = &cage->level;
-    memset(checker->marks, 0, (size_t)level->face_vertex_count);
+    for (int h = 0; h < level->face_vertex_count; h++) checker->last[h] = 0;
     for (int v = 0; v < level->vertex_count; v++) {
         if (!cage->vertex_nonmanifold[v] || sdv_count_edges_at(cage, v).nonmanifold) continue;
         int fans = 0, face[2] = { -1, -1 };
         for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-            if (checker->marks[h]) continue;
+            if (checker->last[h]) continue;
             if (fans < 2) face[fans] = sdv_face_of(level, h);
             fans++;
-            sdv_mark_fan(level, h, checker->marks);
+            sdv_mark_fan(level, h, checker->last);
         }
         if (fans > 1)
             sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_VERTEX, face[0], face[1], v, -1,
@@ -12334,16 +12331,15 @@ static uint64_t sdv_mix(uint64_t x)
     return x ^ (x >> 32);
 }
 
-// The first of the items 0 to i that is the same as i: i itself where there is none before.
-static int sdv_first_same(const sdv_checker *checker, int i,
+// The first of the items 0 to i that is the same as i: i itself if there is none before.
+static int sdv_first_same(const sdv_checker *checker, int i, uint64_t hash,
                           int (*same)(const sdv_checker *checker, int i, int j))
 {
-    size_t slot = (size_t)checker->hashes[i] & checker->mask;
-    for (; checker->slots[slot] >= 0; slot = (slot + 1) & checker->mask) {
-        int first = checker->slots[slot];
-        if (checker->hashes[first] == checker->hashes[i] && same(checker, first, i)) return first;
-    }
-    return checker->slots[slot] = i;
+    int *head = &checker->heads[(size_t)hash & checker->mask], first = *head;
+    while (first >= 0 && !same(checker, first, i)) first = checker->next[first];
+    if (first >= 0) return first;
+    checker->next[i] = *head;
+    return *head = i;
 }
 
 // Do two faces have the same vertices, as often each? checker->last is 0, before and after.
@@ -12369,13 +12365,12 @@ static void sdv_report_duplicate_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int v = 0; v < level->vertex_count; v++) checker->last[v] = 0;
-    for (size_t i = 0; i <= checker->mask; i++) checker->slots[i] = -1;
+    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int f = 0; f < level->face_count; f++) {
         uint64_t sum = 0;                           // whatever the order
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
             sum += sdv_mix((uint64_t)level->face_vertices[h] + 1);
-        checker->hashes[f] = sdv_mix(sum);
-        int first = sdv_first_same(checker, f, sdv_same_vertices);
+        int first = sdv_first_same(checker, f, sdv_mix(sum), sdv_same_vertices);
         if (first != f)
             sdv_found(checker, SUBDIV_ODD_DUPLICATE_FACE, f, first, -1, -1,
                       "face %d has the same vertices as face %d", f, first);
@@ -12438,7 +12433,7 @@ static int sdv_same_place(const sdv_checker *checker, int v, int w)
 
 static void sdv_report_same_places(const sdv_checker *checker)
 {
-    for (size_t i = 0; i <= checker->mask; i++) checker->slots[i] = -1;
+    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int v = 0; v < checker->mesh->vertex_count; v++) {
         uint64_t hash = 0;
         for (int k = 0; k < 3; k++) {
@@ -12447,8 +12442,7 @@ static void sdv_report_same_places(const sdv_checker *checker)
             memcpy(&bits, &x, sizeof bits);
             hash = sdv_mix(hash + bits + 1);
         }
-        checker->hashes[v] = hash;
-        int first = sdv_first_same(checker, v, sdv_same_place);
+        int first = sdv_first_same(checker, v, hash, sdv_same_place);
         if (first != v)
             sdv_found(checker, SUBDIV_ODD_SAME_PLACE, -1, -1, v, first,
                       "vertex %d is at the same place as vertex %d", v, first);
@@ -12512,17 +12506,16 @@ static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checke
     const sdv_level *level = &checker->cage.level;
     checker->mesh = mesh;
     sdv_plain_cage(context, arena, &checker->cage, mesh);
-    int edges = level->edge_count;
-    int items = mesh->vertex_count > mesh->face_count ? mesh->vertex_count : mesh->face_count;
+    int edges = level->edge_count, vertices = mesh->vertex_count, faces = mesh->face_count;
+    int items = vertices > faces ? vertices : faces, all = level->face_vertex_count;
     checker->mask = 1;
     while (checker->mask < 2 * (size_t)items) checker->mask = 2 * checker->mask + 1;
     checker->ends = SDV_NEW(context, arena, int, 2 * (size_t)edges);
     checker->first = SDV_NEW(context, arena, int, edges);
     checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
-    checker->last = SDV_NEW(context, arena, int, items > edges ? items : edges);
-    checker->marks = SDV_NEW(context, arena, unsigned char, level->face_vertex_count);
-    checker->hashes = SDV_NEW(context, arena, uint64_t, items);
-    checker->slots = SDV_NEW(context, arena, int, checker->mask + 1);
+    checker->last = SDV_NEW(context, arena, int, all > vertices ? all : vertices);
+    checker->heads = SDV_NEW(context, arena, int, checker->mask + 1);
+    checker->next = SDV_NEW(context, arena, int, items);
     for (int e = 0; e < edges && !context->result; e++) {
         int h = level->edge_first[e], a = level->face_vertices[h];
         int b = level->face_vertices[sdv_next(level, h)];
