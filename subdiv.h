@@ -1309,6 +1309,7 @@ SUBDIV_DEF const char *subdiv_result_string(subdiv_result result)
     return i >= 0 && i < SUBDIV_RESULT_COUNT ? texts[i] : "unknown result";
 }
 
+// Begins a call of the library, without an error so far.
 static sdv_context sdv_begin(const subdiv_options *opt)
 {
     sdv_context context = { SUBDIV_OK, opt ? opt->error : NULL, opt ? opt->user : NULL, NULL };
@@ -1333,7 +1334,7 @@ static void sdv_put(sdv_text *out, const char *text, size_t size)
     out->text[out->size] = 0;
 }
 
-// The decimal digits of a number, at most 20, written backwards from end; returns the first.
+// Writes the decimal digits of a number, at most 20, backwards from end; returns the first.
 static char *sdv_digits(char *end, uint64_t number)
 {
     do {
@@ -1343,8 +1344,8 @@ static char *sdv_digits(char *end, uint64_t number)
     return end;
 }
 
-// printf for messages, without locale or stdio. %d: int; %s: text; %t: pointer and int, so many
-// bytes, cut short after 40.
+// Adds text as printf does, without locale or stdio. %d: int; %s: text; %t: pointer and int, so
+// many bytes, cut short after 40.
 static void sdv_format(sdv_text *out, const char *format, va_list args)
 {
     for (const char *p = format; *p; p++) {
@@ -1373,8 +1374,8 @@ static void sdv_say(sdv_text *out, const char *format, ...)
     va_end(args);
 }
 
-// A message or warning behind the file and line that it belongs to: "cage.obj:44: ". Of a long path
-// the end is kept.
+// Writes a message after the file and line that it is about, if any: "cage.obj:44: ". Keeps the end
+// of a long path.
 static void sdv_say_at(char text[256], const char *name, int line, const char *format,
                        va_list args)
 {
@@ -1387,6 +1388,7 @@ static void sdv_say_at(char text[256], const char *name, int line, const char *f
     sdv_format(&out, format, args);
 }
 
+// Notes an error and its place, if it is the first one of a call.
 static void sdv_fail_at(sdv_context *context, subdiv_result code, int line, int face, int vertex,
                         const char *format, va_list args)
 {
@@ -1418,6 +1420,7 @@ static void sdv_fail_mesh(sdv_context *context, subdiv_result code, int face, in
     va_end(args);
 }
 
+// Counts a warning, and keeps the text of the first one.
 static void sdv_warn(sdv_context *context, int line, const char *format, ...)
 {
     subdiv_error *error = context->error;
@@ -1436,7 +1439,7 @@ SDV_INLINE int sdv_face_size(const subdiv_mesh *mesh, int face)
     return mesh->face_size ? mesh->face_size : mesh->face_sizes[face];
 }
 
-// All faces together, in face-vertices.
+// Counts the face-vertices of all faces.
 static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
 {
     if (mesh->face_size) return (size_t)mesh->face_count * (size_t)mesh->face_size;
@@ -1445,6 +1448,7 @@ static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
     return count;
 }
 
+// Is every array there that has a count?
 static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
 {
     const struct { const char *name; int count; const void *array; } arrays[] = {
@@ -1481,7 +1485,7 @@ static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
                      rules[i].name, rules[i].value);
 }
 
-// The face that a face-vertex belongs to.
+// Finds the face that a face-vertex belongs to.
 static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
 {
     int f = 0;
@@ -1490,8 +1494,9 @@ static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
     return f;
 }
 
-// The first of count numbers of 4 bytes whose bits of the mask are not at least low and below high;
-// count if there is none. Looks at blocks of numbers without a branch for each: bit 31 tells.
+// Finds the first of count numbers, each of 4 bytes, whose bits of the mask are not at least low
+// and below high; count if there is none. Looks at blocks of numbers without a branch for each:
+// bit 31 tells.
 #define SDV_CHECKED 256
 
 static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask, int low, int high)
@@ -1512,7 +1517,7 @@ static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask,
     return i;
 }
 
-// The first float of this exponent or more, biased as in its bits; count if there is none.
+// Finds the first float of this exponent, biased as in its bits, or more; count if there is none.
 #define SDV_ENDLESS 255                 // infinite or not a number
 #define SDV_HUGE 243                    // 2^116 or more
 
@@ -1521,7 +1526,8 @@ static size_t sdv_find_exponent(const float *numbers, size_t count, int exponent
     return sdv_find_outside(numbers, count, 0x7fffffff, 0, exponent << 23);
 }
 
-// The vertex, UV or other value of each face-vertex. With low = -1 a face-vertex may have none.
+// Checks the vertex, UV or other value of each face-vertex, of which there are count. With low = -1
+// a face-vertex may have none.
 static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const int *indices,
                               int low, int count, const char *message)
 {
@@ -1549,8 +1555,7 @@ static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
                           "face %d: UV %d does not exist (the mesh has %d)");
 }
 
-// A list of creases, corners or, without sharpness, of holes. Any sharpness is a number; it may be
-// infinite.
+// Checks a list of creases, corners or, without sharpness, of holes. A sharpness may be infinite.
 static void sdv_check_list(sdv_context *context, const char *what, int count, const int *items,
                            int ends, int most, const float *sharpness)
 {
@@ -1579,8 +1584,8 @@ static int sdv_same_word(const char *a, const char *b)
     return sdv_ends_word(*a) && sdv_ends_word(*b);
 }
 
-// Each statement is one line, of a kind that is kept: any other would change the file that is
-// written.
+// Checks that each statement is one line, of a kind that is kept: any other would change the file
+// that is written.
 static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
 {
     static const char *const words[] = { "g", "o", "s", "usemtl", "mtllib" };
@@ -1599,7 +1604,7 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
     }
 }
 
-// So many numbers each of count things.
+// Checks the numbers of count vectors or, by width 2, of UVs.
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
@@ -1616,7 +1621,7 @@ static void sdv_check_positions(sdv_context *context, const float *positions, in
     else sdv_check_finite(context, "vertex", 3, positions, count);
 }
 
-// Everything but the positions, UVs, colours and normals themselves.
+// Checks everything but the positions, UVs, colours and normals themselves.
 static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 {
     if (!mesh) {
@@ -1642,6 +1647,7 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     sdv_check_list(context, "hole", mesh->hole_count, mesh->holes, 1, mesh->face_count, NULL);
 }
 
+// Checks everything.
 static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 {
     sdv_check_mesh(context, mesh);
@@ -11860,8 +11866,8 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
 // -------------------------------------------------------------------------------- >>normals
 // Normals of any mesh, from its faces alone.
 
-// The normal of a face by Newell's method, as long as twice its area. Returns how long rounding of
-// the coordinates could make it: by FLT_EPSILON / 2 of their size each.
+// Computes the normal of a face by Newell's method, as long as twice its area. Returns how long
+// rounding of the coordinates could make it: by FLT_EPSILON / 2 of their size each.
 //
 //     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
 static double sdv_area_normal(const float *positions, const int *vertices, int size, double n[3])
@@ -11885,7 +11891,7 @@ static double sdv_area_normal(const float *positions, const int *vertices, int s
     return 2 * (double)FLT_EPSILON * largest * perimeter;
 }
 
-// sums: [3 * vertex_count], the normals before they are made 1 long.
+// Sums the normals of the faces at each vertex: sums [3 * vertex_count].
 static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
 {
     const int *v = mesh->face_vertices;
@@ -11926,7 +11932,7 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 #ifndef SUBDIV_NO_TOOLS
 // ---------------------------------------------------------------------------- >>generators
 // Creases from the mesh itself: each generator asks one question of two faces that share an edge.
-// Boundary and non-manifold edges are sharp by shape, nobody asks about them.
+// Boundary and non-manifold edges are sharp by shape: no question is asked about them.
 
 typedef struct sdv_generator {
     subdiv_mesh *mesh;
@@ -11963,8 +11969,8 @@ static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
     if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
 }
 
-// Gives the mesh a longer list: what it had, with sharpness raised where a listed edge is found,
-// then the other edges that are found, in their order.
+// Asks about every edge. Gives the mesh a longer list if any is found: the list that it had, with
+// the sharpness raised of entries that are found, then the other edges that are found, in order.
 static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
                               sdv_question is_crease)
 {
@@ -12009,7 +12015,7 @@ static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
     mesh->memory = owned.blocks;
 }
 
-// Asks about every edge, unless is_crease is NULL.
+// Asks the question, unless it is NULL.
 static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *generator,
                                        sdv_question is_crease)
 {
@@ -12018,7 +12024,7 @@ static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *gene
     return context->result;
 }
 
-// Of length 1. A face that is so thin that rounding could have made it so has none: 0.
+// Computes the normal of face f, 1 long; 0 if the face is as thin as rounding.
 static void sdv_face_normal(const float *positions, const sdv_level *level, int f, double normal[3])
 {
     int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
@@ -12027,7 +12033,8 @@ static void sdv_face_normal(const float *positions, const sdv_level *level, int 
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
 
-// By atan2, which is exact for all angles, where a cosine blurs the small ones.
+// Is the angle between two faces above the limit? atan2 is exact for all angles, where a cosine
+// blurs the small ones.
 static int sdv_is_bent(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
@@ -12057,8 +12064,8 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     return sdv_generator_end(&context, &generator, sdv_is_bent);
 }
 
-// The word that names the smoothing group: "1" for "s 1", "" for "s off" and "s 0" (some programs
-// write "s null"). NULL for other statements.
+// Finds the word that names a smoothing group: "1" in "s 1"; "" for "s off" and "s 0" (some
+// programs write "s null"). NULL for other statements.
 static const char *sdv_smoothing_group(const char *statement)
 {
     if (!sdv_same_word(statement, "s")) return NULL;
@@ -12068,7 +12075,7 @@ static const char *sdv_smoothing_group(const char *statement)
     return sdv_same_word(word, "off") || sdv_same_word(word, "null") ? "" : word;
 }
 
-// The group of every face. Returns 0 if the statements name none, not even "off".
+// Finds the group of every face. Returns 0 if the statements name none, not even "off".
 static int sdv_smoothing_groups(const subdiv_mesh *mesh, const char **groups)
 {
     const char *group = "";
@@ -12085,6 +12092,7 @@ static int sdv_smoothing_groups(const subdiv_mesh *mesh, const char **groups)
     return any;
 }
 
+// Are two faces in different smoothing groups, or the first one in none?
 static int sdv_groups_differ(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
@@ -12106,6 +12114,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, fl
     return sdv_generator_end(&context, &generator, known ? sdv_groups_differ : NULL);
 }
 
+// Do two face-vertices have different UVs, or only one of them any?
 static int sdv_uvs_differ(const subdiv_mesh *mesh, int h, int g)
 {
     int i = mesh->face_uvs[h], j = mesh->face_uvs[g];
@@ -12135,7 +12144,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
 
 // ---------------------------------------------------------------------------- >>inspection
 
-// Counts what is sharp by the lists, as the cage has it, and not by shape.
+// Counts the edges of a cage that has the sharpness of the lists alone.
 static void sdv_count_edges(subdiv_info *info, const sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
@@ -12177,13 +12186,14 @@ static void sdv_count_faces(subdiv_info *info, const sdv_cage *cage)
     }
 }
 
+// Finds the vertex that stands for the piece of v, and shortens the way to it.
 static int sdv_root(int *parent, int v)
 {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
 }
 
-// Pieces, by joining the ends of every edge.
+// Counts the pieces: joins the ends of every edge.
 static void sdv_count_components(subdiv_info *info, const sdv_level *level, int *parent)
 {
     for (int v = 0; v < level->vertex_count; v++) parent[v] = v;
@@ -12233,9 +12243,9 @@ typedef struct sdv_checker {
     int *ends;                          // [2 * edge_count]  vertices of each edge, the lower first
     int *first;                         // [edge_count]  the first edge with the same ends
     int *crease_edges;                  // [crease_count]  -1: no edge
-    int *last;                          // [max of vertices, face-vertices]  to mark things with
+    int *last;                          // [max of vertices, face-vertices]  marks of any things
     int *heads;                         // [mask + 1]  a hash table of vertices or faces: the first
-    int *next;                          // [max of vertices, faces]  one of a list, the next; or -1
+    int *next;                          // [max of vertices, faces]  of each hash, and the next
     size_t mask;
 } sdv_checker;
 
@@ -12254,7 +12264,7 @@ static void sdv_found(const sdv_checker *checker, subdiv_oddity kind, int face, 
     checker->report(checker->user, &finding);
 }
 
-// Edges with more than two faces. (An edge that a face has twice counts once for it.)
+// Reports edges with more than two faces. (An edge that a face has twice counts once for it.)
 static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
@@ -12273,7 +12283,7 @@ static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
     }
 }
 
-// Two faces that run the same way along an edge, unless one of them has it twice.
+// Reports two faces that run the same way along an edge, unless one of them has it twice.
 static void sdv_report_flipped_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
@@ -12294,7 +12304,7 @@ static void sdv_report_flipped_faces(const sdv_checker *checker)
     }
 }
 
-// Marks the face-vertices of one fan around a vertex.
+// Marks the face-vertices of the fan of h around its vertex.
 static void sdv_mark_fan(const sdv_level *level, int h, int *marks)
 {
     for (int at = h; at >= 0 && !marks[at]; at = sdv_clockwise(level, at)) marks[at] = 1;
@@ -12302,6 +12312,7 @@ static void sdv_mark_fan(const sdv_level *level, int h, int *marks)
     for (; at >= 0 && !marks[at]; at = sdv_counter_clockwise(level, at)) marks[at] = 1;
 }
 
+// Reports vertices whose faces are several fans, though all edges there are manifold.
 static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
 {
     const sdv_cage *cage = &checker->cage;
@@ -12323,7 +12334,7 @@ static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
     }
 }
 
-// Bits that have nothing to do with each other for numbers that have.
+// Scatters the bits of a number, for hashing.
 static uint64_t sdv_mix(uint64_t x)
 {
     x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
@@ -12331,7 +12342,7 @@ static uint64_t sdv_mix(uint64_t x)
     return x ^ (x >> 32);
 }
 
-// The first of the items 0 to i that is the same as i: i itself if there is none before.
+// Returns the first of the items 0 to i that is the same as i: i itself if there is none before.
 static int sdv_first_same(const sdv_checker *checker, int i, uint64_t hash,
                           int (*same)(const sdv_checker *checker, int i, int j))
 {
@@ -12342,7 +12353,7 @@ static int sdv_first_same(const sdv_checker *checker, int i, uint64_t hash,
     return *head = i;
 }
 
-// Do two faces have the same vertices, as often each? checker->last is 0, before and after.
+// Do two faces have the same vertices, each as often? checker->last is 0, before and after.
 static int sdv_same_vertices(const sdv_checker *checker, int f, int g)
 {
     const sdv_level *level = &checker->cage.level;
@@ -12367,7 +12378,7 @@ static void sdv_report_duplicate_faces(const sdv_checker *checker)
     for (int v = 0; v < level->vertex_count; v++) checker->last[v] = 0;
     for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int f = 0; f < level->face_count; f++) {
-        uint64_t sum = 0;                           // whatever the order
+        uint64_t sum = 0;                           // the same in any order
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
             sum += sdv_mix((uint64_t)level->face_vertices[h] + 1);
         int first = sdv_first_same(checker, f, sdv_mix(sum), sdv_same_vertices);
@@ -12377,7 +12388,7 @@ static void sdv_report_duplicate_faces(const sdv_checker *checker)
     }
 }
 
-// Says the worst that a face repeats: a vertex twice in a row, an edge, or just a vertex.
+// Reports the worst that each face repeats: a vertex twice in a row, an edge, or just a vertex.
 static void sdv_report_repeated_vertices(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
@@ -12460,12 +12471,13 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     }
 }
 
-// Entries of a list of items, most of them at most: of edges (ends: 2), vertices (1) or faces (0).
-static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int most,
+// Reports entries of a list that name an item once more. There are so many items: edges (ends: 2),
+// vertices (1) or faces (0).
+static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int items,
                              int ends, const char *format)
 {
     int *last = checker->last;
-    for (int i = 0; i < most; i++) last[i] = -1;
+    for (int i = 0; i < items; i++) last[i] = -1;
     for (int i = 0; i < count; i++) {
         int item = list[i];
         if (item < 0) continue;
@@ -14489,8 +14501,8 @@ static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double fa
     x->weights[*point] += left;
 }
 
-// Finds the weights of the cage's vertices: by the row of the point, then by those of the face
-// points in it.
+// Finds the weights of the cage's vertices: from the row of the point, then from the rows of the
+// face points in it.
 static void sdv_find_mask(sdv_explainer *x)
 {
     sdv_level *level = &x->cage.level;
@@ -14544,7 +14556,7 @@ static void sdv_say_blanks(sdv_explainer *x, size_t count)
     while (count--) sdv_say(x->out, " ");
 }
 
-// One line a weight, with all the vertices that have it.
+// Writes one line for each weight, with all the vertices that have it.
 static void sdv_say_table(sdv_explainer *x)
 {
     size_t width = 6;                               // of the weights
@@ -14664,7 +14676,7 @@ static void sdv_say_mask(sdv_explainer *x)
 
 // ---- vertices
 
-// A blend of two formulas, each with a letter as its name.
+// Writes the blend of two formulas, which are named by a letter each.
 static void sdv_say_blend(sdv_explainer *x, const char *name, double weight, const char *sharp,
                           const char *smooth)
 {
@@ -14673,7 +14685,7 @@ static void sdv_say_blend(sdv_explainer *x, const char *name, double weight, con
             sdv_fraction(1 - weight, less), smooth);
 }
 
-// The formula of a rule at a vertex of valence n.
+// Writes the formula of a rule at a vertex of valence n.
 static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
 {
     char text[32];
@@ -14691,7 +14703,7 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
                 "  [CC78]\n", n);
 }
 
-// What the letters in the formulas of two rules are.
+// Says what the letters in the formulas of two rules stand for.
 static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
 {
     int crease = rule == SDV_CREASE || next == SDV_CREASE;
@@ -14711,7 +14723,7 @@ static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
     else sdv_say(x->out, ", of sharpness %s", text);
 }
 
-// The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
+// Names the edge of h by its ends: vertex v first if it is one, else the lower-numbered one.
 static void sdv_say_edge(sdv_explainer *x, int h, int v)
 {
     const sdv_level *level = &x->cage.level;
@@ -14804,7 +14816,7 @@ static void sdv_explain_vertex(sdv_explainer *x, int v)
 
 // ---- edges and faces
 
-// The formula of the smooth point of the edge of h.
+// Writes the formula of the smooth point of the edge of h.
 static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
 {
     const sdv_level *level = &x->cage.level;
@@ -14870,7 +14882,7 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
             ", and f and g the face points beside it");
 }
 
-// The first line, the words, the mask.
+// Writes the first line, the words, the mask.
 static void sdv_explain_point(sdv_explainer *x, int point)
 {
     sdv_level *level = &x->cage.level;
@@ -14891,7 +14903,7 @@ static void sdv_explain_point(sdv_explainer *x, int point)
     sdv_say_mask(x);
 }
 
-// Finds what kind of point it is, and which of these.
+// Finds out of what vertex, edge or face a point is made.
 static void sdv_find_point(sdv_explainer *x, int point)
 {
     static const char *const names[] = { "vertices", "edges", "faces" };
