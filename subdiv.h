@@ -12244,8 +12244,8 @@ typedef struct sdv_checker {
     int *first;                         // [edge_count]  the first edge with the same ends
     int *crease_edges;                  // [crease_count]  -1: no edge
     int *last;                          // [max of vertices, face-vertices]  marks of any things
-    int *heads;                         // [mask + 1]  a hash table of vertices or faces: the first
-    int *next;                          // [max of vertices, faces]  of each hash, and the next
+    int *heads;                         // [mask + 1]  a hash table of any things: the first one
+    int *next;                          // [as last]   of each hash, and the next one; or -1
     size_t mask;
 } sdv_checker;
 
@@ -12512,31 +12512,48 @@ static void sdv_report_partial_uvs(const sdv_checker *checker)
     }
 }
 
+static int sdv_same_ends(const sdv_checker *checker, int d, int e)
+{
+    return memcmp(checker->ends + 2 * (size_t)d, checker->ends + 2 * (size_t)e,
+                  2 * sizeof(int)) == 0;
+}
+
+// Finds the ends of each edge and the first edge that has them: another one if a face has it twice.
+static void sdv_find_ends(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e], a = level->face_vertices[h];
+        int b = level->face_vertices[sdv_next(level, h)], low = a < b ? a : b;
+        checker->ends[2 * e] = low;
+        checker->ends[2 * e + 1] = a + b - low;
+        checker->first[e] = e;
+        if (checker->cage.edge_nonmanifold[e])
+            checker->first[e] = sdv_first_same(checker, e, sdv_mix(((uint64_t)low << 32) +
+                                               (uint64_t)(a + b - low)), sdv_same_ends);
+    }
+}
+
 static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checker *checker,
                               const subdiv_mesh *mesh)
 {
     const sdv_level *level = &checker->cage.level;
     checker->mesh = mesh;
     sdv_plain_cage(context, arena, &checker->cage, mesh);
-    int edges = level->edge_count, vertices = mesh->vertex_count, faces = mesh->face_count;
-    int items = vertices > faces ? vertices : faces, all = level->face_vertex_count;
+    int edges = level->edge_count, vertices = mesh->vertex_count;
+    int items = level->face_vertex_count > vertices ? level->face_vertex_count : vertices;
     checker->mask = 1;
-    while (checker->mask < 2 * (size_t)items) checker->mask = 2 * checker->mask + 1;
+    while (checker->mask < (size_t)items) checker->mask = 2 * checker->mask + 1;
     checker->ends = SDV_NEW(context, arena, int, 2 * (size_t)edges);
     checker->first = SDV_NEW(context, arena, int, edges);
     checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
-    checker->last = SDV_NEW(context, arena, int, all > vertices ? all : vertices);
+    checker->last = SDV_NEW(context, arena, int, items);
     checker->heads = SDV_NEW(context, arena, int, checker->mask + 1);
     checker->next = SDV_NEW(context, arena, int, items);
-    for (int e = 0; e < edges && !context->result; e++) {
-        int h = level->edge_first[e], a = level->face_vertices[h];
-        int b = level->face_vertices[sdv_next(level, h)];
-        checker->ends[2 * e] = a < b ? a : b;
-        checker->ends[2 * e + 1] = a < b ? b : a;
-    }
-    sdv_find_edges(context, level, checker->ends, edges, checker->first);
     sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count,
                    checker->crease_edges);
+    if (!context->result) sdv_find_ends(checker);
 }
 
 SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
@@ -14456,8 +14473,8 @@ typedef struct sdv_explainer {
     sdv_point_kind kind;                // of the point,
     int          item;                  // of this vertex, edge or face
     double      *weights;               // [vertices, faces] its mask
-    int         *order;                 // [vertices] those of all groups
-    sdv_group   *groups;                // [vertices]
+    int         *order;                 // [vertices] those that have a weight, heavy ones first
+    sdv_group   *groups;                // [vertices] the order cut into groups
     int          group_count;
 } sdv_explainer;
 
@@ -14529,25 +14546,30 @@ static void sdv_find_mask(sdv_explainer *x)
     sdv_writer_free(&writer);
 }
 
-// Puts the vertices that have a weight into groups of the same weight, heavy ones first.
+// Puts the vertices that have a weight in order, and those of the same weight in a group.
 static void sdv_find_groups(sdv_explainer *x)
 {
-    double *w = x->weights;
-    for (int vertices = x->cage.level.vertex_count, count = 0;;) {
-        int heavy = -1;
-        for (int v = 0; v < vertices; v++)
-            if (fabs(w[v]) > 0 && (heavy < 0 || w[v] > w[heavy])) heavy = v;
-        if (heavy < 0) return;
-        double least = w[heavy] - 1e-6 * fabs(w[heavy]);
-        sdv_group *group = &x->groups[x->group_count++];
-        group->vertices = x->order + count;
-        group->size = 0;
-        for (int v = 0; v < vertices; v++) {
-            if (!(fabs(w[v]) > 0 && w[v] > least)) continue;
-            if (group->size++ == 0) sdv_fraction(w[v], group->text);
-            x->order[count++] = v;
-            w[v] = 0;
+    const double *w = x->weights;
+    int *order = x->order, count = 0;
+    double least = 0;                               // of the last group
+    for (int v = 0; v < x->cage.level.vertex_count; v++) {
+        int at = count;
+        if (!(fabs(w[v]) > 0)) continue;
+        for (; at > 0 && w[order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
+            order[at] = order[at - 1];
+        order[at] = v;
+        count++;
+    }
+    for (int i = 0; i < count; i++) {
+        double weight = w[order[i]];
+        if (i == 0 || weight <= least) {
+            sdv_group *group = &x->groups[x->group_count++];
+            sdv_fraction(weight, group->text);
+            group->vertices = order + i;
+            group->size = 0;
+            least = weight - 1e-6 * fabs(weight);
         }
+        x->groups[x->group_count - 1].size++;
     }
 }
 
