@@ -1244,13 +1244,10 @@ SUBDIV_DEF const char *subdiv_result_string(subdiv_result result)
     return i >= 0 && i < SUBDIV_RESULT_COUNT ? texts[i] : "unknown result";
 }
 
+// Begins a call of the library, without an error so far.
 static sdv_context sdv_begin(const subdiv_options *opt)
 {
-    sdv_context context = { SUBDIV_OK, NULL, NULL, NULL };
-    if (opt) {
-        context.error = opt->error;
-        context.user = opt->user;
-    }
+    sdv_context context = { SUBDIV_OK, opt ? opt->error : NULL, opt ? opt->user : NULL, NULL };
     if (context.error) {
         context.error->code = SUBDIV_OK;
         context.error->line = 0;
@@ -1272,7 +1269,7 @@ static void sdv_put(sdv_text *out, const char *text, size_t size)
     out->text[out->size] = 0;
 }
 
-// The decimal digits of a number, at most 20, written backwards from end; returns the first.
+// Writes the decimal digits of a number, at most 20, backwards from end; returns the first.
 static char *sdv_digits(char *end, uint64_t number)
 {
     do {
@@ -1282,71 +1279,63 @@ static char *sdv_digits(char *end, uint64_t number)
     return end;
 }
 
-static void sdv_put_int(sdv_text *out, int number)
-{
-    char digits[24];
-    uint64_t size = number < 0 ? (uint64_t)-(int64_t)number : (uint64_t)number;
-    char *first = sdv_digits(digits + sizeof digits, size);
-    if (number < 0) *--first = '-';
-    sdv_put(out, first, (size_t)(digits + sizeof digits - first));
-}
-
-// printf for messages, without locale or stdio. %d: int; %s: text; %t: pointer and int, so many
-// bytes, cut short after 40.
+// Adds text as printf does, without locale or stdio. %d: int; %s: text; %t: pointer and int, so
+// many bytes, cut short after 40.
 static void sdv_format(sdv_text *out, const char *format, va_list args)
 {
     for (const char *p = format; *p; p++) {
         if (*p != '%') {
             sdv_put(out, p, 1);
-            continue;
-        }
-        p++;
-        if (*p == 'd') {
-            sdv_put_int(out, va_arg(args, int));
-        } else if (*p == 's') {
-            const char *text = va_arg(args, const char *);
-            sdv_put(out, text, strlen(text));
+        } else if (*++p == 'd') {
+            char digits[24], *end = digits + sizeof digits;
+            int number = va_arg(args, int);
+            char *first = sdv_digits(end, (uint64_t)(number < 0 ? -(int64_t)number : number));
+            if (number < 0) *--first = '-';
+            sdv_put(out, first, (size_t)(end - first));
         } else {
             const char *text = va_arg(args, const char *);
-            int size = va_arg(args, int);
-            sdv_put(out, text, (size_t)(size < 40 ? size : 40));
+            int size = *p == 't' ? va_arg(args, int) : 0;
+            sdv_put(out, text, *p == 's' ? strlen(text) : (size_t)(size < 40 ? size : 40));
             if (size > 40) sdv_put(out, "...", 3);
         }
     }
 }
 
-// "cage.obj:44: ", where the message belongs to a line. Of a long path the end is kept.
-static void sdv_put_place(sdv_text *out, const char *name, int line)
+static void sdv_say(sdv_text *out, const char *format, ...)
 {
-    if (name) {
-        size_t size = strlen(name), skip = size > 100 ? size - 100 : 0;
-        if (skip) sdv_put(out, "...", 3);
-        sdv_put(out, name + skip, size - skip);
-        sdv_put(out, ":", 1);
-    } else if (line) {
-        sdv_put(out, "line ", 5);
-    }
-    if (line) {
-        sdv_put_int(out, line);
-        sdv_put(out, ":", 1);
-    }
-    if (name || line) sdv_put(out, " ", 1);
+    va_list args;
+    va_start(args, format);
+    sdv_format(out, format, args);
+    va_end(args);
 }
 
+// Writes a message after the file and line that it is about, if any: "cage.obj:44: ". Keeps the end
+// of a long path.
+static void sdv_say_at(char text[256], const char *name, int line, const char *format,
+                       va_list args)
+{
+    sdv_text out = { text, 0, 256 };
+    size_t size = name ? strlen(name) : 0;
+    if (size > 100) sdv_say(&out, "...%s:", name + size - 100);
+    else if (name) sdv_say(&out, "%s:", name);
+    if (line) sdv_say(&out, name ? "%d:" : "line %d:", line);
+    if (name || line) sdv_put(&out, " ", 1);
+    sdv_format(&out, format, args);
+}
+
+// Notes an error and its place, if it is the first one of a call.
 static void sdv_fail_at(sdv_context *context, subdiv_result code, int line, int face, int vertex,
                         const char *format, va_list args)
 {
+    subdiv_error *error = context->error;
     if (context->result) return;
     context->result = code;
-    if (!context->error) return;
-    subdiv_error *error = context->error;
+    if (!error) return;
     error->code = code;
     error->line = line;
     error->face = face;
     error->vertex = vertex;
-    sdv_text out = { error->message, 0, sizeof error->message };
-    sdv_put_place(&out, context->name, line);
-    sdv_format(&out, format, args);
+    sdv_say_at(error->message, context->name, line, format, args);
 }
 
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...)
@@ -1366,15 +1355,14 @@ static void sdv_fail_mesh(sdv_context *context, subdiv_result code, int face, in
     va_end(args);
 }
 
+// Counts a warning, and keeps the text of the first one.
 static void sdv_warn(sdv_context *context, int line, const char *format, ...)
 {
     subdiv_error *error = context->error;
     if (!error || error->warning_count == INT_MAX || error->warning_count++ > 0) return;
     va_list args;
     va_start(args, format);
-    sdv_text out = { error->warning, 0, sizeof error->warning };
-    sdv_put_place(&out, context->name, line);
-    sdv_format(&out, format, args);
+    sdv_say_at(error->warning, context->name, line, format, args);
     va_end(args);
 }
 
@@ -1386,7 +1374,7 @@ SDV_INLINE int sdv_face_size(const subdiv_mesh *mesh, int face)
     return mesh->face_size ? mesh->face_size : mesh->face_sizes[face];
 }
 
-// All faces together, in face-vertices.
+// Counts the face-vertices of all faces.
 static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
 {
     if (mesh->face_size) return (size_t)mesh->face_count * (size_t)mesh->face_size;
@@ -1395,12 +1383,26 @@ static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
     return count;
 }
 
-static void sdv_check_array(sdv_context *context, const char *name, int count, const void *array)
+// Is every array there that has a count?
+static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
 {
-    if (count < 0)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "%s: the count is %d", name, count);
-    else if (count > 0 && !array)
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "%s is NULL, its count %d", name, count);
+    const struct { const char *name; int count; const void *array; } arrays[] = {
+        { "face_vertices",    mesh->face_count,                         mesh->face_vertices },
+        { "face_sizes",       mesh->face_size ? 0 : mesh->face_count,   mesh->face_sizes },
+        { "crease_vertices",  mesh->crease_count,                       mesh->crease_vertices },
+        { "crease_sharpness", mesh->crease_count,                       mesh->crease_sharpness },
+        { "corner_vertices",  mesh->corner_count,                       mesh->corner_vertices },
+        { "corner_sharpness", mesh->corner_count,                       mesh->corner_sharpness },
+        { "holes",            mesh->hole_count,                         mesh->holes },
+        { "uvs",              mesh->uv_count,                           mesh->uvs },
+        { "face_uvs",         mesh->uv_count ? mesh->face_count : 0,    mesh->face_uvs },
+        { "statement_faces",  mesh->statement_count,                    mesh->statement_faces },
+        { "statements",       mesh->statement_count,                    mesh->statements }
+    };
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (arrays[i].count < 0 || (arrays[i].count > 0 && !arrays[i].array))
+            sdv_fail(context, SUBDIV_ERROR_ARGUMENT, arrays[i].count < 0 ? "%s: the count is %d"
+                     : "%s is NULL, its count %d", arrays[i].name, arrays[i].count);
 }
 
 static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
@@ -1418,7 +1420,7 @@ static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
                      rules[i].name, rules[i].value);
 }
 
-// The face that a face-vertex belongs to.
+// Finds the face that a face-vertex belongs to.
 static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
 {
     int f = 0;
@@ -1427,43 +1429,49 @@ static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
     return f;
 }
 
-// Numbers are checked by the block, without a branch for each: bit 31 tells.
+// Finds the first of count numbers, each of 4 bytes, whose bits of the mask are not at least low
+// and below high; count if there is none. Looks at blocks of numbers without a branch for each:
+// bit 31 tells.
 #define SDV_CHECKED 256
 
-// The first number that is not at least low and below high; count if there is none.
-static size_t sdv_find_outside(const int *numbers, size_t count, int low, int high)
+static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask, int low, int high)
 {
+    const char *number = (const char *)numbers;
+    uint32_t least = (uint32_t)low, most = (uint32_t)high - 1, bad = 0, n;
     size_t i = 0;
-    for (unsigned bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
-        for (size_t k = 0; k < SDV_CHECKED; k++)
-            bad |= ((unsigned)numbers[i + k] - (unsigned)low) |
-                   ((unsigned)high - 1 - (unsigned)numbers[i + k]);
-        if (bad >> 31) break;
+    for (; count - i >= SDV_CHECKED && !(bad >> 31); i += SDV_CHECKED)
+        for (size_t k = 0; k < SDV_CHECKED; k++) {
+            memcpy(&n, number + 4 * (i + k), 4);
+            bad |= ((n & mask) - least) | (most - (n & mask));
+        }
+    if (bad >> 31) i -= SDV_CHECKED;
+    for (; i < count; i++) {
+        memcpy(&n, number + 4 * i, 4);
+        if ((((n & mask) - least) | (most - (n & mask))) >> 31) break;
     }
-    while (i < count && numbers[i] >= low && numbers[i] < high) i++;
     return i;
 }
 
-// The first float of this exponent or more, biased as in its bits; count if there is none.
+// Finds the first float of this exponent, biased as in its bits, or more; count if there is none.
 #define SDV_ENDLESS 255                 // infinite or not a number
 #define SDV_HUGE 243                    // 2^116 or more
 
-static size_t sdv_find_exponent(const float *numbers, size_t count, uint32_t exponent)
+static size_t sdv_find_exponent(const float *numbers, size_t count, int exponent)
 {
-    uint32_t lack = (256 - exponent) << 23, bits;
-    size_t i = 0;
-    for (uint32_t bad = 0; count - i >= SDV_CHECKED; i += SDV_CHECKED) {
-        for (size_t k = 0; k < SDV_CHECKED; k++) {
-            memcpy(&bits, &numbers[i + k], sizeof bits);
-            bad |= (bits & 0x7fffffff) + lack;
-        }
-        if (bad >> 31) break;
-    }
-    for (; i < count; i++) {
-        memcpy(&bits, &numbers[i], sizeof bits);
-        if ((bits & 0x7fffffff) >> 23 >= exponent) break;
-    }
-    return i;
+    return sdv_find_outside(numbers, count, 0x7fffffff, 0, exponent << 23);
+}
+
+// Checks the vertex, UV or other value of each face-vertex, of which there are count. With low = -1
+// a face-vertex may have none.
+static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const int *indices,
+                              int low, int count, const char *message)
+{
+    size_t all = sdv_face_vertex_count(mesh);
+    size_t i = sdv_find_outside(indices, all, 0xffffffff, low, count);
+    if (i == all) return;
+    int f = sdv_find_face(mesh, i);
+    sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, low ? -1 : indices[i], message, f, indices[i],
+                  count);
 }
 
 static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
@@ -1475,47 +1483,44 @@ static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
             return;
         }
     }
-    size_t count = sdv_face_vertex_count(mesh), i;
-    i = sdv_find_outside(mesh->face_vertices, count, 0, mesh->vertex_count);
-    if (i < count) {
-        int f = sdv_find_face(mesh, i), v = mesh->face_vertices[i];
-        sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, v,
-                      "face %d: vertex %d does not exist (the mesh has %d)", f, v,
-                      mesh->vertex_count);
-    }
-    i = mesh->uv_count ? sdv_find_outside(mesh->face_uvs, count, -1, mesh->uv_count) : count;
-    if (i < count) {
-        int f = sdv_find_face(mesh, i);
-        sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                      "face %d: UV %d does not exist (the mesh has %d)", f, mesh->face_uvs[i],
-                      mesh->uv_count);
-    }
+    sdv_check_indices(context, mesh, mesh->face_vertices, 0, mesh->vertex_count,
+                      "face %d: vertex %d does not exist (the mesh has %d)");
+    if (mesh->uv_count)
+        sdv_check_indices(context, mesh, mesh->face_uvs, -1, mesh->uv_count,
+                          "face %d: UV %d does not exist (the mesh has %d)");
 }
 
-// The vertices of creases or corners, and their sharpness: any number, infinity included.
-static void sdv_check_sharp(sdv_context *context, const subdiv_mesh *mesh, const char *what,
-                            int count, int ends, const int *vertices, const float *sharpness)
+// Checks a list of creases, corners or, without sharpness, of holes. A sharpness may be infinite.
+static void sdv_check_list(sdv_context *context, const char *what, int count, const int *items,
+                           int ends, int most, const float *sharpness)
 {
     for (int i = 0; i < count && !context->result; i++) {
-        for (int j = 0; j < ends; j++) {
-            int v = vertices[ends * i + j];
-            if (v < 0 || v >= mesh->vertex_count)
-                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, -1, v,
-                              "%s %d: vertex %d does not exist (the mesh has %d)",
-                              what, i, v, mesh->vertex_count);
-        }
-        if (sharpness[i] != sharpness[i])
-            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, vertices[ends * i],
+        for (int j = ends * i; j < ends * (i + 1); j++)
+            if (items[j] < 0 || items[j] >= most)
+                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, sharpness ? -1 : items[j],
+                              sharpness ? items[j] : -1,
+                              "%s %d: %s %d does not exist (the mesh has %d)", what, i,
+                              sharpness ? "vertex" : "face", items[j], most);
+        if (sharpness && sharpness[i] != sharpness[i])
+            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, items[ends * i],
                           "%s %d: the sharpness is not a number", what, i);
     }
 }
 
-// One line each, of the kinds that are kept: anything else would change the file that is written.
 static int sdv_ends_word(char c)
 {
     return c == 0 || c == ' ' || c == '\t';
 }
 
+// Do two texts begin with the same word?
+static int sdv_same_word(const char *a, const char *b)
+{
+    while (!sdv_ends_word(*a) && *a == *b) a++, b++;
+    return sdv_ends_word(*a) && sdv_ends_word(*b);
+}
+
+// Checks that each statement is one line, of a kind that is kept: any other would change the file
+// that is written.
 static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
 {
     static const char *const words[] = { "g", "o", "s", "usemtl", "mtllib" };
@@ -1526,10 +1531,7 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
             sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, face, -1,
                           face < last ? "statement %d: face %d is not in order"
                                       : "statement %d: face %d does not exist", i, face);
-        for (int k = 0; k < 5 && text; k++) {
-            size_t size = strlen(words[k]);
-            known |= strncmp(text, words[k], size) == 0 && sdv_ends_word(text[size]);
-        }
+        for (int k = 0; k < 5 && text; k++) known |= sdv_same_word(text, words[k]);
         if (!known || strpbrk(text, "\r\n"))
             sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
                      "statement %d is not a line with g, o, s, usemtl or mtllib", i);
@@ -1537,19 +1539,7 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
     }
 }
 
-// Values at the vertices of faces.
-static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, int value_count,
-                              const int *indices)
-{
-    size_t count = sdv_face_vertex_count(mesh);
-    size_t i = sdv_find_outside(indices, count, -1, value_count);
-    if (i == count) return;
-    int f = sdv_find_face(mesh, i);
-    sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, -1,
-                  "face %d: value %d does not exist (there are %d)", f, indices[i], value_count);
-}
-
-// So many numbers each of count things.
+// Checks the numbers of count vectors or, by width 2, of UVs.
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
@@ -1566,7 +1556,7 @@ static void sdv_check_positions(sdv_context *context, const float *positions, in
     else sdv_check_finite(context, "vertex", 3, positions, count);
 }
 
-// Everything but the positions, UVs, colours and normals themselves.
+// Checks everything but the positions, UVs, colours and normals themselves.
 static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 {
     if (!mesh) {
@@ -1576,18 +1566,7 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     if (mesh->vertex_count == 0) sdv_fail(context, SUBDIV_ERROR_EMPTY, "the mesh has no vertices");
     if (mesh->vertex_count < 0)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "vertex_count is %d", mesh->vertex_count);
-    sdv_check_array(context, "face_vertices", mesh->face_count, mesh->face_vertices);
-    if (mesh->face_size == 0)
-        sdv_check_array(context, "face_sizes", mesh->face_count, mesh->face_sizes);
-    sdv_check_array(context, "crease_vertices", mesh->crease_count, mesh->crease_vertices);
-    sdv_check_array(context, "crease_sharpness", mesh->crease_count, mesh->crease_sharpness);
-    sdv_check_array(context, "corner_vertices", mesh->corner_count, mesh->corner_vertices);
-    sdv_check_array(context, "corner_sharpness", mesh->corner_count, mesh->corner_sharpness);
-    sdv_check_array(context, "holes", mesh->hole_count, mesh->holes);
-    sdv_check_array(context, "uvs", mesh->uv_count, mesh->uvs);
-    if (mesh->uv_count) sdv_check_array(context, "face_uvs", mesh->face_count, mesh->face_uvs);
-    sdv_check_array(context, "statement_faces", mesh->statement_count, mesh->statement_faces);
-    sdv_check_array(context, "statements", mesh->statement_count, mesh->statements);
+    sdv_check_arrays(context, mesh);
     sdv_check_rules(context, mesh);
     uint64_t size = mesh->face_size > 0 ? (uint64_t)mesh->face_size : 0;
     if (size * (uint64_t)mesh->face_count > PTRDIFF_MAX / sizeof(int))
@@ -1596,17 +1575,14 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 
     sdv_check_faces(context, mesh);
     sdv_check_statements(context, mesh);
-    sdv_check_sharp(context, mesh, "crease", mesh->crease_count, 2, mesh->crease_vertices,
-                    mesh->crease_sharpness);
-    sdv_check_sharp(context, mesh, "corner", mesh->corner_count, 1, mesh->corner_vertices,
-                    mesh->corner_sharpness);
-    for (int i = 0; i < mesh->hole_count && !context->result; i++)
-        if (mesh->holes[i] < 0 || mesh->holes[i] >= mesh->face_count)
-            sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, mesh->holes[i], -1,
-                          "hole %d: face %d does not exist (the mesh has %d)",
-                          i, mesh->holes[i], mesh->face_count);
+    sdv_check_list(context, "crease", mesh->crease_count, mesh->crease_vertices, 2,
+                   mesh->vertex_count, mesh->crease_sharpness);
+    sdv_check_list(context, "corner", mesh->corner_count, mesh->corner_vertices, 1,
+                   mesh->vertex_count, mesh->corner_sharpness);
+    sdv_check_list(context, "hole", mesh->hole_count, mesh->holes, 1, mesh->face_count, NULL);
 }
 
+// Checks everything.
 static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 {
     sdv_check_mesh(context, mesh);
@@ -4849,7 +4825,8 @@ static void sdv_check_carried(sdv_context *context, const sdv_request *r)
     } else if (r->values.rule < 0 || r->values.rule > SUBDIV_UV_NONE) {
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "rule is %d", (int)r->values.rule);
     } else {
-        sdv_check_indices(context, cage, r->values.count, r->values.indices);
+        sdv_check_indices(context, cage, r->values.indices, -1, r->values.count,
+                          "face %d: value %d does not exist (there are %d)");
     }
 }
 
@@ -12077,8 +12054,8 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
 // -------------------------------------------------------------------------------- >>normals
 // Normals of any mesh, from its faces alone.
 
-// The normal of a face by Newell's method, as long as twice its area. Returns how long rounding of
-// the coordinates could make it: by FLT_EPSILON / 2 of their size each.
+// Computes the normal of a face by Newell's method, as long as twice its area. Returns how long
+// rounding of the coordinates could make it: by FLT_EPSILON / 2 of their size each.
 //
 //     N = sum of (p - o) x (q - o) over the edges p q of the face, o any point; |N| = 2 area
 static double sdv_area_normal(const float *positions, const int *vertices, int size, double n[3])
@@ -12102,7 +12079,7 @@ static double sdv_area_normal(const float *positions, const int *vertices, int s
     return 2 * (double)FLT_EPSILON * largest * perimeter;
 }
 
-// sums: [3 * vertex_count], the normals before they are made 1 long.
+// Sums the normals of the faces at each vertex: sums [3 * vertex_count].
 static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
 {
     const int *v = mesh->face_vertices;
@@ -12143,12 +12120,13 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 #ifndef SUBDIV_NO_TOOLS
 // ---------------------------------------------------------------------------- >>generators
 // Creases from the mesh itself: each generator asks one question of two faces that share an edge.
-// Boundary and non-manifold edges are sharp by shape, nobody asks about them.
+// Boundary and non-manifold edges are sharp by shape: no question is asked about them.
 
 typedef struct sdv_generator {
-    const subdiv_mesh *mesh;
+    subdiv_mesh *mesh;
+    float sharpness;                    // of the creases that are found
     sdv_arena arena;
-    sdv_cage cage;                      // without the mesh's lists
+    sdv_cage cage;                      // without creases and corners
     double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
     double limit;                       // radians
     const char **groups;                // [face_count]      smoothing groups; "": none
@@ -12157,72 +12135,66 @@ typedef struct sdv_generator {
 // Is the edge sharp along which one face runs from face-vertex h, the other back from g?
 typedef int (*sdv_question)(const sdv_generator *generator, int h, int g);
 
-// A mesh and its edges, without its lists: sharp is what is no edge of two faces.
+// Builds a cage without the mesh's creases and corners, so that only edges without two faces are
+// sharp; and without the boundary rule, so that only the mesh's own holes are holes.
 static void sdv_plain_cage(sdv_context *context, sdv_arena *arena, sdv_cage *cage,
                            const subdiv_mesh *mesh)
 {
     subdiv_mesh shape = *mesh;
-    shape.crease_count = shape.corner_count = shape.hole_count = 0;
+    shape.crease_count = shape.corner_count = 0;
+    shape.boundary = SUBDIV_BOUNDARY_EDGE;
     sdv_cage_build(context, arena, arena, cage, &shape);
 }
 
 static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
-                                const subdiv_mesh *mesh, float sharpness)
+                                subdiv_mesh *mesh, float sharpness)
 {
     memset(generator, 0, sizeof *generator);
     generator->mesh = mesh;
+    generator->sharpness = sharpness;
     if (sharpness != sharpness)
         sdv_fail(context, SUBDIV_ERROR_NOT_FINITE, "the sharpness is not a number");
     if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
 }
 
-// Marks the edges that are found: finds[e]. Returns how many.
-static int sdv_find_creases(const sdv_generator *generator, sdv_question is_crease,
-                            unsigned char *finds)
+// Asks about every edge. Gives the mesh a longer list if any is found: the list that it had, with
+// the sharpness raised of entries that are found, then the other edges that are found, in order.
+static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
+                              sdv_question is_crease)
 {
     const sdv_level *level = &generator->cage.level;
-    int count = 0;
-    for (int e = 0; e < level->edge_count; e++) {
-        int h = level->edge_first[e], g = sdv_across(level, h);
-        finds[e] = g >= 0 && is_crease(generator, h, g);
-        count += finds[e];
-    }
-    return count;
-}
-
-// Gives the mesh a longer list: what it had, with sharpness raised where a listed edge is found,
-// then the other edges that are found, in their order.
-static void sdv_lengthen_creases(sdv_context *context, sdv_generator *generator, subdiv_mesh *mesh,
-                                 const unsigned char *finds, float sharpness)
-{
-    const sdv_level *level = &generator->cage.level;
+    subdiv_mesh *mesh = generator->mesh;
     sdv_arena owned = sdv_new_arena(0);
     owned.blocks = (sdv_block *)mesh->memory;
-    int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
     int *listed = SDV_NEW(context, &generator->arena, int, mesh->crease_count);
+    int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
+    int *found = SDV_NEW(context, &generator->arena, int, level->edge_count);
+    size_t count = (size_t)mesh->crease_count, finds = 0;
     sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, listed);
     if (context->result) return;
-    size_t old = (size_t)mesh->crease_count, count = old;
-    for (int e = 0; e < level->edge_count; e++) entry[e] = -1;
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e], g = sdv_across(level, h);
+        if (g >= 0 && is_crease(generator, h, g)) found[finds++] = e;
+        entry[e] = -1;
+    }
     for (int i = 0; i < mesh->crease_count; i++)
         if (listed[i] >= 0) entry[listed[i]] = i;   // the last one counts
-    for (int e = 0; e < level->edge_count; e++) count += finds[e] && entry[e] < 0;
-    if (count > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
-    int *vertices = (int *)sdv_new(context, &owned, count, 2 * sizeof(int) + sizeof(float));
+    if (finds == 0) return;
+    if (count + finds > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
+    int *vertices = (int *)sdv_new(context, &owned, count + finds, 2 * sizeof(int) + sizeof(float));
     if (context->result) return;
 
-    float *sharp = (float *)(void *)(vertices + 2 * count);
-    sdv_copy(vertices, mesh->crease_vertices, old, 2 * sizeof(int));
-    sdv_copy(sharp, mesh->crease_sharpness, old, sizeof(float));
-    for (int e = 0; e < level->edge_count; e++) {
-        if (finds[e] && entry[e] >= 0) {
-            float *old_one = sharp + entry[e];
-            if (*old_one < sharpness) *old_one = sharpness;
-        } else if (finds[e]) {
-            int h = level->edge_first[e];
-            vertices[2 * old] = level->face_vertices[h];
-            vertices[2 * old + 1] = level->face_vertices[sdv_next(level, h)];
-            sharp[old++] = sharpness;
+    float *sharp = (float *)(void *)(vertices + 2 * (count + finds));
+    sdv_copy(vertices, mesh->crease_vertices, count, 2 * sizeof(int));
+    sdv_copy(sharp, mesh->crease_sharpness, count, sizeof(float));
+    for (size_t i = 0; i < finds; i++) {
+        int e = found[i], h = level->edge_first[e];
+        if (entry[e] < 0) {
+            vertices[2 * count] = level->face_vertices[h];
+            vertices[2 * count + 1] = level->face_vertices[sdv_next(level, h)];
+            sharp[count++] = generator->sharpness;
+        } else if (sharp[entry[e]] < generator->sharpness) {
+            sharp[entry[e]] = generator->sharpness;
         }
     }
     mesh->crease_count = (int)count;
@@ -12231,27 +12203,26 @@ static void sdv_lengthen_creases(sdv_context *context, sdv_generator *generator,
     mesh->memory = owned.blocks;
 }
 
-// Asks about every edge, unless is_crease is NULL.
+// Asks the question, unless it is NULL.
 static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *generator,
-                                       subdiv_mesh *mesh, sdv_question is_crease, float sharpness)
+                                       sdv_question is_crease)
 {
-    unsigned char *finds = SDV_NEW(context, &generator->arena, unsigned char,
-                                   generator->cage.level.edge_count);
-    if (!context->result && is_crease && sdv_find_creases(generator, is_crease, finds) > 0)
-        sdv_lengthen_creases(context, generator, mesh, finds, sharpness);
+    if (!context->result && is_crease) sdv_lengthen_list(context, generator, is_crease);
     sdv_arena_free(&generator->arena);
     return context->result;
 }
 
-// Of length 1. A face that is so thin that rounding could have made it so has none: 0.
-static void sdv_face_normal(const float *positions, const int *vertices, int size, double normal[3])
+// Computes the normal of face f, 1 long; 0 if the face is as thin as rounding.
+static void sdv_face_normal(const float *positions, const sdv_level *level, int f, double normal[3])
 {
-    double n[3], error = sdv_area_normal(positions, vertices, size, n);
+    int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
+    double n[3], error = sdv_area_normal(positions, level->face_vertices + start, size, n);
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
 
-// By atan2, which is exact for all angles, where a cosine blurs the small ones.
+// Is the angle between two faces above the limit? atan2 is exact for all angles, where a cosine
+// blurs the small ones.
 static int sdv_is_bent(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
@@ -12274,26 +12245,15 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     if (!context.result)
         generator.normals = SDV_NEW(&context, &generator.arena, double,
                                     3 * (size_t)mesh->face_count);
-    if (!context.result) {
-        const sdv_level *level = &generator.cage.level;
-        for (int f = 0; f < mesh->face_count; f++) {
-            int start = sdv_face_start(level, f);
-            sdv_face_normal(mesh->positions, level->face_vertices + start,
-                            sdv_face_end(level, f) - start, generator.normals + 3 * (size_t)f);
-        }
-        generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
-    }
-    return sdv_generator_end(&context, &generator, mesh, sdv_is_bent, sharpness);
+    for (int f = 0; !context.result && f < mesh->face_count; f++)
+        sdv_face_normal(mesh->positions, &generator.cage.level, f,
+                        generator.normals + 3 * (size_t)f);
+    generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
+    return sdv_generator_end(&context, &generator, sdv_is_bent);
 }
 
-static int sdv_same_word(const char *a, const char *b)
-{
-    while (!sdv_ends_word(*a) && *a == *b) a++, b++;
-    return sdv_ends_word(*a) && sdv_ends_word(*b);
-}
-
-// The word that names the smoothing group: "1" for "s 1", "" for "s off" and "s 0" (some programs
-// write "s null"). NULL for other statements.
+// Finds the word that names a smoothing group: "1" in "s 1"; "" for "s off" and "s 0" (some
+// programs write "s null"). NULL for other statements.
 static const char *sdv_smoothing_group(const char *statement)
 {
     if (!sdv_same_word(statement, "s")) return NULL;
@@ -12303,7 +12263,7 @@ static const char *sdv_smoothing_group(const char *statement)
     return sdv_same_word(word, "off") || sdv_same_word(word, "null") ? "" : word;
 }
 
-// The group of every face. Returns 0 if the statements name none, not even "off".
+// Finds the group of every face. Returns 0 if the statements name none, not even "off".
 static int sdv_smoothing_groups(const subdiv_mesh *mesh, const char **groups)
 {
     const char *group = "";
@@ -12320,6 +12280,7 @@ static int sdv_smoothing_groups(const subdiv_mesh *mesh, const char **groups)
     return any;
 }
 
+// Are two faces in different smoothing groups, or the first one in none?
 static int sdv_groups_differ(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
@@ -12338,10 +12299,10 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, fl
         generator.groups = SDV_NEW(&context, &generator.arena, const char *, mesh->face_count);
     int known = !context.result && sdv_smoothing_groups(mesh, generator.groups);
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no smoothing groups");
-    return sdv_generator_end(&context, &generator, mesh,
-                             known ? sdv_groups_differ : NULL, sharpness);
+    return sdv_generator_end(&context, &generator, known ? sdv_groups_differ : NULL);
 }
 
+// Do two face-vertices have different UVs, or only one of them any?
 static int sdv_uvs_differ(const subdiv_mesh *mesh, int h, int g)
 {
     int i = mesh->face_uvs[h], j = mesh->face_uvs[g];
@@ -12366,70 +12327,61 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     int known = !context.result && mesh->uv_count > 0;
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no UVs");
-    return sdv_generator_end(&context, &generator, mesh,
-                             known ? sdv_is_seam : NULL, sharpness);
+    return sdv_generator_end(&context, &generator, known ? sdv_is_seam : NULL);
 }
 
 // ---------------------------------------------------------------------------- >>inspection
 
-static void sdv_count_faces(subdiv_info *info, const subdiv_mesh *mesh)
-{
-    for (int f = 0; f < mesh->face_count; f++) {
-        int size = sdv_face_size(mesh, f);
-        if (size == 3) info->triangle_count++;
-        else if (size == 4) info->quad_count++;
-        else info->ngon_count++;
-        if (size > info->max_face_size) info->max_face_size = size;
-    }
-}
-
-// Creases and corners as the lists have them, whatever is sharp by shape. The last entry counts.
-static void sdv_count_sharp(sdv_context *context, sdv_arena *arena, subdiv_info *info,
-                            const sdv_level *level, const subdiv_mesh *mesh)
-{
-    int *edges = SDV_NEW(context, arena, int, mesh->crease_count);
-    float *crease = SDV_NEW(context, arena, float, level->edge_count);
-    float *corner = SDV_NEW(context, arena, float, level->vertex_count);
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
-    if (context->result) return;
-    for (int e = 0; e < level->edge_count; e++) crease[e] = 0;
-    for (int v = 0; v < level->vertex_count; v++) corner[v] = 0;
-    for (int i = 0; i < mesh->crease_count; i++)
-        if (edges[i] >= 0) crease[edges[i]] = mesh->crease_sharpness[i];
-    for (int i = 0; i < mesh->corner_count; i++)
-        corner[mesh->corner_vertices[i]] = mesh->corner_sharpness[i];
-    for (int e = 0; e < level->edge_count; e++) {
-        info->crease_count += crease[e] > 0;
-        info->infinite_crease_count += crease[e] >= SUBDIV_INFINITE;
-    }
-    for (int v = 0; v < level->vertex_count; v++) info->corner_count += corner[v] > 0;
-}
-
-static void sdv_count_topology(subdiv_info *info, const sdv_cage *cage, subdiv_scheme scheme)
+// Counts the edges of a cage that has the sharpness of the lists alone.
+static void sdv_count_edges(subdiv_info *info, const sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    int regular = scheme == SUBDIV_LOOP ? 6 : 4;
+    info->edge_count = level->edge_count;
     for (int e = 0; e < level->edge_count; e++) {
-        info->boundary_edge_count += sdv_is_boundary(level, level->edge_first[e]);
+        int h = level->edge_first[e];
+        info->boundary_edge_count += sdv_is_boundary(level, h);
         info->nonmanifold_edge_count += cage->edge_nonmanifold[e];
+        info->crease_count += level->sharpness[h] > 0;
+        info->infinite_crease_count += level->sharpness[h] >= SUBDIV_INFINITE;
     }
+}
+
+static void sdv_count_vertices(subdiv_info *info, const sdv_cage *cage, int regular)
+{
+    const sdv_level *level = &cage->level;
+    info->vertex_count = level->vertex_count;
     for (int v = 0; v < level->vertex_count; v++) {
         int faces = level->vertex_faces[v], valence = sdv_count_edges_at(cage, v).count;
         if (valence > info->max_valence) info->max_valence = valence;
         if (faces == 0) info->isolated_vertex_count++;
         else if (cage->vertex_nonmanifold[v]) info->nonmanifold_vertex_count++;
         else if (valence == faces && valence != regular) info->extraordinary_vertex_count++;
+        info->corner_count += level->vertex_sharpness[v] > 0;
     }
-    for (int f = 0; f < level->face_count; f++) info->hole_count += cage->hole[f];
 }
 
+static void sdv_count_faces(subdiv_info *info, const sdv_cage *cage)
+{
+    const sdv_level *level = &cage->level;
+    info->face_count = level->face_count;
+    for (int f = 0; f < level->face_count; f++) {
+        int size = sdv_face_end(level, f) - sdv_face_start(level, f);
+        if (size == 3) info->triangle_count++;
+        else if (size == 4) info->quad_count++;
+        else info->ngon_count++;
+        if (size > info->max_face_size) info->max_face_size = size;
+        info->hole_count += cage->hole[f];
+    }
+}
+
+// Finds the vertex that stands for the piece of v, and shortens the way to it.
 static int sdv_root(int *parent, int v)
 {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
 }
 
-// Pieces, by joining the ends of every edge.
+// Counts the pieces: joins the ends of every edge.
 static void sdv_count_components(subdiv_info *info, const sdv_level *level, int *parent)
 {
     for (int v = 0; v < level->vertex_count; v++) parent[v] = v;
@@ -12454,17 +12406,13 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 
     sdv_arena arena = sdv_scratch();
     sdv_cage cage;
-    subdiv_mesh shape = *mesh;
-    shape.boundary = SUBDIV_BOUNDARY_EDGE;   // so that only the mesh's own holes are holes
-    sdv_cage_build(&context, &arena, &arena, &cage, &shape);
+    sdv_plain_cage(&context, &arena, &cage, mesh);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
-    if (!context.result) sdv_count_sharp(&context, &arena, info, &cage.level, mesh);
+    if (!context.result) sdv_user_sharpness(&context, &arena, &cage, mesh);
     if (!context.result) {
-        info->vertex_count = mesh->vertex_count;
-        info->edge_count = cage.level.edge_count;
-        info->face_count = mesh->face_count;
-        sdv_count_faces(info, mesh);
-        sdv_count_topology(info, &cage, mesh->scheme);
+        sdv_count_edges(info, &cage);
+        sdv_count_vertices(info, &cage, mesh->scheme == SUBDIV_LOOP ? 6 : 4);
+        sdv_count_faces(info, &cage);
         sdv_count_components(info, &cage.level, parent);
     }
     sdv_arena_free(&arena);
@@ -12474,39 +12422,18 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 // ------------------------------------------------------------------------------ >>oddities
 // What subdiv_check finds, kind by kind. Each kind looks at every face, edge, vertex or entry once.
 
-// Does the edge that leads on from h join a and b?
-static int sdv_joins(const sdv_level *level, int h, int a, int b)
-{
-    int from = level->face_vertices[h], to = level->face_vertices[sdv_next(level, h)];
-    return (from == a && to == b) || (from == b && to == a);
-}
-
-// The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
-// met in rising order, but for the last of a face that leads to its first.
-static int sdv_find_edge(const sdv_level *level, int a, int b)
-{
-    int closing = -1, k = level->vertex_first[sdv_smaller_end(level, a, b)];
-    for (; k >= 0; k = level->vertex_next[k]) {
-        int before = sdv_previous(level, k), joins = sdv_joins(level, before, a, b);
-        if (closing >= 0 && sdv_face_of(level, k) != sdv_face_of(level, closing)) break;
-        if (joins && before < k) return level->face_edges[before];
-        if (sdv_joins(level, k, a, b)) return level->face_edges[k];
-        if (joins) closing = before;
-    }
-    return closing < 0 ? -1 : level->face_edges[closing];
-}
-
 typedef struct sdv_checker {
     const subdiv_mesh *mesh;
-    sdv_cage cage;                      // without the mesh's lists
+    sdv_cage cage;                      // without creases and corners
     int *counts;
     subdiv_report report;
     void *user;
-    int *last;                          // [max of vertices, edges, faces]  to mark them with
+    int *ends;                          // [2 * edge_count]  vertices of each edge, the lower first
+    int *first;                         // [edge_count]  the first edge with the same ends
     int *crease_edges;                  // [crease_count]  -1: no edge
-    unsigned char *marks;               // [face_vertex_count]
-    uint64_t *hashes;                   // [max of vertices, faces]
-    int *slots;                         // [mask + 1]  a hash table of vertices or faces; -1: free
+    int *last;                          // [max of vertices, face-vertices]  marks of any things
+    int *heads;                         // [mask + 1]  a hash table of any things: the first one
+    int *next;                          // [as last]   of each hash, and the next one; or -1
     size_t mask;
 } sdv_checker;
 
@@ -12525,79 +12452,68 @@ static void sdv_found(const sdv_checker *checker, subdiv_oddity kind, int face, 
     checker->report(checker->user, &finding);
 }
 
-// The ends of an edge, the lower first.
-static void sdv_edge_ends(const sdv_level *level, int e, int *low, int *high)
-{
-    int h = level->edge_first[e], a = level->face_vertices[h];
-    int b = level->face_vertices[sdv_next(level, h)];
-    *low = a < b ? a : b;
-    *high = a < b ? b : a;
-}
-
-// Edges with more than two faces. (An edge that a face has twice counts once for it.)
+// Reports edges with more than two faces. (An edge that a face has twice counts once for it.)
 static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int e = 0; e < level->edge_count; e++) {
-        int first = level->edge_first[e], count = sdv_edge_faces(level, first), h = first, a, b;
+        const int *ends = checker->ends + 2 * (size_t)e;
+        int first = level->edge_first[e], count = sdv_edge_faces(level, first), h = first;
         if (count < 3) continue;
         char text[128];
         sdv_text faces = { text, 0, sizeof text };
-        for (int i = 0; i < count && i < 8; i++, h = level->across[h]) {
-            sdv_put(&faces, ", ", i ? 2 : 0);
-            sdv_put_int(&faces, sdv_face_of(level, h));
-        }
-        sdv_put(&faces, ", ...", count > 8 ? 5 : 0);
-        sdv_edge_ends(level, e, &a, &b);
+        for (int i = 0; i < count && i < 8; i++, h = level->across[h])
+            sdv_say(&faces, i ? ", %d" : "%d", sdv_face_of(level, h));
+        if (count > 8) sdv_say(&faces, ", ...");
         sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_EDGE, sdv_face_of(level, first),
-                  sdv_face_of(level, level->across[first]), a, b, "edge %d-%d has %d faces: %s",
-                  a, b, count, text);
+                  sdv_face_of(level, level->across[first]), ends[0], ends[1],
+                  "edge %d-%d has %d faces: %s", ends[0], ends[1], count, text);
     }
 }
 
-// Two faces that run the same way along an edge, unless one of them has it twice.
+// Reports two faces that run the same way along an edge, unless one of them has it twice.
 static void sdv_report_flipped_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
-    int *twice = checker->last, a, b;
+    int *twice = checker->last;
     for (int e = 0; e < level->edge_count; e++) {
-        sdv_edge_ends(level, e, &a, &b);
-        int first = sdv_find_edge(level, a, b);
         twice[e] = 0;
-        if (first != e) twice[first] = 1;           // first < e
+        if (checker->first[e] != e) twice[checker->first[e]] = 1;
     }
     for (int e = 0; e < level->edge_count; e++) {
+        const int *ends = checker->ends + 2 * (size_t)e;
         int h = level->edge_first[e], k = level->across[h];
         if (k == h || level->across[k] != h || twice[e]) continue;
         if (level->face_vertices[h] != level->face_vertices[k]) continue;
         int f = sdv_face_of(level, h), g = sdv_face_of(level, k);
-        sdv_edge_ends(level, e, &a, &b);
-        sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, a, b,
-                  "faces %d and %d run along edge %d-%d in the same direction", f, g, a, b);
+        sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, ends[0], ends[1],
+                  "faces %d and %d run along edge %d-%d in the same direction", f, g, ends[0],
+                  ends[1]);
     }
 }
 
-// Marks the face-vertices of one fan around a vertex.
-static void sdv_mark_fan(const sdv_level *level, int h, unsigned char *marks)
+// Marks the face-vertices of the fan of h around its vertex.
+static void sdv_mark_fan(const sdv_level *level, int h, int *marks)
 {
     for (int at = h; at >= 0 && !marks[at]; at = sdv_clockwise(level, at)) marks[at] = 1;
     int at = sdv_counter_clockwise(level, h);
     for (; at >= 0 && !marks[at]; at = sdv_counter_clockwise(level, at)) marks[at] = 1;
 }
 
+// Reports vertices whose faces are several fans, though all edges there are manifold.
 static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
 {
     const sdv_cage *cage = &checker->cage;
     const sdv_level *level = &cage->level;
-    memset(checker->marks, 0, (size_t)level->face_vertex_count);
+    for (int h = 0; h < level->face_vertex_count; h++) checker->last[h] = 0;
     for (int v = 0; v < level->vertex_count; v++) {
         if (!cage->vertex_nonmanifold[v] || sdv_count_edges_at(cage, v).nonmanifold) continue;
         int fans = 0, face[2] = { -1, -1 };
         for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-            if (checker->marks[h]) continue;
+            if (checker->last[h]) continue;
             if (fans < 2) face[fans] = sdv_face_of(level, h);
             fans++;
-            sdv_mark_fan(level, h, checker->marks);
+            sdv_mark_fan(level, h, checker->last);
         }
         if (fans > 1)
             sdv_found(checker, SUBDIV_ODD_NONMANIFOLD_VERTEX, face[0], face[1], v, -1,
@@ -12606,7 +12522,7 @@ static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
     }
 }
 
-// Bits that have nothing to do with each other for numbers that have.
+// Scatters the bits of a number, for hashing.
 static uint64_t sdv_mix(uint64_t x)
 {
     x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
@@ -12614,19 +12530,18 @@ static uint64_t sdv_mix(uint64_t x)
     return x ^ (x >> 32);
 }
 
-// The first of the items 0 to i that is the same as i: i itself where there is none before.
-static int sdv_first_same(const sdv_checker *checker, int i,
+// Returns the first of the items 0 to i that is the same as i: i itself if there is none before.
+static int sdv_first_same(const sdv_checker *checker, int i, uint64_t hash,
                           int (*same)(const sdv_checker *checker, int i, int j))
 {
-    size_t slot = (size_t)checker->hashes[i] & checker->mask;
-    for (; checker->slots[slot] >= 0; slot = (slot + 1) & checker->mask) {
-        int first = checker->slots[slot];
-        if (checker->hashes[first] == checker->hashes[i] && same(checker, first, i)) return first;
-    }
-    return checker->slots[slot] = i;
+    int *head = &checker->heads[(size_t)hash & checker->mask], first = *head;
+    while (first >= 0 && !same(checker, first, i)) first = checker->next[first];
+    if (first >= 0) return first;
+    checker->next[i] = *head;
+    return *head = i;
 }
 
-// Do two faces have the same vertices, as often each? checker->last is 0, before and after.
+// Do two faces have the same vertices, each as often? checker->last is 0, before and after.
 static int sdv_same_vertices(const sdv_checker *checker, int f, int g)
 {
     const sdv_level *level = &checker->cage.level;
@@ -12649,57 +12564,42 @@ static void sdv_report_duplicate_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int v = 0; v < level->vertex_count; v++) checker->last[v] = 0;
-    for (size_t i = 0; i <= checker->mask; i++) checker->slots[i] = -1;
+    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int f = 0; f < level->face_count; f++) {
-        uint64_t sum = 0;                           // whatever the order
+        uint64_t sum = 0;                           // the same in any order
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
             sum += sdv_mix((uint64_t)level->face_vertices[h] + 1);
-        checker->hashes[f] = sdv_mix(sum);
-        int first = sdv_first_same(checker, f, sdv_same_vertices);
+        int first = sdv_first_same(checker, f, sdv_mix(sum), sdv_same_vertices);
         if (first != f)
             sdv_found(checker, SUBDIV_ODD_DUPLICATE_FACE, f, first, -1, -1,
                       "face %d has the same vertices as face %d", f, first);
     }
 }
 
-// Says what a face repeats: a vertex twice in a row, an edge, or just a vertex, which is given.
-static void sdv_report_repeated(const sdv_checker *checker, int f, int vertex)
-{
-    const sdv_level *level = &checker->cage.level;
-    int edge = -1;
-    for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
-        int v = level->face_vertices[h], next = level->face_vertices[sdv_next(level, h)];
-        if (v == next) {
-            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, v, -1,
-                      "face %d has vertex %d twice in a row", f, v);
-            return;
-        }
-        if (edge < 0 && sdv_find_edge(level, v, next) != level->face_edges[h])
-            edge = level->face_edges[h];
-    }
-    if (edge >= 0) {
-        int a, b;
-        sdv_edge_ends(level, edge, &a, &b);
-        sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, a, b,
-                  "face %d has edge %d-%d more than once", f, a, b);
-    } else {
-        sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, vertex, -1,
-                  "face %d has vertex %d more than once", f, vertex);
-    }
-}
-
+// Reports the worst that each face repeats: a vertex twice in a row, an edge, or just a vertex.
 static void sdv_report_repeated_vertices(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int v = 0; v < level->vertex_count; v++) checker->last[v] = -1;
     for (int f = 0; f < level->face_count; f++) {
-        int repeated = -1;
+        int in_row = -1, edge = -1, vertex = -1;
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
-            int v = level->face_vertices[h];
-            if (checker->last[v] == f && repeated < 0) repeated = v;
+            int v = level->face_vertices[h], e = level->face_edges[h];
+            if (in_row < 0 && v == level->face_vertices[sdv_next(level, h)]) in_row = v;
+            if (edge < 0 && checker->first[e] != e) edge = e;
+            if (vertex < 0 && checker->last[v] == f) vertex = v;
             checker->last[v] = f;
         }
-        if (repeated >= 0) sdv_report_repeated(checker, f, repeated);
+        const int *ends = edge < 0 ? NULL : checker->ends + 2 * (size_t)edge;
+        if (in_row >= 0)
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, in_row, -1,
+                      "face %d has vertex %d twice in a row", f, in_row);
+        else if (ends)
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, ends[0], ends[1],
+                      "face %d has edge %d-%d more than once", f, ends[0], ends[1]);
+        else if (vertex >= 0)
+            sdv_found(checker, SUBDIV_ODD_REPEATED_VERTEX, f, -1, vertex, -1,
+                      "face %d has vertex %d more than once", f, vertex);
     }
 }
 
@@ -12707,10 +12607,8 @@ static void sdv_report_no_area(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f);
         double n[3];
-        sdv_face_normal(checker->mesh->positions, level->face_vertices + start,
-                        sdv_face_end(level, f) - start, n);
+        sdv_face_normal(checker->mesh->positions, level, f, n);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0)
             sdv_found(checker, SUBDIV_ODD_NO_AREA, f, -1, -1, -1, "face %d has no area", f);
     }
@@ -12734,7 +12632,7 @@ static int sdv_same_place(const sdv_checker *checker, int v, int w)
 
 static void sdv_report_same_places(const sdv_checker *checker)
 {
-    for (size_t i = 0; i <= checker->mask; i++) checker->slots[i] = -1;
+    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int v = 0; v < checker->mesh->vertex_count; v++) {
         uint64_t hash = 0;
         for (int k = 0; k < 3; k++) {
@@ -12743,8 +12641,7 @@ static void sdv_report_same_places(const sdv_checker *checker)
             memcpy(&bits, &x, sizeof bits);
             hash = sdv_mix(hash + bits + 1);
         }
-        checker->hashes[v] = hash;
-        int first = sdv_first_same(checker, v, sdv_same_place);
+        int first = sdv_first_same(checker, v, hash, sdv_same_place);
         if (first != v)
             sdv_found(checker, SUBDIV_ODD_SAME_PLACE, -1, -1, v, first,
                       "vertex %d is at the same place as vertex %d", v, first);
@@ -12762,37 +12659,33 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     }
 }
 
+// Reports entries of a list that name an item once more. There are so many items: edges (ends: 2),
+// vertices (1) or faces (0).
+static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int items,
+                             int ends, const char *format)
+{
+    int *last = checker->last;
+    for (int i = 0; i < items; i++) last[i] = -1;
+    for (int i = 0; i < count; i++) {
+        int item = list[i];
+        if (item < 0) continue;
+        const int *end = ends == 2 ? checker->ends + 2 * (size_t)item : &item;
+        if (last[item] >= 0)
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? end[0] : -1,
+                      ends == 2 ? end[1] : -1, format, last[item], i, end[0], end[ends / 2]);
+        last[item] = i;
+    }
+}
+
 static void sdv_report_listed_twice(const sdv_checker *checker)
 {
     const subdiv_mesh *mesh = checker->mesh;
-    const sdv_level *level = &checker->cage.level;
-    int *last = checker->last, a, b;
-    for (int e = 0; e < level->edge_count; e++) last[e] = -1;
-    for (int i = 0; i < mesh->crease_count; i++) {
-        int e = checker->crease_edges[i];
-        if (e < 0) continue;
-        sdv_edge_ends(level, e, &a, &b);
-        if (last[e] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, -1, -1, a, b,
-                      "creases %d and %d are both edge %d-%d", last[e], i, a, b);
-        last[e] = i;
-    }
-    for (int v = 0; v < mesh->vertex_count; v++) last[v] = -1;
-    for (int i = 0; i < mesh->corner_count; i++) {
-        int v = mesh->corner_vertices[i];
-        if (last[v] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, -1, -1, v, -1,
-                      "corners %d and %d are both vertex %d", last[v], i, v);
-        last[v] = i;
-    }
-    for (int f = 0; f < mesh->face_count; f++) last[f] = -1;
-    for (int i = 0; i < mesh->hole_count; i++) {
-        int f = mesh->holes[i];
-        if (last[f] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, f, -1, -1, -1,
-                      "holes %d and %d are both face %d", last[f], i, f);
-        last[f] = i;
-    }
+    sdv_report_twice(checker, checker->crease_edges, mesh->crease_count,
+                     checker->cage.level.edge_count, 2, "creases %d and %d are both edge %d-%d");
+    sdv_report_twice(checker, mesh->corner_vertices, mesh->corner_count, mesh->vertex_count, 1,
+                     "corners %d and %d are both vertex %d");
+    sdv_report_twice(checker, mesh->holes, mesh->hole_count, mesh->face_count, 0,
+                     "holes %d and %d are both face %d");
 }
 
 static void sdv_report_partial_uvs(const sdv_checker *checker)
@@ -12807,24 +12700,48 @@ static void sdv_report_partial_uvs(const sdv_checker *checker)
     }
 }
 
+static int sdv_same_ends(const sdv_checker *checker, int d, int e)
+{
+    return memcmp(checker->ends + 2 * (size_t)d, checker->ends + 2 * (size_t)e,
+                  2 * sizeof(int)) == 0;
+}
+
+// Finds the ends of each edge and the first edge that has them: another one if a face has it twice.
+static void sdv_find_ends(const sdv_checker *checker)
+{
+    const sdv_level *level = &checker->cage.level;
+    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
+    for (int e = 0; e < level->edge_count; e++) {
+        int h = level->edge_first[e], a = level->face_vertices[h];
+        int b = level->face_vertices[sdv_next(level, h)], low = a < b ? a : b;
+        checker->ends[2 * e] = low;
+        checker->ends[2 * e + 1] = a + b - low;
+        checker->first[e] = e;
+        if (checker->cage.edge_nonmanifold[e])
+            checker->first[e] = sdv_first_same(checker, e, sdv_mix(((uint64_t)low << 32) +
+                                               (uint64_t)(a + b - low)), sdv_same_ends);
+    }
+}
+
 static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checker *checker,
                               const subdiv_mesh *mesh)
 {
+    const sdv_level *level = &checker->cage.level;
     checker->mesh = mesh;
     sdv_plain_cage(context, arena, &checker->cage, mesh);
-    if (context->result) return;
-    int edges = checker->cage.level.edge_count;
-    int items = mesh->vertex_count > mesh->face_count ? mesh->vertex_count : mesh->face_count;
+    int edges = level->edge_count, vertices = mesh->vertex_count;
+    int items = level->face_vertex_count > vertices ? level->face_vertex_count : vertices;
     checker->mask = 1;
-    while (checker->mask < 2 * (size_t)items) checker->mask = 2 * checker->mask + 1;
-    checker->last = SDV_NEW(context, arena, int, items > edges ? items : edges);
-    checker->marks = SDV_NEW(context, arena, unsigned char,
-                             checker->cage.level.face_vertex_count);
-    checker->hashes = SDV_NEW(context, arena, uint64_t, items);
-    checker->slots = SDV_NEW(context, arena, int, checker->mask + 1);
+    while (checker->mask < (size_t)items) checker->mask = 2 * checker->mask + 1;
+    checker->ends = SDV_NEW(context, arena, int, 2 * (size_t)edges);
+    checker->first = SDV_NEW(context, arena, int, edges);
     checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
-    sdv_find_edges(context, &checker->cage.level, mesh->crease_vertices, mesh->crease_count,
+    checker->last = SDV_NEW(context, arena, int, items);
+    checker->heads = SDV_NEW(context, arena, int, checker->mask + 1);
+    checker->next = SDV_NEW(context, arena, int, items);
+    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count,
                    checker->crease_edges);
+    if (!context->result) sdv_find_ends(checker);
 }
 
 SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subdiv_report report,
@@ -14727,19 +14644,26 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 // -------------------------------------------------------------------------------- >>explain
 // The words for what >>sharpness and >>masks decide, and the row that they write for a point.
 
-enum { SDV_GROUPS = 4 };
+typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+
+typedef struct sdv_group {              // of vertices that weigh the same
+    char text[32];                      // their weight
+    const int *vertices;
+    int size;
+} sdv_group;
 
 typedef struct sdv_explainer {
     sdv_context *context;
     sdv_arena    arena;
-    sdv_text     out;
+    sdv_text    *out;
     sdv_cage     cage;
     sdv_rules    rules;
-    unsigned     papers;                // a bit for each that was named
-    double      *weights;               // [vertices, faces] the mask
+    sdv_point_kind kind;                // of the point,
+    int          item;                  // of this vertex, edge or face
+    double      *weights;               // [vertices, faces] its mask
     int         *order;                 // [vertices] those that have a weight, heavy ones first
-    int          count;
-    int          group_sizes[SDV_GROUPS];   // how many of them weigh the same; 0: no more
+    sdv_group   *groups;                // [vertices] the order cut into groups
+    int          group_count;
 } sdv_explainer;
 
 static const struct { const char *tag, *title; } sdv_papers[] = {
@@ -14751,52 +14675,29 @@ static const struct { const char *tag, *title; } sdv_papers[] = {
     { "[OSD]", "OpenSubdiv 3.5: the rules where the papers are silent" }
 };
 
-enum { SDV_CC78, SDV_LOOP87, SDV_HDD94, SDV_DKT98, SDV_OSD, SDV_PAPERS };
-
-static void sdv_say(sdv_explainer *x, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    sdv_format(&x->out, format, args);
-    va_end(args);
-}
-
-static void sdv_cite(sdv_explainer *x, int paper)
-{
-    x->papers |= 1u << paper;
-    sdv_say(x, "  %s\n", sdv_papers[paper].tag);
-}
-
-// A number as a fraction, if it is a simple one as far as floats can tell; else as a float.
-static const char *sdv_number_text(double number, char *text)
+// Writes a number as a fraction, if it is a simple one as far as floats can tell; else as a float.
+static const char *sdv_fraction(double number, char text[32])
 {
     sdv_text out = { text, 0, 32 };
     for (int q = 1; q <= 400; q++) {
         int p = (int)(number * q + 0.5);
         if (p == 0 || fabs(number * q - p) > (double)FLT_EPSILON * p) continue;
-        sdv_put_int(&out, p);
-        if (q > 1) sdv_put(&out, "/", 1);
-        if (q > 1) sdv_put_int(&out, q);
+        sdv_say(&out, q > 1 ? "%d/%d" : "%d", p, q);
         return text;
     }
     *sdv_write_exactly(text, (float)number) = 0;
     return text;
 }
 
-static const char *sdv_float_text(float number, char *text)
-{
-    *sdv_write_exactly(text, number) = 0;
-    return text;
-}
-
 // ---- the mask
 
-// The last row goes to the weights of vertices and face points, factor times.
+// Adds the row that was written last to the weights of vertices and face points, factor times.
 static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double factor)
 {
     const sdv_shape *shape = &writer->shape;
     const int *point = writer->points + sdv_row_points(shape) - 1;
     double left = factor;
+    if (x->context->result) return;
     for (int k = 3; k-- > 0; )
         for (int i = 0; i < shape->count[k]; i++, point--) {
             x->weights[*point] += factor * (double)shape->weight[k];
@@ -14805,38 +14706,9 @@ static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double fa
     x->weights[*point] += left;
 }
 
-// How many vertices from place i of the order on weigh the same.
-static int sdv_group_size(const sdv_explainer *x, int i)
-{
-    double weight = x->weights[x->order[i]];
-    int size = 1;
-    while (i + size < x->count &&
-           x->weights[x->order[i + size]] > weight - 1e-6 * fabs(weight)) size++;
-    return size;
-}
-
-// Puts the vertices with a weight in order.
-static void sdv_find_order(sdv_explainer *x)
-{
-    const double *w = x->weights;
-    int groups = 0;
-    for (int v = 0; v < x->cage.level.vertex_count; v++) {
-        int at = x->count;
-        if (!(fabs(w[v]) > 0)) continue;
-        for (; at > 0 && w[x->order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
-            x->order[at] = x->order[at - 1];
-        x->order[at] = v;
-        x->count++;
-    }
-    for (int i = 0, size; i < x->count; i += size) {
-        size = sdv_group_size(x, i);
-        if (groups < SDV_GROUPS) x->group_sizes[groups++] = size;
-    }
-}
-
-// The mask of vertex v, of the edge that leads on from h, or of face f, whichever is not -1, on the
-// vertices of the cage: its row, then those of the face points in it.
-static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
+// Finds the weights of the cage's vertices: from the row of the point, then from the rows of the
+// face points in it.
+static void sdv_find_mask(sdv_explainer *x)
 {
     sdv_level *level = &x->cage.level;
     size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
@@ -14844,304 +14716,331 @@ static void sdv_find_mask(sdv_explainer *x, int v, int h, int f)
     sdv_writer_new(x->context, &x->arena, level, &writer);
     x->weights = SDV_NEW(x->context, &x->arena, double, points);
     x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
-    for (size_t i = 0; i < points && !x->context->result; i++) x->weights[i] = 0;
-    for (int i = 0; i < level->face_count; i++) level->face_point[i] = level->vertex_count + i;
-    if (!x->context->result && v >= 0) sdv_vertex_row(level, &x->rules, v, 0, &writer);
-    if (!x->context->result && h >= 0) sdv_edge_row(level, &x->rules, h, 0, &writer);
-    if (!x->context->result && f >= 0) sdv_face_row(level, f, 0, &writer);
-    if (!x->context->result) sdv_spread_row(x, &writer, 1);
-    for (int i = 0; i < level->face_count && !x->context->result; i++) {
-        double weight = x->weights[level->vertex_count + i];
-        if (!(fabs(weight) > 0)) continue;
-        sdv_face_row(level, i, 0, &writer);
-        if (!x->context->result) sdv_spread_row(x, &writer, weight);
+    x->groups = SDV_NEW(x->context, &x->arena, sdv_group, level->vertex_count);
+    if (!x->context->result) {
+        for (size_t i = 0; i < points; i++) x->weights[i] = 0;
+        for (int f = 0; f < level->face_count; f++) level->face_point[f] = level->vertex_count + f;
+        if (x->kind == SDV_VERTEX_POINT) sdv_vertex_row(level, &x->rules, x->item, 0, &writer);
+        else if (x->kind == SDV_FACE_POINT) sdv_face_row(level, x->item, 0, &writer);
+        else sdv_edge_row(level, &x->rules, level->edge_first[x->item], 0, &writer);
+        sdv_spread_row(x, &writer, 1);
     }
-    if (!x->context->result) sdv_find_order(x);
+    for (int f = 0; f < level->face_count && !x->context->result; f++) {
+        double weight = x->weights[level->vertex_count + f];
+        if (!(fabs(weight) > 0)) continue;
+        sdv_face_row(level, f, 0, &writer);
+        sdv_spread_row(x, &writer, weight);
+    }
     sdv_writer_free(&writer);
+}
+
+// Puts the vertices that have a weight in order, and those of the same weight in a group.
+static void sdv_find_groups(sdv_explainer *x)
+{
+    const double *w = x->weights;
+    int *order = x->order, count = 0;
+    double least = 0;                               // of the last group
+    for (int v = 0; v < x->cage.level.vertex_count; v++) {
+        int at = count;
+        if (!(fabs(w[v]) > 0)) continue;
+        for (; at > 0 && w[order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
+            order[at] = order[at - 1];
+        order[at] = v;
+        count++;
+    }
+    for (int i = 0; i < count; i++) {
+        double weight = w[order[i]];
+        if (i == 0 || weight <= least) {
+            sdv_group *group = &x->groups[x->group_count++];
+            sdv_fraction(weight, group->text);
+            group->vertices = order + i;
+            group->size = 0;
+            least = weight - 1e-6 * fabs(weight);
+        }
+        x->groups[x->group_count - 1].size++;
+    }
 }
 
 static void sdv_say_blanks(sdv_explainer *x, size_t count)
 {
-    while (count--) sdv_put(&x->out, " ", 1);
+    while (count--) sdv_say(x->out, " ");
 }
 
-// One line a weight, with all the vertices that have it.
+// Writes one line for each weight, with all the vertices that have it.
 static void sdv_say_table(sdv_explainer *x)
 {
-    char text[32];
     size_t width = 6;                               // of the weights
-    for (int i = 0; i < x->count; i += sdv_group_size(x, i)) {
-        size_t size = strlen(sdv_number_text(x->weights[x->order[i]], text));
-        if (size > width) width = size;
-    }
-    for (int i = 0, size; i < x->count; i += size) {
-        size_t start = x->out.size;
-        size = sdv_group_size(x, i);
-        sdv_number_text(x->weights[x->order[i]], text);
-        sdv_say(x, "    %s", text);
-        sdv_say_blanks(x, width + 2 - strlen(text));
-        sdv_say(x, size == 1 ? "vertex" : "vertices");
-        for (int j = i; j < i + size; j++) {
-            if (x->out.size > start + 68) {
-                sdv_say(x, "\n");
-                start = x->out.size;
+    for (int g = 0; g < x->group_count; g++)
+        if (strlen(x->groups[g].text) > width) width = strlen(x->groups[g].text);
+    for (int g = 0; g < x->group_count; g++) {
+        const sdv_group *group = &x->groups[g];
+        size_t start = x->out->size;
+        sdv_say(x->out, "    %s", group->text);
+        sdv_say_blanks(x, width + 2 - strlen(group->text));
+        sdv_say(x->out, group->size == 1 ? "vertex" : "vertices");
+        for (int i = 0; i < group->size; i++) {
+            if (x->out->size > start + 68) {
+                sdv_say(x->out, "\n");
+                start = x->out->size;
                 sdv_say_blanks(x, width + 14);
             }
-            sdv_say(x, " %d", x->order[j]);
+            sdv_say(x->out, " %d", group->vertices[i]);
         }
-        sdv_say(x, "\n");
+        sdv_say(x->out, "\n");
     }
 }
 
 // Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
-// weights, heavy ones first, in six places each.
-typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
-
-static const struct { sdv_point_kind kind; int sizes[SDV_GROUPS]; const char *text; }
+// weights, heavy ones first.
+static const struct sdv_picture { sdv_point_kind kind; int sizes[4]; const char *text; }
 sdv_pictures[] = {
     { SDV_FACE_POINT, { 4, 0, 0, 0 },
-      "  aaaaaa --- aaaaaa\n"
+      "     a----------a\n"
       "     |          |\n"
       "     |    F     |\n"
       "     |          |\n"
-      "  aaaaaa --- aaaaaa\n" },
+      "     a----------a\n" },
     { SDV_FACE_POINT, { 3, 0, 0, 0 },
-      "       aaaaaa\n"
+      "          a\n"
       "         / \\\n"
       "        / F \\\n"
       "       /     \\\n"
-      "  aaaaaa -- aaaaaa\n" },
+      "     a---------a\n" },
     { SDV_EDGE_POINT, { 2, 0, 0, 0 },
-      "  aaaaaa -- E -- aaaaaa\n" },
+      "     a----- E ------a\n" },
     { SDV_EDGE_POINT, { 2, 4, 0, 0 },
-      "  bbbbbb ------- bbbbbb\n"
+      "     b--------------b\n"
       "     |              |\n"
-      "  aaaaaa -- E -- aaaaaa\n"
+      "     a----- E ------a\n"
       "     |              |\n"
-      "  bbbbbb ------- bbbbbb\n" },
+      "     b--------------b\n" },
     { SDV_EDGE_POINT, { 2, 2, 0, 0 },
-      "         bbbbbb\n"
+      "            b\n"
       "        /      \\\n"
       "       /        \\\n"
-      "  aaaaaa -- E -- aaaaaa\n"
+      "     a----- E ------a\n"
       "       \\        /\n"
       "        \\      /\n"
-      "         bbbbbb\n" },
+      "            b\n" },
     { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
-      "  bbbbbb --- aaaaaa --- bbbbbb\n" },
+      "     b----------a----------b\n" },
     { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
-      "  cccccc --- bbbbbb --- cccccc\n"
+      "     c----------b----------c\n"
       "     |          |          |\n"
-      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     b----------a----------b\n"
       "     |          |          |\n"
-      "  cccccc --- bbbbbb --- cccccc\n" },
+      "     c----------b----------c\n" },
     { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
-      "       bbbbbb --- bbbbbb\n"
+      "          b----------b\n"
       "        /    \\     /    \\\n"
-      "  bbbbbb --- aaaaaa --- bbbbbb\n"
+      "     b----------a----------b\n"
       "        \\    /     \\    /\n"
-      "       bbbbbb --- bbbbbb\n" }
+      "          b----------b\n" }
 };
 
-// The picture with its weights, if they fit.
-static void sdv_draw(sdv_explainer *x, const char *picture)
+// Does a picture show the mask, and is there room in it for the weights?
+static int sdv_fits(const sdv_explainer *x, const struct sdv_picture *picture)
 {
-    char texts[SDV_GROUPS][32];
-    for (int i = 0, g = 0; g < SDV_GROUPS && x->group_sizes[g]; i += x->group_sizes[g++]) {
-        sdv_number_text(x->weights[x->order[i]], texts[g]);
-        if (strlen(texts[g]) > 6) return;
-    }
-    size_t start = x->out.size;
-    for (const char *p = picture; *p; p++) {
-        if (*p < 'a' || *p > 'c') {
-            while (*p == '\n' && x->out.text[x->out.size - 1] == ' ') x->out.size--;
-            sdv_put(&x->out, p, 1);
-            continue;
-        }
-        const char *text = texts[*p - 'a'];
-        size_t size = strlen(text), left = (7 - size) / 2;
-        sdv_put(&x->out, "   ", left);
-        sdv_put(&x->out, text, size);
-        sdv_put(&x->out, "   ", 6 - left - size);
-        p += 5;
-    }
-    char *line = x->out.text + start;               // lines reach all weights but for a blank
-    size_t end = x->out.size - start;
-    for (size_t i = 0; i + 2 < end; i++)
-        if (line[i] == '-' && line[i + 1] == ' ' && line[i + 2] == ' ') line[i + 1] = '-';
-    for (size_t i = end; i > 2; i--)
-        if (line[i - 1] == '-' && line[i - 2] == ' ' && line[i - 3] == ' ') line[i - 2] = '-';
-    sdv_say(x, "\n");
+    if (picture->kind != x->kind || x->group_count > 3) return 0;
+    for (int g = 0; g < x->group_count; g++)
+        if (picture->sizes[g] != x->groups[g].size || strlen(x->groups[g].text) > 6) return 0;
+    return picture->sizes[x->group_count] == 0;
 }
 
-static void sdv_say_mask(sdv_explainer *x, sdv_point_kind kind)
+// Draws a picture, with the weights in place of the letters and a blank on either side.
+static void sdv_draw(sdv_explainer *x, const char *picture)
 {
-    sdv_say(x, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
+    for (size_t size; *picture; picture += size + 1) {
+        char line[40];
+        size = strcspn(picture, "\n");
+        memset(line, ' ', sizeof line);
+        memcpy(line, picture, size);
+        for (size_t i = 0; i < size; i++) {
+            if (line[i] < 'a' || line[i] > 'c') continue;
+            const char *text = x->groups[line[i] - 'a'].text;
+            size_t length = strlen(text), from = i - length / 2;
+            memcpy(line + from, text, length);
+            line[from - 1] = line[from + length] = ' ';
+        }
+        size_t end = sizeof line;
+        while (line[end - 1] == ' ') end--;
+        sdv_put(x->out, line, end);
+        sdv_say(x->out, "\n");
+    }
+    sdv_say(x->out, "\n");
+}
+
+static void sdv_say_mask(sdv_explainer *x)
+{
+    const char *gap = "\n";
+    sdv_say(x->out, "\nIts mask: the weights of the cage's vertices, which add up to 1.\n\n");
     for (size_t i = 0; i < sizeof sdv_pictures / sizeof *sdv_pictures; i++)
-        if (sdv_pictures[i].kind == kind &&
-            memcmp(sdv_pictures[i].sizes, x->group_sizes, sizeof x->group_sizes) == 0)
-            sdv_draw(x, sdv_pictures[i].text);
+        if (sdv_fits(x, &sdv_pictures[i])) sdv_draw(x, sdv_pictures[i].text);
     sdv_say_table(x);
-    if (x->papers) sdv_say(x, "\n");
-    for (int i = 0; i < SDV_PAPERS; i++)
-        if (x->papers >> i & 1)
-            sdv_say(x, "%s %s\n", sdv_papers[i].tag, sdv_papers[i].title);
+    for (size_t i = 0; i < sizeof sdv_papers / sizeof *sdv_papers; i++) {
+        if (!strstr(x->out->text, sdv_papers[i].tag)) continue;
+        sdv_say(x->out, "%s%s %s\n", gap, sdv_papers[i].tag, sdv_papers[i].title);
+        gap = "";
+    }
 }
 
 // ---- vertices
 
-// What a rule makes of a vertex, behind "V = ".
-static void sdv_say_rule(sdv_explainer *x, sdv_rule rule, int n)
+// Writes the blend of two formulas, which are named by a letter each.
+static void sdv_say_blend(sdv_explainer *x, const char *name, double weight, const char *sharp,
+                          const char *smooth)
 {
-    char text[32];
-    if (rule == SDV_CORNER || x->rules.linear) {
-        sdv_say(x, "v\n");
-    } else if (rule == SDV_CREASE) {
-        sdv_say(x, "(a + 6 v + b) / 8");
-        sdv_cite(x, SDV_HDD94);
-    } else if (x->rules.loop) {
-        sdv_say(x, "(1 - n b) v + b (e1 + ... + en)");
-        sdv_cite(x, SDV_LOOP87);
-        sdv_say(x, "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
-                sdv_number_text(sdv_loop_vertex(n).edge, text), n);
-    } else {
-        sdv_say(x, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d", n);
-        sdv_cite(x, SDV_CC78);
-    }
+    char more[32], less[32];
+    sdv_say(x->out, "\n    %s = %s %s + %s %s  [DKT98]\n", name, sdv_fraction(weight, more), sharp,
+            sdv_fraction(1 - weight, less), smooth);
 }
 
+// Writes the formula of a rule at a vertex of valence n.
+static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
+{
+    char text[32];
+    sdv_say(x->out, "    %s = ", name);
+    if (rule == SDV_CORNER || x->rules.linear)
+        sdv_say(x->out, "v\n");
+    else if (rule == SDV_CREASE)
+        sdv_say(x->out, "(a + 6 v + b) / 8  [HDD94]\n");
+    else if (x->rules.loop)
+        sdv_say(x->out, "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
+                "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
+                sdv_fraction(sdv_loop_vertex(n).edge, text), n);
+    else
+        sdv_say(x->out, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d"
+                "  [CC78]\n", n);
+}
+
+// Says what the letters in the formulas of two rules stand for.
 static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
 {
     int crease = rule == SDV_CREASE || next == SDV_CREASE;
     int smooth = rule < SDV_CREASE || next < SDV_CREASE;
-    sdv_say(x, "\nHere v is the vertex");
-    if (crease) sdv_say(x, " and a, b are its neighbours along the crease");
-    if (smooth && crease) sdv_say(x, ";\nthe e are all its neighbours");
-    else if (smooth) sdv_say(x, ", the e are its neighbours");
-    if (smooth && !x->rules.loop) sdv_say(x, ", the f the face points there");
-    sdv_say(x, ".\n");
+    sdv_say(x->out, "\nHere v is the vertex%s%s%s.\n",
+            crease ? " and a, b are its neighbours along the crease" : "",
+            !smooth ? "" :
+            crease ? ";\nthe e are all its neighbours" : ", the e are its neighbours",
+            smooth && !x->rules.loop ? ", the f the face points there" : "");
 }
 
 static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
 {
     char text[32];
-    if (sharpness >= SUBDIV_INFINITE) sdv_say(x, ", sharp forever");
-    else sdv_say(x, ", of sharpness %s", sdv_float_text(sharpness, text));
+    *sdv_write_exactly(text, sharpness) = 0;
+    if (sharpness >= SUBDIV_INFINITE) sdv_say(x->out, ", sharp forever");
+    else sdv_say(x->out, ", of sharpness %s", text);
 }
 
-// The edge of h, seen from vertex v or, if it has none, from the lower-numbered end.
+// Names the edge of h by its ends: vertex v first if it is one, else the lower-numbered one.
 static void sdv_say_edge(sdv_explainer *x, int h, int v)
 {
     const sdv_level *level = &x->cage.level;
     int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
     int from = a == v || b == v ? v : a < b ? a : b;
-    sdv_say(x, "%d-%d", from, a + b - from);
+    sdv_say(x->out, "%d-%d", from, a + b - from);
 }
 
-// Lists the sharp edges at a vertex, if they are few; how many they are, and how many boundaries.
-static sdv_edges_at sdv_say_sharp_edges(sdv_explainer *x, int v, int say)
+// Counts the sharp edges at a vertex and, if asked to, lists them.
+static int sdv_say_sharp_edges(sdv_explainer *x, int v, int list)
 {
     const sdv_level *level = &x->cage.level;
-    sdv_edges_at sharp = { 0, 0, 0 };
+    int count = 0;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
         for (int i = 0; i < 2; i++) {
             if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
-            if (say && sharp.count) sdv_say(x, " and ");
-            if (say) sdv_say_edge(x, two[i], v);
-            sharp.boundary += sdv_is_boundary(level, two[i]);
-            sharp.count++;
+            if (list && count) sdv_say(x->out, " and ");
+            if (list) sdv_say_edge(x, two[i], v);
+            count++;
         }
     }
-    return sharp;
+    return count;
 }
 
 static void sdv_say_corner(sdv_explainer *x, int v)
 {
     float sharpness = x->cage.level.vertex_sharpness[v];
     if (x->cage.level.vertex_faces[v] == 0) {
-        sdv_say(x, "Vertex %d has no faces: it stays where it is.\n", v);
+        sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
         return;
     }
-    sdv_say(x, "Vertex %d is a corner", v);
-    if (sharpness > SUBDIV_INFINITE && x->cage.vertex_nonmanifold[v])
-        sdv_say(x, ": the surface is non-manifold there");
-    else if (sharpness > SUBDIV_INFINITE)
-        sdv_say(x, ": it has one face, and the rule is \"edge and corner\"");
+    sdv_say(x->out, "Vertex %d is a corner", v);
+    if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x->out, x->cage.vertex_nonmanifold[v]
+                        ? ": the surface is non-manifold there"
+                        : ": it has one face, and the rule is \"edge and corner\"");
     else if (sharpness > 0)
         sdv_say_sharpness(x, sharpness);
     else
-        sdv_say(x, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0).count);
-    sdv_say(x, ".\n");
+        sdv_say(x->out, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0));
+    sdv_say(x->out, ".\n");
 }
 
 static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
 {
-    int boundary = sdv_say_sharp_edges(x, v, 0).boundary == 2;
     if (x->rules.linear) {
-        sdv_say(x, "Refinement is linear: vertex %d stays where it is.\n", v);
+        sdv_say(x->out, "Refinement is linear: vertex %d stays where it is.\n", v);
     } else if (rule == SDV_CORNER) {
         sdv_say_corner(x, v);
     } else if (rule == SDV_SMOOTH) {
-        sdv_say(x, "Vertex %d is interior, of valence %d, and smooth.\n", v,
+        sdv_say(x->out, "Vertex %d is interior, of valence %d, and smooth.\n", v,
                 x->cage.level.vertex_faces[v]);
-    } else {
-        sdv_say(x, rule == SDV_DART ? "Vertex %d is a dart: the crease " :
-                boundary ? "Vertex %d is on the boundary: it moves along the curve of the edges\n" :
-                "Vertex %d is on a crease: it moves along the curve of the edges\n", v);
+    } else if (rule == SDV_DART) {
+        sdv_say(x->out, "Vertex %d is a dart: the crease ", v);
         sdv_say_sharp_edges(x, v, 1);
-        sdv_say(x, rule == SDV_DART ? " ends there.\nIt moves as if it were smooth.\n" :
-                ", a cubic B-spline.\n");
+        sdv_say(x->out, " ends there.\nIt moves as if it were smooth.\n");
+    } else {
+        int boundary = sdv_count_edges_at(&x->cage, v).boundary == 2;
+        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n", v,
+                boundary ? "the boundary" : "a crease");
+        sdv_say_sharp_edges(x, v, 1);
+        sdv_say(x->out, ", a cubic B-spline.\n");
     }
 }
 
 static void sdv_explain_vertex(sdv_explainer *x, int v)
 {
     static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
-    static const char letters[] = "SSCK";
+    static const char *const letters[] = { "S", "S", "C", "K" };
     sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
     sdv_rule rule = fading.rule, next = fading.next;
     int n = x->cage.level.vertex_faces[v];
-    char more[32], less[32];
-    int blend = rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear;
+    char mean[32];
     sdv_say_vertex_rule(x, v, rule);
-    if (!blend) {
-        sdv_say(x, "\n    V = ");
-        sdv_say_rule(x, rule, n);
+    if (rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear) {
+        sdv_say(x->out, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
+                "and so much of the point is still sharp:\n", names[next],
+                sdv_fraction(fading.weight, mean));
+        sdv_say_blend(x, "V", fading.weight, letters[rule], letters[next]);
+        sdv_say_formula(x, letters[rule], rule, n);
+        sdv_say_formula(x, letters[next], next, n);
+        sdv_say_letters(x, rule, next);
     } else {
-        sdv_say(x, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
-                "and so much of the point is still sharp:\n\n    V = %s %t + %s %t", names[next],
-                sdv_number_text(fading.weight, more), more, letters + rule, 1,
-                sdv_number_text(1 - fading.weight, less), letters + next, 1);
-        sdv_cite(x, SDV_DKT98);
-        sdv_say(x, "    %t = ", letters + rule, 1);
-        sdv_say_rule(x, rule, n);
-        sdv_say(x, "    %t = ", letters + next, 1);
-        sdv_say_rule(x, next, n);
+        sdv_say(x->out, "\n");
+        sdv_say_formula(x, "V", rule, n);
+        if (!x->rules.linear && rule != SDV_CORNER) sdv_say_letters(x, rule, rule);
     }
-    if (!blend) next = rule;
-    if (!x->rules.linear && (rule != SDV_CORNER || blend)) sdv_say_letters(x, rule, next);
 }
 
 // ---- edges and faces
 
-// The smooth point of an edge, behind "E = ".
-static void sdv_say_smooth_edge(sdv_explainer *x, int h)
+// Writes the formula of the smooth point of the edge of h.
+static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
 {
     const sdv_level *level = &x->cage.level;
     int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
     char ends[32], faces[32];
+    sdv_say(x->out, "    %s = ", name);
     if (x->rules.loop) {
-        sdv_say(x, "(3 a + 3 b + c + d) / 8");
-        sdv_cite(x, SDV_LOOP87);
+        sdv_say(x->out, "(3 a + 3 b + c + d) / 8  [Loop87]\n");
     } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
         sdv_mask mask = sdv_smooth_triangle_edge(triangles);
-        sdv_say(x, "%s (a + b) + %s (f + g)", sdv_number_text(mask.self, ends),
-                sdv_number_text(mask.face, faces));
-        sdv_cite(x, SDV_OSD);
+        sdv_say(x->out, "%s (a + b) + %s (f + g)  [OSD]\n", sdv_fraction(mask.self, ends),
+                sdv_fraction(mask.face, faces));
     } else {
-        sdv_say(x, "(a + b + f + g) / 4");
-        sdv_cite(x, SDV_CC78);
+        sdv_say(x->out, "(a + b + f + g) / 4  [CC78]\n");
     }
 }
 
@@ -15150,24 +15049,23 @@ static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
     const sdv_level *level = &x->cage.level;
     int h = level->edge_first[e];
     float sharpness = level->sharpness[h];
-    sdv_say(x, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge " :
-            "Edge ");
+    sdv_say(x->out, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge "
+                                    : "Edge ");
     sdv_say_edge(x, h, -1);
     if (x->rules.linear) {
-        sdv_say(x, ".\n");
+        sdv_say(x->out, ".\n");
     } else if (x->cage.edge_nonmanifold[e]) {
-        sdv_say(x, " is non-manifold, and so a crease.\n");
+        sdv_say(x->out, " is non-manifold, and so a crease.\n");
     } else if (sdv_is_boundary(level, h)) {
-        sdv_say(x, " is on the boundary, which is a crease.\n");
+        sdv_say(x->out, " is on the boundary, which is a crease.\n");
     } else if (sharpness <= 0) {
-        sdv_say(x, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
+        sdv_say(x->out, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
                 sdv_face_of(level, level->across[h]));
     } else {
-        sdv_say(x, " is a crease");
+        sdv_say(x->out, " is a crease");
         sdv_say_sharpness(x, sharpness);
-        sdv_say(x, stays_sharp ? ".\n" : ".\nIt ends before the next level");
-        if (!stays_sharp) sdv_say(x, sharpness < 1 ? ", and so much of the point is still sharp:\n"
-                                                   : ".\n");
+        sdv_say(x->out, stays_sharp ? ".\n" : ".\nIt ends before the next level%s\n",
+                sharpness < 1 ? ", and so much of the point is still sharp:" : ".");
     }
 }
 
@@ -15178,82 +15076,68 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
     float sharpness = level->sharpness[h];
     int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
-    int smooth = !crease && sharpness <= 0;
-    char more[32], less[32];
     sdv_say_edge_rule(x, e, stays_sharp);
-    if (!crease && !smooth) {
-        sdv_say(x, "\n    E = %s C + %s S",
-                sdv_number_text((double)sharpness, more),
-                sdv_number_text(1 - (double)sharpness, less));
-        sdv_cite(x, SDV_DKT98);
-        sdv_say(x, "    C = (a + b) / 2\n    S = ");
+    if (crease) {
+        sdv_say(x->out, "\n    E = (a + b) / 2\n");
+    } else if (sharpness <= 0) {
+        sdv_say(x->out, "\n");
+        sdv_say_smooth_edge(x, "E", h);
     } else {
-        sdv_say(x, "\n    E = %s", crease ? "(a + b) / 2\n" : "");
+        sdv_say_blend(x, "E", (double)sharpness, "C", "S");
+        sdv_say(x->out, "    C = (a + b) / 2\n");
+        sdv_say_smooth_edge(x, "S", h);
     }
-    if (!crease) sdv_say_smooth_edge(x, h);
-    sdv_say(x, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
+    sdv_say(x->out, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
             x->rules.loop ? ", and c and d the vertices opposite" :
             ", and f and g the face points beside it");
 }
 
-static void sdv_explain_face(sdv_explainer *x, int f)
-{
-    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
-    sdv_say(x, "Face %d has %d vertices; its face point is their mean.\n\n"
-            "    F = (v1 + ... + vn) / n, n = %d", f, n, n);
-    sdv_cite(x, SDV_CC78);
-}
-
-// The first line, the words, the mask.
+// Writes the first line, the words, the mask.
 static void sdv_explain_point(sdv_explainer *x, int point)
 {
-    const sdv_level *level = &x->cage.level;
-    int e = point - level->vertex_count, f = e - level->edge_count;
-    int h = e >= 0 && f < 0 ? level->edge_first[e] : -1;
-    sdv_find_mask(x, e < 0 ? point : -1, h, f >= 0 ? f : -1);
-    if (x->context->result) return;
-    sdv_say(x, "Point %d of the mesh refined once is the ", point);
-    if (e < 0) {
-        sdv_say(x, "vertex point of vertex %d.\n", point);
+    sdv_level *level = &x->cage.level;
+    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
+    if (x->kind == SDV_VERTEX_POINT) {
+        sdv_say(x->out, "vertex point of vertex %d.\n", point);
         sdv_explain_vertex(x, point);
-    } else if (f < 0) {
-        sdv_say(x, "edge point of edge ");
-        sdv_say_edge(x, h, -1);
-        sdv_say(x, ".\n");
-        sdv_explain_edge(x, e);
+    } else if (x->kind == SDV_EDGE_POINT) {
+        sdv_say(x->out, "edge point of edge ");
+        sdv_say_edge(x, level->edge_first[x->item], -1);
+        sdv_say(x->out, ".\n");
+        sdv_explain_edge(x, x->item);
     } else {
-        sdv_say(x, "face point of face %d.\n", f);
-        sdv_explain_face(x, f);
+        int f = x->item, n = sdv_face_end(level, f) - sdv_face_start(level, f);
+        sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
+                "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
     }
-    sdv_say_mask(x, e < 0 ? SDV_VERTEX_POINT : f < 0 ? SDV_EDGE_POINT : SDV_FACE_POINT);
+    sdv_say_mask(x);
 }
 
-static void sdv_check_point(sdv_context *context, const sdv_level *level, int loop, int point)
+// Finds out of what vertex, edge or face a point is made.
+static void sdv_find_point(sdv_explainer *x, int point)
 {
-    char message[256];
-    sdv_text out = { message, 0, sizeof message };
-    const char *const names[3] = { "vertices", "edges", "faces" };
-    int counts[3] = { level->vertex_count, level->edge_count, loop ? 0 : level->face_count };
-    int first = 0;
-    message[0] = 0;
-    for (int i = 0; i < 3; first += counts[i++]) {
-        if (!counts[i]) continue;
-        sdv_put(&out, i ? ", " : "", i ? 2 : 0);
-        sdv_put_int(&out, first);
-        sdv_put(&out, " to ", 4);
-        sdv_put_int(&out, first + counts[i] - 1);
-        sdv_put(&out, " of ", 4);
-        sdv_put(&out, names[i], strlen(names[i]));
+    static const char *const names[] = { "vertices", "edges", "faces" };
+    const sdv_level *level = &x->cage.level;
+    int counts[] = { level->vertex_count, level->edge_count, level->face_count }, first = 0;
+    char ranges[256];
+    sdv_text out = { ranges, 0, sizeof ranges };
+    for (int i = 0; i < (x->rules.loop ? 2 : 3); first += counts[i++]) {
+        if (counts[i] == 0) continue;
+        sdv_say(&out, "%s%d to %d of %s", i ? ", " : "", first, first + counts[i] - 1, names[i]);
+        if (point < first || point - first >= counts[i]) continue;
+        x->kind = (sdv_point_kind)i;
+        x->item = point - first;
+        return;
     }
-    if (point < 0 || point >= first)
-        sdv_fail(context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
-                 point, message);
+    sdv_fail(x->context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+             point, ranges);
 }
 
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_text out = { text, 0, capacity };
     subdiv_surface *cut = NULL;
     sdv_explainer x;
     memset(&x, 0, sizeof x);
@@ -15267,19 +15151,22 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     cut = sdv_new_surface(&context, &request);
     x.context = &context;
     x.arena = sdv_scratch();
-    x.out.text = text;
-    x.out.capacity = capacity;
+    x.out = &out;
     x.rules.loop = cage->scheme == SUBDIV_LOOP;
     x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     x.rules.triangles = cage->triangles;
     if (cut) sdv_copy_faces(&context, cut, &work, cage);
     if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
     if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
-    if (!context.result) sdv_check_point(&context, &x.cage.level, x.rules.loop, point);
+    if (!context.result) sdv_find_point(&x, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
-    if (!context.result) sdv_explain_point(&x, point);
-    if (!context.result && x.out.size + 1 == capacity)
-        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    if (!context.result) sdv_find_mask(&x);
+    if (!context.result) {
+        sdv_find_groups(&x);
+        sdv_explain_point(&x, point);
+        if (out.size + 1 == capacity)
+            sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    }
     if (context.result) text[0] = 0;
     sdv_arena_free(&x.arena);
     subdiv_surface_free(cut);
