@@ -9766,85 +9766,75 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
 
 // Locations, looked up, and where their polynomials are, unless the tree is to be asked.
 typedef struct sdv_sample_batch {
+    int count;
     sdv_lookup at;
     const float *data[SDV_LOOKUP];
 } sdv_sample_batch;
 
-SDV_INLINE int sdv_find_some(sdv_exact_evaluation *e, int job, int loop, size_t i, int count,
+SDV_INLINE int sdv_find_some(const sdv_exact_evaluation *e, int loop, size_t i, int count,
                              sdv_sample_batch *batch)
 {
     size_t width = SDV_SLOTS * (size_t)e->channels;
-    if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) {
-        e->refused[job] = 1;
-        return 0;
-    }
+    batch->count = count;
+    if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) return 0;
     for (int k = 0; k < count; k++)
         batch->data[k] = e->memory.polynomials + width * (batch->at.cells[k] >> SDV_CELL_BITS);
     return 1;
 }
 
-// Whole batches, so that the loops have a constant count.
-static int sdv_find_batch(sdv_exact_evaluation *e, int job, size_t i, sdv_sample_batch *batch)
+// Looks up the next batch of the locations from i to end. Where it is a whole one, loops have a
+// constant count. Returns 0 if a location is not there.
+static int sdv_find_batch(const sdv_exact_evaluation *e, size_t i, size_t end,
+                          sdv_sample_batch *batch)
 {
-    return e->surface->rules.loop ? sdv_find_some(e, job, 1, i, SDV_LOOKUP, batch)
-                                  : sdv_find_some(e, job, 0, i, SDV_LOOKUP, batch);
+    int loop = e->surface->rules.loop;
+    if (end - i < SDV_LOOKUP) return sdv_find_some(e, loop, i, (int)(end - i), batch);
+    if (loop) return sdv_find_some(e, 1, i, SDV_LOOKUP, batch);
+    return sdv_find_some(e, 0, i, SDV_LOOKUP, batch);
 }
 
-// lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
-SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
-                              const sdv_sample_batch *batch, int k, size_t i)
+// Evaluates a batch of locations from i on, and fetches the polynomials of the next batch. lanes,
+// order: constants for what is asked for most; lanes 0: whatever e asks for.
+SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
+                              const sdv_sample_batch *batch, const sdv_sample_batch *next, size_t i)
 {
     const sdv_lookup *l = &batch->at;
-    sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
-    if (l->cells[k] == SDV_CELL_NONE) sdv_put_location(e, loop, job, i);
-    else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
-    else sdv_put_channels(e, batch->data[k], loop, &at, i);
-}
-
-// Fewer than a whole batch, at the end of a job.
-static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, int count)
-{
-    sdv_sample_batch batch;
-    int found = sdv_find_some(e, job, loop, i, count, &batch);
-    for (int k = 0; k < count && found; k++)
-        sdv_put_found(e, job, loop, 0, 0, &batch, k, i + (size_t)k);
-}
-
-// While a batch is evaluated, the polynomials of the next one, which is looked up, are fetched.
-SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
-{
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs), third;
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    sdv_sample_batch batches[2], *batch = batches, *next = batches + 1, *last;
-    if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, i, next)) return;
-    third = SDV_SLOTS * (size_t)e->channels / 3;
-    while (end - i >= SDV_LOOKUP) {
-        last = batch;
-        batch = next;
-        if (end - i >= 2 * SDV_LOOKUP) {
-            next = last;
-            if (!sdv_find_batch(e, job, i + SDV_LOOKUP, next)) return;
-        }
-        for (int k = 0; k < SDV_LOOKUP; k++, i++) {
+    size_t third = SDV_SLOTS * (size_t)e->channels / 3;
+    int count = batch->count, fetched = next->count;
+    for (int k = 0; k < count; k++, i++) {
+        sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
+        if (k < fetched) {
             sdv_prefetch(next->data[k]);
             sdv_prefetch(next->data[k] + third);
             sdv_prefetch(next->data[k] + 2 * third);
-            sdv_put_found(e, job, loop, lanes, order, batch, k, i);
         }
+        if (l->cells[k] == SDV_CELL_NONE) sdv_put_location(e, loop, job, i);
+        else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
+        else sdv_put_channels(e, batch->data[k], loop, &at, i);
     }
-    if (i < end) sdv_put_rest(e, job, loop, i, (int)(end - i));
 }
 
 static void sdv_locations_job(void *context, int job)
 {
     sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
-    if (loop && order == 0) sdv_put_locations(e, job, 1, 3, 0);
-    else if (loop && order == 1) sdv_put_locations(e, job, 1, 3, 1);
-    else if (loop) sdv_put_locations(e, job, 1, 0, 0);
-    else if (order == 0) sdv_put_locations(e, job, 0, 3, 0);
-    else if (order == 1) sdv_put_locations(e, job, 0, 3, 1);
-    else sdv_put_locations(e, job, 0, 0, 0);
+    sdv_sample_batch batches[2], *batch = batches, *next = batches + 1;
+    e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
+    while (i < end && !e->refused[job]) {
+        sdv_sample_batch *last = batch;
+        batch = next;
+        next = last;
+        i += (size_t)batch->count;
+        e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
+        size_t first = i - (size_t)batch->count;
+        if (loop && order == 0) sdv_put_batch(e, job, 1, 3, 0, batch, next, first);
+        else if (loop && order == 1) sdv_put_batch(e, job, 1, 3, 1, batch, next, first);
+        else if (order == 0) sdv_put_batch(e, job, 0, 3, 0, batch, next, first);
+        else if (order == 1) sdv_put_batch(e, job, 0, 3, 1, batch, next, first);
+        else sdv_put_batch(e, job, loop, 0, 0, batch, next, first);
+    }
 }
 
 // The first location that is not there.
