@@ -75,8 +75,8 @@
              >>evaluate  all levels and any part of the result; >>results-as-meshes
              >>exact-surface  the limit anywhere between the points: >>split the next level, where
                          needed, >>patches regular faces, >>nests around irregular vertices, the
-                         >>tree of all leaves, >>locations on it and the >>cells of those, their
-                         >>polynomials, >>samples of them
+                         >>leaves of all levels, >>locations on them, the >>cells that find these,
+                         >>polynomials of the leaves, >>samples of them
              >>stencils  all of them as weights
              >>tiles     grids and strips of triangles, the >>tile-points on the surface, and the
                          >>tessellator that makes a mesh of them
@@ -1695,7 +1695,8 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 //     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks);
 //                 rough: those among them that are no patch on this level
 //     nest        a vertex that stays irregular on every level, and the faces around it
-//     leaf        of the tree that finds the place of (face, u, v): a patch or a face of a nest
+//     leaf        of SUBDIV_EXACT: a patch or a face of a nest; cell: what finds the one that has
+//                 (face, u, v)
 //     tile        a face with rates of its own; home: of a shared point, the face that makes it
 //
 // A face-vertex h is a place in face_vertices, and stands for three things: a face, one of its
@@ -7027,6 +7028,7 @@ typedef struct sdv_patch {
     unsigned char sharp;                // bit i: edge i is sharp
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
     unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
+    int polynomial;                     // of SUBDIV_EXACT: the number of its first polynomial
 } sdv_patch;
 
 // Which control points the vertices of a face are (see the gathering functions).
@@ -7477,7 +7479,7 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
 //     | n | n |       |
 //     v---+---+-------+
 //
-// A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
+// Patches and faces of nests are the leaves; cells find the one that has a location.
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade; the last
                                         // ones set the rings of vertices apart
@@ -7522,45 +7524,18 @@ typedef struct sdv_nest_face {
     sdv_place place;                    // on the grid of its cage face
 } sdv_nest_face;
 
-// A patch that is cut into strips.
-typedef struct sdv_cut_patch {
-    int patch, polynomial;              // its number, and that of the first of its polynomials
-    unsigned char along, up;            // see sdv_patch
-} sdv_cut_patch;
-
-// A node is the number of the first of four children or, if it is negative, a leaf: what it is, and
-// the number of a polynomial, a cut patch or a face of a nest.
-enum { SDV_LEAF_PATCH, SDV_LEAF_CUT, SDV_LEAF_NEST };
-
-SDV_INLINE int sdv_leaf_node(int what, int number)
-{
-    return ~(4 * number + what);
-}
-
-SDV_INLINE int sdv_leaf_what(int node)
-{
-    return ~node & 3;
-}
-
-SDV_INLINE int sdv_leaf_number(int node)
-{
-    return ~node >> 2;
-}
-
 typedef struct sdv_exact {
     sdv_patches *patches;               // [levels]
     sdv_strips *strips;                 // of semi-sharp patches, counted from 1
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
-    int *nodes;                         // first those of faces, or of an n-gon's quads
     unsigned char *absent;              // [face_count] without surface; NULL: none
     unsigned *cells;                    // see >>cells
-    sdv_cut_patch *cuts;
     sdv_nest_kind *kinds;
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
-    int cut_count, kind_count, nest_count, nest_point_count, nest_face_count;
+    int kind_count, nest_count, nest_point_count, nest_face_count;
     int most_work;                      // of the kinds' work_counts
 } sdv_exact;
 
@@ -7568,16 +7543,8 @@ typedef struct sdv_exact {
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
-    sdv_array nodes, cuts, kinds, nests, nest_points, nest_faces;
-    int      *slots;                    // [face_count of the level] their nodes
+    sdv_array kinds, nests, nest_points, nest_faces;
 } sdv_exact_maker;
-
-// The first node of a face, or the node of an n-gon's quad.
-SDV_INLINE int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
-{
-    if (cage->face_size == (loop ? 3 : 4)) return f;
-    return sdv_face_start(cage, f) + corner;
-}
 
 // The rows from a level to the next: face points first, as the others are made from them. They
 // stand behind the vertex points of the next level, and edge points behind them.
@@ -8010,7 +7977,7 @@ static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int de
 static void sdv_take_nest_face(sdv_exact_maker *maker, sdv_level *level, int depth, int f, int h,
                                int number, int face_at)
 {
-    int *nodes = (int *)sdv_items(&maker->nodes), start = sdv_face_start(level, f);
+    int start = sdv_face_start(level, f);
     int face = ((const sdv_nest *)sdv_items(&maker->nests))[number].face + face_at;
     sdv_nest_face *taken = (sdv_nest_face *)sdv_items(&maker->nest_faces) + face;
     taken->nest = number;
@@ -8018,7 +7985,6 @@ static void sdv_take_nest_face(sdv_exact_maker *maker, sdv_level *level, int dep
     taken->level = depth;
     taken->place = level->places ? level->places[f] : sdv_first_place(start);
     level->rough[f] = 0;
-    nodes[maker->slots[f]] = sdv_leaf_node(SDV_LEAF_NEST, face);
 }
 
 // Turns the rough faces of nests into leaves.
@@ -8042,32 +8008,8 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
     sdv_arena_free(&scratch);
 }
 
-// ---------------------------------------------------------------------------------- >>tree
-// The tree of the exact surface, level by level.
-
-// The nodes of the next level's faces.
-static void sdv_exact_children(sdv_exact_maker *maker, const sdv_level *level,
-                               const sdv_split *split, const sdv_level *next, sdv_arena *arena)
-{
-    sdv_context *context = maker->writer->context;
-    int loop = maker->surface->rules.loop, size = loop ? 3 : 4;
-    int *slots = SDV_NEW(context, arena, int, next->face_count);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int start = sdv_face_start(level, f), count = sdv_face_end(level, f) - start;
-        int first = maker->slots[f];
-        if (!level->rough[f]) continue;
-        if (count == size) {
-            int four = (int)maker->nodes.count;
-            if (!sdv_append(context, &maker->nodes, 4, sizeof(int))) continue;
-            ((int *)sdv_items(&maker->nodes))[first] = four;
-            first = four;
-            count = 4;
-        }
-        for (int i = 0; i < count; i++)
-            slots[split->child[start + (loop ? f : 0) + i] / size] = first + i;
-    }
-    maker->slots = slots;
-}
+// -------------------------------------------------------------------------------- >>leaves
+// Preparing an exact surface, level by level.
 
 // Do the leaves of this level fit, and the next level, with at most four children a face-vertex?
 static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *surface,
@@ -8079,38 +8021,25 @@ static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *sur
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh make too many points");
 }
 
-// A patch becomes a leaf: with one polynomial, or one for each place where its strips cross.
-static int sdv_patch_leaf(sdv_exact_maker *maker, const sdv_patch *patch)
+// How many polynomials a patch has: one, or one for each place where its strips cross.
+static int sdv_patch_parts(const sdv_strips *strips, const sdv_patch *patch)
 {
-    const sdv_strips *strips = (const sdv_strips *)sdv_items(&maker->writer->strips);
-    sdv_exact *exact = maker->surface->exact;
-    int number = exact->patch_count++, polynomial = exact->polynomial_count;
-    exact->polynomial_count++;
-    if (!patch->up) return sdv_leaf_node(SDV_LEAF_PATCH, polynomial);
-    int parts = strips[patch->along - 1].count * strips[patch->up - 1].count;
-    exact->polynomial_count += parts - 1;
-    sdv_cut_patch *made = (sdv_cut_patch *)sdv_append(maker->writer->context, &maker->cuts, 1,
-                                                      sizeof *made);
-    if (!made) return 0;
-    made->patch = number;
-    made->polynomial = polynomial;
-    made->along = patch->along;
-    made->up = patch->up;
-    return sdv_leaf_node(SDV_LEAF_CUT, (int)maker->cuts.count - 1);
+    return patch->up ? strips[patch->along - 1].count * strips[patch->up - 1].count : 1;
 }
 
-// The patches of a level, which are those of its core that are not rough, in order.
+// Finds the patches of a level and numbers their polynomials.
 static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *level)
 {
     subdiv_surface *surface = maker->surface;
-    const sdv_patches *patches = &surface->exact->patches[depth];
-    const sdv_patch *patch;
-    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules,
-                     &surface->exact->patches[depth]);
-    patch = patches->items;
-    for (int f = 0; f < level->face_count && !maker->writer->context->result; f++)
-        if (level->core[f] && !level->rough[f])
-            ((int *)sdv_items(&maker->nodes))[maker->slots[f]] = sdv_patch_leaf(maker, patch++);
+    sdv_exact *exact = surface->exact;
+    sdv_patches *patches = &exact->patches[depth];
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, patches);
+    const sdv_strips *strips = (const sdv_strips *)sdv_items(&maker->writer->strips);
+    for (int i = 0; i < patches->count; i++) {
+        patches->items[i].polynomial = exact->polynomial_count;
+        exact->polynomial_count += sdv_patch_parts(strips, &patches->items[i]);
+    }
+    exact->patch_count += patches->count;
 }
 
 // A level: its patches and nests become leaves; then the rows to the next level, if any face is
@@ -8133,7 +8062,6 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_split_rows(maker, level, &split, &surface->refine[2 * depth], &scratch);
     if (!context->result)
         sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
-    if (!context->result) sdv_exact_children(maker, level, &split, next, next_arena);
     sdv_arena_free(&scratch);
 }
 
@@ -8155,14 +8083,10 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     subdiv_surface *surface = maker->surface;
     sdv_exact *exact = surface->exact;
     sdv_arena *arena = &surface->arena;
-    exact->cut_count = (int)maker->cuts.count;
     exact->kind_count = (int)maker->kinds.count;
     exact->nest_count = (int)maker->nests.count;
     exact->nest_point_count = (int)maker->nest_points.count;
     exact->nest_face_count = (int)maker->nest_faces.count;
-    exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
-    exact->cuts = (sdv_cut_patch *)sdv_keep_array(context, arena, &maker->cuts,
-                                                  sizeof(sdv_cut_patch));
     exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
                                                    sizeof(sdv_nest_kind));
     exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
@@ -8177,23 +8101,17 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 }
 
 // -------------------------------------------------------------------------------- >>locations
-// Which leaf of the tree a location is on, and which polynomial of that.
+// Where a location is on a leaf, and which polynomial of the leaf is there.
 
-// Which child of a face, and where on it; a middle triangle is turned by half.
-SDV_INLINE int sdv_descend_quad(double *x, double *y)
+// Which child of a face, and where on it; a middle triangle is turned by half: scale changes sign.
+SDV_INLINE int sdv_descend(int loop, double *x, double *y, double *scale)
 {
-    int right = *x >= 0.5, up = *y >= 0.5;
-    *x = 2 * *x - right;
-    *y = 2 * *y - up;
-    return right ^ (up * 3);
-}
-
-SDV_INLINE int sdv_descend_triangle(double *x, double *y, double *scale)
-{
-    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
-    *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
-    *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
-    if (child == 3) *scale = -*scale;
+    int right = *x >= 0.5, up = *y >= 0.5, middle = loop && !right && !up && *x + *y >= 0.5;
+    int child = middle ? 3 : loop && right ? 1 : loop && up ? 2 : right ^ (up * 3);
+    if (loop && right) up = 0;
+    *x = middle ? 1 - 2 * *x : 2 * *x - right;
+    *y = middle ? 1 - 2 * *y : 2 * *y - up;
+    *scale *= middle ? -2 : 2;
     return child;
 }
 
@@ -8230,57 +8148,41 @@ SDV_INLINE float sdv_on_face(float u)
     return u < 1 ? u : 1;
 }
 
-// Where a location is: on a leaf of the tree, and on a polynomial of that.
+// Where a patch is, of those of all levels, one level's behind the other's.
+typedef struct sdv_patch_at {
+    int level, i;
+} sdv_patch_at;
+
+static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
+{
+    while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
+        at->i -= surface->exact->patches[at->level++].count;
+}
+
+static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
+{
+    sdv_patch_at at = { 0, number };
+    sdv_next_level(surface, &at);
+    return at;
+}
+
+static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
+                                     const int **points)
+{
+    const sdv_patches *patches = &surface->exact->patches[at.level];
+    *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
+    return &patches->items[at.i];
+}
+
+// Where a location is: on a leaf, and on a polynomial of that.
 typedef struct sdv_leaf {
-    int    node;                        // of the tree; 0: its face has no surface
+    const sdv_patch *patch;             // its leaf is a patch of these control points,
+    const int       *points;
+    int    nest_face;                   // or a face of a nest, or -1: its face has no surface
     int    below_kept;                  // in a nest, nearer to the vertex than polynomials are kept
     size_t polynomial;
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
-
-// From the cell of the deepest level a location is in. Nothing is rounded.
-SDV_INLINE void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
-{
-    const int cells = 1 << SDV_EXACT_LEVELS;
-    int x = (int)(u * (float)cells), y = (int)(v * (float)cells), level = SDV_EXACT_LEVELS;
-    x -= x >> SDV_EXACT_LEVELS;                         // 1 is in the last one
-    y -= y >> SDV_EXACT_LEVELS;
-    for (int turn = x ^ y; node >= 0; ) {
-        level--;
-        node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
-    }
-    float scale = (float)(cells >> level);
-    leaf->node = node;
-    leaf->sx = leaf->sy = (double)scale;
-    leaf->x = (double)(u * scale - (float)(x >> level));
-    leaf->y = (double)(v * scale - (float)(y >> level));
-}
-
-SDV_INLINE void sdv_locate_triangle(const int *nodes, int node, double x, double y,
-                                       sdv_leaf *leaf)
-{
-    double scale = 1;
-    if (x + y > 1) y = 1 - x;
-    for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
-    leaf->node = node;
-    leaf->x = x;
-    leaf->y = y;
-    leaf->sx = leaf->sy = scale;
-}
-
-SDV_INLINE void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
-                              sdv_leaf *leaf)
-{
-    float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
-    int f = at->face;
-    leaf->node = leaf->below_kept = 0;
-    leaf->polynomial = 0;
-    if (surface->exact->absent && surface->exact->absent[f]) return;
-    if (surface->own_face) f = surface->own_face[f];
-    int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop) sdv_locate_triangle(surface->exact->nodes, node, (double)u, (double)v, leaf);
-    else sdv_locate_quad(surface->exact->nodes, node, u, v, leaf);
-}
 
 // The strip that a coordinate is on; it then counts in the strip's own segment.
 SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
@@ -8293,21 +8195,21 @@ SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale
     return i;
 }
 
-SDV_INLINE void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
+// Finds the part of a patch that is cut into strips.
+static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
 {
-    const sdv_cut_patch *cut = &surface->exact->cuts[number];
-    const sdv_strips *along = &surface->exact->strips[cut->along - 1];
-    int row = sdv_find_strip(&surface->exact->strips[cut->up - 1], &leaf->y, &leaf->sy);
+    const sdv_strips *along = &surface->exact->strips[leaf->patch->along - 1];
+    int row = sdv_find_strip(&surface->exact->strips[leaf->patch->up - 1], &leaf->y, &leaf->sy);
     int column = sdv_find_strip(along, &leaf->x, &leaf->sx);
-    leaf->polynomial = (size_t)(cut->polynomial + row * along->count + column);
+    leaf->polynomial += (size_t)(row * along->count + column);
 }
 
 // On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
 // as seen by the face again.
-SDV_INLINE void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
+static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
 {
-    int turn = exact->nest_faces[number].turn, depth = 0;
-    double x, y, scale = 2 * leaf->sx;
+    int turn = exact->nest_faces[leaf->nest_face].turn, depth = 0;
+    double x, y, scale = leaf->sx;
     sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
     while ((loop ? x + y : x > y ? x : y) < 0.5) {
         if (++depth == SDV_NEST_DEPTH) {
@@ -8318,185 +8220,236 @@ SDV_INLINE void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, s
         y *= 2;
         scale *= 2;
     }
-    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
+    int child = sdv_descend(loop, &x, &y, &scale);
     sdv_turn_place(loop, turn ? (loop ? 3 : 4) - turn : 0, x, y, &leaf->x, &leaf->y);
     leaf->sx = leaf->sy = scale;
-    leaf->polynomial = sdv_nest_polynomial_number(exact, number, depth, child);
+    leaf->polynomial = sdv_nest_polynomial_number(exact, leaf->nest_face, depth, child);
 }
 
-SDV_INLINE void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
+static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 {
-    int what = sdv_leaf_what(leaf->node), number = sdv_leaf_number(leaf->node);
-    leaf->polynomial = (size_t)number;
-    if (what == SDV_LEAF_CUT) sdv_find_in_cut(surface, number, leaf);
-    if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
+    if (leaf->patch && leaf->patch->up) sdv_find_part(surface, leaf);
+    if (leaf->nest_face >= 0) sdv_find_in_nest(surface->exact, surface->rules.loop, leaf);
 }
 
 // ------------------------------------------------------------------------------------ >>cells
-// A faster way to the same polynomials, for locations in any order: a walk down the tree has its
-// branches mispredicted. Each face is one cell or, if there is more than one polynomial on it, a
-// grid of 16 cells, and such a cell may be a grid again.
+// Where a location is, is found in few steps, as branches would be mispredicted. Each face, or quad
+// of an n-gon, is one cell or, if there is more than one polynomial on it, a grid of 16 cells, and
+// such a cell may be a grid again.
 //
 //     +--+--+--+--+     A cell is a number: 2 first + 1 of a grid whose cells are those from first
 //     |  |  |  |  |     on. Or it has the number of the polynomial that is all over it, and which
 //     +--+--+--+--+     part of the face that covers: one in 2^across columns and 2^up rows (they
-//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. What
-//     +--+--+--+--+     is smaller than the cells of the second grid is left to the tree.
-//     |  |  |  |  |
-//     +--+--+--+--+     Loop: the triangle below the diagonal of a square has the square's number,
-//     |  |  |  |  |     the one above that of the opposite square (15 less it), behind the long
-//     +--+--+--+--+     side, where there is no triangle.
+//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. Or, if
+//     +--+--+--+--+     it is smaller than the cells of the second grid or has more than one
+//     |  |  |  |  |     polynomial even so, it has the number of a leaf.
+//     +--+--+--+--+
+//     |  |  |  |  |     Loop: the triangle below the diagonal of a square has the square's number,
+//     +--+--+--+--+     the one above that of the opposite square (15 less it), behind the long
+//                       side, where there is no triangle.
 
 #define SDV_CELL_LEVELS 4               // of two grids
 #define SDV_CELL_BITS 8                 // of what is not the polynomial's number
-#define SDV_CELL_NONE 14u               // ask the tree
+#define SDV_CELL_LEAF 0xe0000000u       // cells from here on have twice the number of a leaf more
+#define SDV_CELL_NONE 0xfffffffeu       // no surface
+#define SDV_CELL_FAR 1u                 // as the result of a look-up: see sdv_locate
 
-// Of more polynomials than a cell can number, the last ones are left to the tree. (Tests ask for
-// fewer.)
+// Of more polynomials than a cell can number, the last ones are left to their leaves. (Tests ask
+// for fewer.)
 #ifndef SDV_CELL_POLYNOMIALS
-#define SDV_CELL_POLYNOMIALS ((size_t)1 << (32 - SDV_CELL_BITS))
+#define SDV_CELL_POLYNOMIALS (SDV_CELL_LEAF >> SDV_CELL_BITS)
 #endif
 
-// From the lowest bit on: 0, as it is no grid; 3 bits across; 3 up; turned; the number. (14 has 7
-// across, more than there are levels.)
-static unsigned sdv_pack_cell(size_t polynomial, int across, int up, int turned)
-{
-    if (polynomial >= SDV_CELL_POLYNOMIALS) return SDV_CELL_NONE;
-    return (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(turned << 7 | up << 4 | across << 1);
-}
+// Which cells of a grid are the children, and their children, of its face.
+static const unsigned char sdv_grid_cells[2][16] = {
+    { 0, 1, 5, 4, 2, 3, 7, 6, 10, 11, 15, 14, 8, 9, 13, 12 },
+    { 0, 1, 4, 15, 2, 3, 6, 13, 8, 9, 12, 7, 10, 11, 14, 5 } };
 
 // A square of a face after so many splits; Loop: the triangle below its diagonal, or above.
 typedef struct sdv_square {
-    subdiv_location at;                 // the face, and which corner's quad
+    size_t root;                        // the cell of the whole face
     int level, x, y, above;             // number x along a row of 2^level, in row y
-    int node;                           // of the tree: its own, or the leaf that it is a part of
-    int depth;                          // on a face of a nest: how many levels down
-    int whole;                          // is one polynomial all over it?
-    unsigned cell;                      // if it is; else SDV_CELL_NONE
 } sdv_square;
 
-static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
+typedef struct sdv_cell_maker {
+    sdv_context *context;
+    const subdiv_surface *surface;
+    sdv_array cells;
+} sdv_cell_maker;
+
+// The cell of the face, or of the quad of an n-gon, that has the grid of face-vertex h.
+SDV_INLINE int sdv_root_cell(const sdv_level *cage, int loop, int h)
 {
-    sdv_leaf leaf;
-    memset(&leaf, 0, sizeof leaf);
-    at.u = u;
-    at.v = v;
-    sdv_locate(surface, surface->rules.loop, &at, &leaf);
-    if (leaf.node) sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-    return leaf;
+    return cage->face_size == (loop ? 3 : 4) ? sdv_face_of(cage, h) : h;
 }
 
-// The cell of a square of a cut patch, if one part reaches from corner to corner.
-static unsigned sdv_cut_cell(const subdiv_surface *surface, const sdv_square *square)
+// The square of a face after so many levels of refinement, which is at a place of a grid. The quads
+// of an n-gon are there after one.
+static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h, int column,
+                                int row, int step)
 {
-    float size = 1 / (float)(1 << square->level), low = size / (2 << SDV_STRIP_LEVELS);
-    float u = size * (float)square->x, v = size * (float)square->y, high = size - low;
-    sdv_leaf leaf = sdv_leaf_at(surface, square->at, u + low, v + low);
-    int across = 0, up = 0;
-    while (across <= square->level && 1 << across < leaf.sx) across++;
-    while (up <= square->level && 1 << up < leaf.sy) up++;
-    if (across > square->level || up > square->level ||
-        leaf.polynomial != sdv_leaf_at(surface, square->at, u + high, v + high).polynomial)
-        return SDV_CELL_NONE;
-    return sdv_pack_cell(leaf.polynomial, across, up, 0);
-}
-
-// Sets what a square is on, where the tree goes on with a node.
-static void sdv_square_node(const subdiv_surface *surface, sdv_square *square, int node)
-{
-    int what = sdv_leaf_what(node), level = square->level;
-    square->node = node;
-    square->depth = 0;
-    square->cell = SDV_CELL_NONE;
-    if (node < 0 && what == SDV_LEAF_PATCH)
-        square->cell = sdv_pack_cell((size_t)sdv_leaf_number(node), level, level, square->above);
-    if (node < 0 && what == SDV_LEAF_CUT) square->cell = sdv_cut_cell(surface, square);
-    square->whole = node < 0 && (what == SDV_LEAF_PATCH || square->cell != SDV_CELL_NONE);
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, above = step < 0, ngon = sdv_size_of(cage, h) != (loop ? 3 : 4);
+    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h), level - ngon, column - above,
+                          row - above, above };
+    return square;
 }
 
 // Number k of the four that a split makes of it, which are numbered as by its vertices; the one of
 // Loop's that is in the middle comes last.
-static void sdv_place_square(sdv_square *square, int loop, int k)
+static sdv_square sdv_split_square(sdv_square square, int loop, int k)
 {
     int middle = loop && k == 3, right = loop ? k == 1 : k == 1 || k == 2;
     int up = loop ? k == 2 : k >= 2;
-    square->level++;
-    square->x = 2 * square->x + (square->above ? 1 - right : right);
-    square->y = 2 * square->y + (square->above ? 1 - up : up);
-    square->above ^= middle;
+    square.level++;
+    square.x = 2 * square.x + (square.above ? 1 - right : right);
+    square.y = 2 * square.y + (square.above ? 1 - up : up);
+    square.above ^= middle;
+    return square;
 }
 
-static sdv_square sdv_split_square(const subdiv_surface *surface, const sdv_square *square, int k)
+// The cell of a square in the grid that is so many levels above it, at least two.
+static size_t sdv_cell_in_grid(const sdv_square *square, int loop, int levels)
 {
-    const sdv_exact *exact = surface->exact;
-    int loop = surface->rules.loop, sides = loop ? 3 : 4, number = sdv_leaf_number(square->node);
-    sdv_square part = *square;
-    sdv_place_square(&part, loop, k);
-    if (square->node >= 0) {
-        sdv_square_node(surface, &part, exact->nodes[square->node + k]);
-    } else if (!square->whole && sdv_leaf_what(square->node) == SDV_LEAF_NEST) {
-        int turn = exact->nest_faces[number].turn;
-        int child = k < sides ? (k + sides - turn) % sides : k;
-        size_t polynomial = sdv_nest_polynomial_number(exact, number, square->depth, child);
-        part.depth++;
-        part.whole = child > 0;
-        if (part.whole) part.cell = sdv_pack_cell(polynomial, part.level, part.level, part.above);
-    } else if (!square->whole) {
-        sdv_square_node(surface, &part, square->node);
+    int shift = levels - 2, rest = (1 << shift) - 1;
+    int x = square->x, y = square->y, i = (y >> shift & 3) << 2 | (x >> shift & 3);
+    return (size_t)(loop && (x & rest) + (y & rest) + square->above > rest ? 15 - i : i);
+}
+
+// Sets the cell of a square, in a grid for every two levels: four cells if it is large.
+static void sdv_set_cell(sdv_cell_maker *maker, const sdv_square *square, unsigned cell)
+{
+    int loop = maker->surface->rules.loop, levels = square->level;
+    size_t i = square->root;
+    for (; levels > 0; levels -= 2) {
+        unsigned *cells = (unsigned *)sdv_items(&maker->cells);
+        size_t first = cells[i] / 2;
+        if (!(cells[i] & 1)) {
+            first = maker->cells.count;
+            if (first >= SDV_CELL_LEAF / 2)
+                sdv_fail(maker->context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
+            if (!sdv_append(maker->context, &maker->cells, 16, sizeof *cells)) return;
+            cells = (unsigned *)sdv_items(&maker->cells);
+            cells[i] = 2 * (unsigned)first + 1;
+        }
+        for (int k = 0; k < 4 && levels == 1; k++) {
+            sdv_square part = sdv_split_square(*square, loop, k);
+            cells[first + sdv_cell_in_grid(&part, loop, 2)] = cell;
+        }
+        if (levels == 1) return;
+        i = first + sdv_cell_in_grid(square, loop, levels);
     }
-    return part;
+    ((unsigned *)sdv_items(&maker->cells))[i] = cell;
 }
 
-static size_t sdv_number_in_grid(const sdv_square *square)
+// Sets the cell of a square with one polynomial, or leaves it to its leaf. From the lowest bit on:
+// 0, as it is no grid; 3 bits across; 3 up; turned; the number.
+static void sdv_set_polynomial(sdv_cell_maker *maker, const sdv_square *square, size_t polynomial,
+                               int across, int up, unsigned leaf)
 {
-    int i = (square->y & 3) << 2 | (square->x & 3);
-    return (size_t)(square->above ? 15 - i : i);
+    unsigned cell = (unsigned)polynomial << SDV_CELL_BITS | (unsigned)square->above << 7 |
+                    (unsigned)up << 4 | (unsigned)across << 1;
+    sdv_set_cell(maker, square, polynomial < SDV_CELL_POLYNOMIALS ? cell : leaf);
 }
 
-// Makes cell number i, and its grid: where a quarter of that has one polynomial, all at once.
-static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_surface *surface,
-                           const sdv_square *square, size_t i)
+// The strip that reaches from one segment to another, or -1.
+static int sdv_strip_over(const sdv_strips *strips, int from, int to)
 {
-    int grid = !square->whole && square->level < SDV_CELL_LEVELS && square->depth < SDV_NEST_DEPTH;
-    size_t first = cells->count;
-    if (first > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
-    if (context->result || (grid && !sdv_append(context, cells, 16, sizeof(unsigned)))) return;
-    ((unsigned *)sdv_items(cells))[i] = grid ? 2 * (unsigned)first + 1 : square->cell;
-    for (int k = 0; k < 4 && grid; k++) {
-        sdv_square quarter = sdv_split_square(surface, square, k);
-        for (int j = 0; j < 4; j++) {
-            sdv_square part = sdv_split_square(surface, &quarter, j);
-            size_t number = first + sdv_number_in_grid(&part);
-            if (quarter.whole) ((unsigned *)sdv_items(cells))[number] = quarter.cell;
-            else sdv_make_cells(context, cells, surface, &part, number);
+    for (int i = 0; i < strips->count; i++)
+        if (strips->items[i].from <= from && to <= strips->items[i].to) return i;
+    return -1;
+}
+
+// Sets the cells of a square of a patch of a level that is cut into strips: one, if one part
+// reaches from corner to corner.
+static void sdv_set_cut(sdv_cell_maker *maker, const sdv_square *square, const sdv_patch *patch,
+                        int level, unsigned leaf)
+{
+    const sdv_strips *along = &maker->surface->exact->strips[patch->along - 1];
+    const sdv_strips *up = &maker->surface->exact->strips[patch->up - 1];
+    int parts = 1 << (square->level - level), size = (1 << SDV_STRIP_LEVELS) / parts;
+    int x = (square->x % parts) * size, y = (square->y % parts) * size;
+    int i = sdv_strip_over(along, x, x + size), j = sdv_strip_over(up, y, y + size);
+    if (i >= 0 && j >= 0) {
+        int columns = level, rows = level;
+        for (int n = 1 << SDV_STRIP_LEVELS; n > along->items[i].unit; n /= 2) columns++;
+        for (int n = 1 << SDV_STRIP_LEVELS; n > up->items[j].unit; n /= 2) rows++;
+        if (columns <= square->level && rows <= square->level) {
+            size_t polynomial = (size_t)(patch->polynomial + j * along->count + i);
+            sdv_set_polynomial(maker, square, polynomial, columns, rows, leaf);
+            return;
         }
     }
+    for (int k = 0; k < 4 && square->level < SDV_CELL_LEVELS; k++) {
+        sdv_square part = sdv_split_square(*square, 0, k);
+        sdv_set_cut(maker, &part, patch, level, leaf);
+    }
+    if (square->level == SDV_CELL_LEVELS) sdv_set_cell(maker, square, leaf);
 }
 
-// The cells of all faces, and one for those without a surface.
-static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
+// Sets the cells of what is left of a nest's face after so many levels.
+static void sdv_set_nest_face(sdv_cell_maker *maker, const sdv_square *square, int face, int depth,
+                              unsigned leaf)
+{
+    const sdv_exact *exact = maker->surface->exact;
+    int loop = maker->surface->rules.loop, sides = loop ? 3 : 4;
+    if (square->level >= SDV_CELL_LEVELS || depth == SDV_NEST_DEPTH) {
+        sdv_set_cell(maker, square, leaf);
+        return;
+    }
+    for (int k = 0; k < 4; k++) {
+        int child = k < sides ? (k + sides - exact->nest_faces[face].turn) % sides : k;
+        size_t polynomial = sdv_nest_polynomial_number(exact, face, depth, child);
+        sdv_square part = sdv_split_square(*square, loop, k);
+        if (child == 0) sdv_set_nest_face(maker, &part, face, depth + 1, leaf);
+        else sdv_set_polynomial(maker, &part, polynomial, part.level, part.level, leaf);
+    }
+}
+
+// Sets the cells of all leaves, which are numbered: patches, then faces of nests.
+static void sdv_set_leaves(sdv_cell_maker *maker)
+{
+    const subdiv_surface *surface = maker->surface;
+    const sdv_exact *exact = surface->exact;
+    unsigned leaf = SDV_CELL_LEAF;
+    for (int level = 0; level < SDV_EXACT_LEVELS; level++)
+        for (int i = 0; i < exact->patches[level].count && !maker->context->result; i++) {
+            const sdv_patch *p = &exact->patches[level].items[i];
+            sdv_square square = sdv_square_at(surface, level, p->h, p->column, p->row, p->step);
+            int at = square.level;
+            if (at > SDV_CELL_LEVELS) sdv_set_cell(maker, &square, leaf);
+            else if (p->up) sdv_set_cut(maker, &square, p, at, leaf);
+            else sdv_set_polynomial(maker, &square, (size_t)p->polynomial, at, at, leaf);
+            leaf += 2;
+        }
+    for (int i = 0; i < exact->nest_face_count && !maker->context->result; i++) {
+        const sdv_nest_face *face = &exact->nest_faces[i];
+        const sdv_place *place = &face->place;
+        sdv_square square = sdv_square_at(surface, face->level, place->h, place->column,
+                                          place->row, place->step);
+        sdv_set_nest_face(maker, &square, i, 0, leaf);
+        leaf += 2;
+    }
+}
+
+// Makes the cells of all faces, and one more for faces without a surface.
+static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
 {
     const sdv_level *cage = &surface->order.cage;
     sdv_exact *exact = surface->exact;
-    sdv_array cells;
-    int loop = surface->rules.loop, size = loop ? 3 : 4;
-    memset(&cells, 0, sizeof cells);
-    size_t roots = (size_t)cage->face_vertex_count + 1;
-    sdv_append(context, &cells, roots, sizeof(unsigned));
-    for (size_t i = 0; i < roots && !context->result; i++)
-        ((unsigned *)sdv_items(&cells))[i] = SDV_CELL_NONE;
-    for (int f = 0; f < surface->face_count && !context->result; f++) {
+    sdv_cell_maker maker = { context, surface, { NULL, 0, 0 } };
+    int loop = surface->rules.loop, roots = cage->face_vertex_count + 1;
+    unsigned *cells = (unsigned *)sdv_append(context, &maker.cells, (size_t)roots, sizeof *cells);
+    for (int i = 0; i < roots && cells; i++) cells[i] = SDV_CELL_NONE;
+    sdv_set_leaves(&maker);
+    exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &maker.cells,
+                                              sizeof *cells);
+    for (int f = 0; f < surface->face_count && exact->absent && !context->result; f++) {
         int own = surface->own_face ? surface->own_face[f] : f;
-        if (exact->absent && exact->absent[f]) continue;
-        int count = sdv_face_end(cage, own) - sdv_face_start(cage, own);
-        for (int corner = 0; corner < (count == size ? 1 : count); corner++) {
-            sdv_square face = { { f, corner, 0, 0 }, 0, 0, 0, 0, 0, 0, 0, SDV_CELL_NONE };
-            int i = sdv_face_node(cage, loop, own, corner);
-            sdv_square_node(surface, &face, exact->nodes[i]);
-            sdv_make_cells(context, &cells, surface, &face, (size_t)i);
-        }
+        if (!exact->absent[f] || own < 0) continue;
+        for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
+            exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
     }
-    exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
 }
 
 // Is a location there?
@@ -8576,7 +8529,7 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
     }
 }
 
-// The first cell of a face, or of its corner; *odd: there is no such corner.
+// The cell of a face, or of the quad at its corner; *odd: there is no such corner.
 SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
                               unsigned *odd)
 {
@@ -8612,8 +8565,11 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_loo
     for (int k = 0; k < count; k++) {
         unsigned cell = cells[l->face[k]], grid = 0u - (cell & 1);
         cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
-        if (cell & 1) cell = cells[(cell >> 1) + (unsigned)l->second[k]];   // hardly ever
-        l->cells[k] = cell;
+        if (cell & 1) {                                                     // hardly ever
+            cell = cells[(cell >> 1) + (unsigned)l->second[k]];
+            if (cell & 1) cell = SDV_CELL_NONE;
+        }
+        l->cells[k] = cell < SDV_CELL_LEAF ? cell : SDV_CELL_FAR;
     }
 }
 
@@ -8657,7 +8613,68 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
     return found;
 }
 
-// Preparing an exact surface: its tree level by level, then its cells.
+// The patch that has a polynomial.
+static sdv_patch_at sdv_find_patch_of(const sdv_exact *exact, int polynomial)
+{
+    sdv_patch_at at = { 0, 0 };
+    for (int level = 1; level < SDV_EXACT_LEVELS; level++) {
+        const sdv_patches *patches = &exact->patches[level];
+        if (patches->count && patches->items[0].polynomial <= polynomial) at.level = level;
+    }
+    for (int end = exact->patches[at.level].count; at.i + 1 < end; ) {
+        int middle = at.i + (end - at.i) / 2;
+        if (exact->patches[at.level].items[middle].polynomial <= polynomial) at.i = middle;
+        else end = middle;
+    }
+    return at;
+}
+
+// Sets which leaf a cell is on. Returns its level.
+static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_leaf *leaf)
+{
+    const sdv_exact *exact = surface->exact;
+    int is_leaf = cell >= SDV_CELL_LEAF;
+    int number = (int)(is_leaf ? (cell - SDV_CELL_LEAF) / 2 : cell >> SDV_CELL_BITS);
+    int kept = number - exact->polynomial_count;
+    leaf->nest_face = -1;
+    if (is_leaf && number >= exact->patch_count) leaf->nest_face = number - exact->patch_count;
+    else if (!is_leaf && kept >= 0) leaf->nest_face = kept / 3 % exact->nest_face_count;
+    if (leaf->nest_face >= 0) return exact->nest_faces[leaf->nest_face].level;
+    sdv_patch_at at = is_leaf ? sdv_find_patch(surface, number) : sdv_find_patch_of(exact, number);
+    leaf->patch = sdv_patch_of(surface, at, &leaf->points);
+    leaf->polynomial = (size_t)leaf->patch->polynomial;
+    return at.level;
+}
+
+// Finds the leaf of a location.
+static sdv_leaf sdv_locate(const subdiv_surface *surface, const subdiv_location *at)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, f = surface->own_face ? surface->own_face[at->face] : at->face;
+    double u = (double)sdv_on_face(at->u), v = (double)sdv_on_face(at->v);
+    unsigned odd = 0;
+    unsigned cell = surface->exact->cells[sdv_first_cell(surface, loop, at->face, at->corner,
+                                                         &odd)];
+    sdv_leaf leaf;
+    memset(&leaf, 0, sizeof leaf);
+    leaf.nest_face = -1;
+    if (cell == SDV_CELL_NONE) return leaf;
+    if (loop && u + v > 1) v = 1 - u;
+    for (double x = u, y = v, scale = 1; cell & 1; ) {
+        int child = sdv_descend(loop, &x, &y, &scale);
+        child = 4 * child + sdv_descend(loop, &x, &y, &scale);
+        cell = surface->exact->cells[(cell >> 1) + sdv_grid_cells[loop][child]];
+    }
+    int level = sdv_leaf_of_cell(surface, cell, &leaf);
+    level -= sdv_face_end(cage, f) - sdv_face_start(cage, f) != (loop ? 3 : 4);
+    leaf.x = u;
+    leaf.y = v;
+    leaf.sx = 1;
+    for (int i = 0; i < level; i++) sdv_descend(loop, &leaf.x, &leaf.y, &leaf.sx);
+    leaf.sy = leaf.sx;
+    return leaf;
+}
+
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
 {
     sdv_exact *exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
@@ -8683,12 +8700,8 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     sdv_writer_new(context, &surface->points, cage, &writer);
     maker.writer = &writer;
     maker.surface = surface;
-    maker.slots = SDV_NEW(context, arena, int, level.face_count);
-    sdv_append(context, &maker.nodes, (size_t)level.face_vertex_count, sizeof(int));
     if (!context->result) {
         memset(level.core, 1, (size_t)level.face_count);
-        for (int f = 0; f < level.face_count; f++)
-            maker.slots[f] = sdv_face_node(&level, surface->rules.loop, f, 0);
         sdv_level_fade(&level);
         surface->work_count = level.vertex_count;
         sdv_find_absent(context, surface, hole);
@@ -8701,7 +8714,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result && !surface->borrows) sdv_make_all_cells(context, surface);
+    if (!context->result && !surface->borrows) sdv_make_cells(context, surface);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -8972,11 +8985,6 @@ static const double *sdv_double_point(const sdv_double_patch *from, int i)
     return from->work + 4 * (size_t)from->points[i];
 }
 
-static int sdv_double_parts(const sdv_double_patch *from)
-{
-    return from->along ? from->along->count * from->up->count : 1;
-}
-
 // Four lines of control points, step from point to point and next from line to line, become sums
 // of themselves.
 static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)[4])
@@ -9061,32 +9069,6 @@ static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynom
     sdv_load_points(same, count, points, p);
     if (from->patch->sharp) sdv_mirror_quad(from->patch, p);
     sdv_quad_polynomial(p, from->rules->linear, q);
-}
-
-// Where a patch is, of those of all levels, one level's behind the other's.
-typedef struct sdv_patch_at {
-    int level, i;
-} sdv_patch_at;
-
-static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
-{
-    while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
-        at->i -= surface->exact->patches[at->level++].count;
-}
-
-static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
-{
-    sdv_patch_at at = { 0, number };
-    sdv_next_level(surface, &at);
-    return at;
-}
-
-static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
-                                     const int **points)
-{
-    const sdv_patches *patches = &surface->exact->patches[at.level];
-    *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
-    return &patches->items[at.i];
 }
 
 // A nest's points, four channels at a time, as seen from its vertex: base + shrink w.
@@ -9272,24 +9254,22 @@ static int sdv_lanes_from(int channels, int c)
     return channels - c < 4 ? channels - c : 4;
 }
 
-// Makes the polynomials of a patch, of which i is the first one's number. Returns how many.
-static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
-                                 const int *points, size_t i)
+// Makes the polynomials of a patch.
+static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
+                                  const int *points)
 {
     sdv_polynomial q;
     double origin[4];
-    int parts = 0;
+    int parts = sdv_patch_parts(e->surface->exact->strips, patch);
     for (int c = 0; c < e->channels; c += 4) {
         const double *work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
         sdv_double_patch from = sdv_double_patch_of(e->surface, patch, points, work);
-        parts = sdv_double_parts(&from);
         for (int k = 0; k < parts; k++) {
             sdv_make_polynomial(&from, k, &q, origin);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
-                                sdv_polynomial_at(e, i + (size_t)k, c));
+                                sdv_polynomial_at(e, (size_t)(patch->polynomial + k), c));
         }
     }
-    return parts;
 }
 
 // Makes the polynomial of a child of a nest's face, number `face` of its own, after a refinement.
@@ -9332,42 +9312,18 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
     }
 }
 
-// The last cut patch of a number up to this, or of a polynomial: -1 if there is none.
-static int sdv_last_cut(const sdv_exact *exact, int patch, int polynomial)
-{
-    int low = 0, high = exact->cut_count;
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (exact->cuts[middle].patch <= patch && exact->cuts[middle].polynomial <= polynomial)
-            low = middle + 1;
-        else high = middle;
-    }
-    return low - 1;
-}
-
-// How many more polynomials than patches there are up to this cut patch.
-static int sdv_more_polynomials(const subdiv_surface *surface, int i)
-{
-    const sdv_cut_patch *cut = i < 0 ? NULL : &surface->exact->cuts[i];
-    if (!cut) return 0;
-    return cut->polynomial - cut->patch - 1 +
-           surface->exact->strips[cut->along - 1].count * surface->exact->strips[cut->up - 1].count;
-}
-
 static void sdv_exact_patches_job(void *context, int job)
 {
     const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
     const subdiv_surface *surface = e->surface;
     int first = sdv_share(surface->exact->patch_count, job, e->jobs);
     int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs);
-    int next = first + sdv_more_polynomials(surface, sdv_last_cut(surface->exact, first - 1,
-                                                                  INT_MAX));
     sdv_patch_at at = sdv_find_patch(surface, first);
     for (int i = first; i < end; i++, at.i++) {
         const int *points;
         sdv_next_level(surface, &at);
         const sdv_patch *patch = sdv_patch_of(surface, at, &points);
-        next += sdv_patch_polynomials(e, patch, points, (size_t)next);
+        sdv_patch_polynomials(e, patch, points);
     }
 }
 
@@ -9563,9 +9519,8 @@ static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
 static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
                                     int face, double x, double y, double (*weights)[6])
 {
-    double scale = 2;
-    int child = surface->rules.loop ? sdv_descend_triangle(&x, &y, &scale)
-                                    : sdv_descend_quad(&x, &y);
+    double scale = 1;
+    int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
     sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
     const int *points;
     const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
@@ -9716,15 +9671,15 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
 static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
 {
     const subdiv_surface *surface = e->surface;
-    int loop = surface->rules.loop, number = sdv_leaf_number(leaf->node);
-    const sdv_nest_face *face = &surface->exact->nest_faces[number];
+    int loop = surface->rules.loop;
+    const sdv_nest_face *face = &surface->exact->nest_faces[leaf->nest_face];
     const signed char *t = sdv_turns[loop][face->turn];
     int count = sdv_nest_work(surface->exact, face->nest);
     double stack[4 * SDV_NEST_STACK], *w = stack;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
-    s.face = number - surface->exact->nests[face->nest].face;
+    s.face = leaf->nest_face - surface->exact->nests[face->nest].face;
     sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &s.x, &s.y);
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
@@ -9744,27 +9699,21 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-static void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job, size_t i)
-{
-    const float *data = e->memory.polynomials + SDV_SLOTS * (size_t)e->channels * leaf->polynomial;
-    sdv_where at = { (float)leaf->x, (float)leaf->y, (float)leaf->sx, (float)leaf->sy };
-    if (leaf->node == 0)
-        sdv_put_zeros(e, i);
-    else if (leaf->below_kept)
-        e->failed[job] |= !sdv_sample_nest(e, leaf, i);
-    else
-        sdv_put_channels(e, data, loop, &at, i);
-}
-
-// By the tree: at a location that is in no cell.
+// By its leaf: a location in a cell that has more than one polynomial.
 static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
 {
-    subdiv_location at = e->locations[i];
-    sdv_leaf leaf = sdv_leaf_at(e->surface, at, at.u, at.v);
-    sdv_put_leaf(e, &leaf, loop, job, i);
+    sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
+    sdv_find_polynomial(e->surface, &leaf);
+    sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
+    if (leaf.below_kept)
+        e->failed[job] |= !sdv_sample_nest(e, &leaf, i);
+    else if (leaf.patch || leaf.nest_face >= 0)
+        sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i);
+    else
+        sdv_put_zeros(e, i);
 }
 
-// Locations, looked up, and where their polynomials are, unless the tree is to be asked.
+// Locations, looked up, and where their polynomials are, unless their leaves are to be asked.
 typedef struct sdv_sample_batch {
     int count;
     sdv_lookup at;
@@ -9808,7 +9757,7 @@ SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int la
             sdv_prefetch(next->data[k] + third);
             sdv_prefetch(next->data[k] + 2 * third);
         }
-        if (l->cells[k] == SDV_CELL_NONE) sdv_put_location(e, loop, job, i);
+        if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, job, i);
         else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
         else sdv_put_channels(e, batch->data[k], loop, &at, i);
     }
@@ -10518,31 +10467,17 @@ static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int coun
         sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
 }
 
-// The patch of a leaf that is none of a nest.
-static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int node, const int **points)
-{
-    const sdv_exact *exact = surface->exact;
-    int number = sdv_leaf_number(node);
-    if (sdv_leaf_what(node) == SDV_LEAF_CUT) number = exact->cuts[number].patch;
-    else number -= sdv_more_polynomials(surface, sdv_last_cut(exact, INT_MAX, number));
-    return sdv_patch_of(surface, sdv_find_patch(surface, number), points);
-}
-
 // Adds the control points of a patch, or of the part of it that a location is on.
 static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
-    const int *points;
-    const sdv_patch *patch = sdv_leaf_patch(surface, leaf.node, &points);
     double all[16][6], weights[3 * 16];
-    int count = sdv_control_points(&surface->rules), part = 0;
-    sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-    if (sdv_leaf_what(leaf.node) == SDV_LEAF_CUT)
-        part = (int)leaf.polynomial - surface->exact->cuts[sdv_leaf_number(leaf.node)].polynomial;
+    int count = sdv_control_points(&surface->rules);
+    sdv_find_polynomial(surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
-    sdv_patch_weights(surface, patch, part, &at, all);
+    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at, all);
     for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
-    sdv_add_rounded(make, points, count, weights);
+    sdv_add_rounded(make, leaf.points, count, weights);
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
@@ -10649,13 +10584,13 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
 {
     const subdiv_surface *surface = make->surface;
     const sdv_exact *exact = surface->exact;
-    const sdv_nest_face *face = &exact->nest_faces[sdv_leaf_number(leaf->node)];
+    const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
     const sdv_nest *nest = &exact->nests[face->nest];
     const sdv_nest_kind *kind = &exact->kinds[nest->kind];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
     double x, y;
     sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
-    sdv_weigh_nest(surface, kind, sdv_leaf_number(leaf->node) - nest->face, x, y, w);
+    sdv_weigh_nest(surface, kind, leaf->nest_face - nest->face, x, y, w);
     for (int i = 0; i < kind->points; i++) {
         double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
@@ -10672,10 +10607,9 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     sdv_stencil_maker_new(context, &make, surface, count, 3);
     double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context->result; i++) {
-        sdv_leaf leaf;
-        sdv_locate(surface, surface->rules.loop, &locations[i], &leaf);
-        if (sdv_leaf_what(leaf.node) == SDV_LEAF_NEST) sdv_add_leaf_nest(&make, &leaf, w);
-        else if (leaf.node) sdv_add_leaf_patch(&make, leaf);
+        sdv_leaf leaf = sdv_locate(surface, &locations[i]);
+        if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
     }
     sdv_copy_stencils(&make, count, stencils);
