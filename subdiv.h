@@ -8834,11 +8834,6 @@ SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
     return sdv_minus(sdv_plus(edge, edge), inside);
 }
 
-SDV_INLINE void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
-{
-    for (int i = 0; i < count; i++) p[i] = sdv_load(work + 4 * (size_t)points[i]);
-}
-
 // What lies beyond sharp edges is mirrored: first to the left and right in all rows that are known,
 // then below and above.
 static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
@@ -8916,6 +8911,7 @@ static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
 {
     sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
     sdv_four (*c)[5] = q->c;
+    q->degree = 4;
     sdv_four p35 = sdv_plus(p[3], p[5]), p08 = sdv_plus(p[0], p[8]), p16 = sdv_plus(p[1], p[6]);
     sdv_four d53 = sdv_minus(p[5], p[3]), d80 = sdv_minus(p[8], p[0]), d16 = sdv_minus(p[1], p[6]);
     c[0][0] = sdv_times(twelfth, sdv_sum3(p35, p08, p16));
@@ -8943,23 +8939,11 @@ static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
 // Linear: 0 at vertex 0.
 static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
 {
+    q->degree = 4;
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
     q->c[1][0] = p[5];
     q->c[0][1] = p[8];
-}
-
-static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int linear,
-                                    const float *work, sdv_polynomial *q)
-{
-    sdv_four p[12];
-    q->degree = 4;
-    sdv_load_points(points, 12, work, p);
-    q->origin = p[4];
-    for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
-    sdv_mirror_triangle(patch, p);
-    if (linear) sdv_plane(p, q);
-    else sdv_box_spline(p, q);
 }
 
 // A patch, its control points among work points in doubles, and the strips that it is cut into.
@@ -8980,9 +8964,9 @@ static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const
     return from;
 }
 
-static const double *sdv_double_point(const sdv_double_patch *from, int i)
+static int sdv_double_parts(const sdv_double_patch *from)
 {
-    return from->work + 4 * (size_t)from->points[i];
+    return from->along ? from->along->count * from->up->count : 1;
 }
 
 // Four lines of control points, step from point to point and next from line to line, become sums
@@ -9020,17 +9004,15 @@ static void sdv_cut_cubic(double (*p)[4], int step, int next)
     sdv_combine(p, step, next, rows);
 }
 
-// The part of a patch where two strips cross. It may be a thousandth of the patch, so it is made in
-// doubles. The polynomial starts where the strips' own segments do, which are its units.
-static void sdv_cut_polynomial(const sdv_double_patch *from, const sdv_strip *along,
-                               const sdv_strip *up, sdv_polynomial *q, double *origin)
+// The part of a patch where two strips cross, from its control points around origin. It may be a
+// thousandth of the patch, so it is made in doubles. The polynomial starts where the strips' own
+// segments do, which are its units.
+static void sdv_cut_polynomial(const sdv_double_patch *from, int part, double (*p)[4],
+                               sdv_polynomial *q, double *origin)
 {
-    int sharp = from->patch->sharp;
-    double p[16][4];
-    for (int i = 0; i < 16; i++)
-        for (int c = 0; c < 4; c++) p[i][c] = sdv_double_point(from, i)[c] - origin[c];
-    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, from->along, along);
-    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, from->up, up);
+    int sharp = from->patch->sharp, columns = from->along->count;
+    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, from->along, &from->along->items[part % columns]);
+    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, from->up, &from->up->items[part / columns]);
     sdv_cut_cubic(p, 1, 4);
     sdv_cut_cubic(p, 4, 1);
     for (int c = 0; c < 4; c++) {
@@ -9046,29 +9028,29 @@ static void sdv_cut_polynomial(const sdv_double_patch *from, const sdv_strip *al
 static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynomial *q,
                                 double *origin)
 {
-    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    const double *first = sdv_double_point(from, from->rules->loop ? 4 : 5);
-    int count = sdv_control_points(from->rules);
-    float points[4 * 16];
-    sdv_four p[16];
+    int loop = from->rules->loop, linear = from->rules->linear;
+    int count = sdv_control_points(from->rules), first = from->points[loop ? 4 : 5];
+    double p[16][4];
+    sdv_four f[16];
     q->origin = sdv_all(0);
-    for (int c = 0; c < 4; c++) origin[c] = first[c];
+    memcpy(origin, from->work + 4 * (size_t)first, 4 * sizeof *origin);
+    for (int k = 0; k < count; k++)
+        for (int c = 0; c < 4; c++)
+            p[k][c] = from->work[4 * (size_t)from->points[k] + (size_t)c] - origin[c];
     if (from->along) {
-        int columns = from->along->count;
-        sdv_cut_polynomial(from, &from->along->items[i % columns], &from->up->items[i / columns],
-                           q, origin);
+        sdv_cut_polynomial(from, i, p, q, origin);
         return;
     }
     for (int k = 0; k < count; k++)
-        for (int c = 0; c < 4; c++)
-            points[4 * k + c] = (float)(sdv_double_point(from, k)[c] - origin[c]);
-    if (from->rules->loop) {
-        sdv_triangle_polynomial(from->patch, same, from->rules->linear, points, q);
+        f[k] = sdv_of((float)p[k][0], (float)p[k][1], (float)p[k][2], (float)p[k][3]);
+    if (loop) {
+        sdv_mirror_triangle(from->patch, f);
+        if (linear) sdv_plane(f, q);
+        else sdv_box_spline(f, q);
         return;
     }
-    sdv_load_points(same, count, points, p);
-    if (from->patch->sharp) sdv_mirror_quad(from->patch, p);
-    sdv_quad_polynomial(p, from->rules->linear, q);
+    if (from->patch->sharp) sdv_mirror_quad(from->patch, f);
+    sdv_quad_polynomial(f, linear, q);
 }
 
 // A nest's points, four channels at a time, as seen from its vertex: base + shrink w.
@@ -9260,11 +9242,10 @@ static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch
 {
     sdv_polynomial q;
     double origin[4];
-    int parts = sdv_patch_parts(e->surface->exact->strips, patch);
     for (int c = 0; c < e->channels; c += 4) {
         const double *work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
         sdv_double_patch from = sdv_double_patch_of(e->surface, patch, points, work);
-        for (int k = 0; k < parts; k++) {
+        for (int k = 0; k < sdv_double_parts(&from); k++) {
             sdv_make_polynomial(&from, k, &q, origin);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
                                 sdv_polynomial_at(e, (size_t)(patch->polynomial + k), c));
