@@ -6926,33 +6926,18 @@ static void sdv_split_inside(sdv_level *next, int at, int other)
     next->sharpness[at] = 0;
 }
 
-// The place of the child at the vertex that is so far from vertex 0.
-static sdv_place sdv_child_place(sdv_place place, int up, int right)
+// Where the child of face f is that has its vertex i; in Loop the middle one is number 3, which is
+// turned. grid: the face-vertex of a face of the cage that has the child's grid.
+static void sdv_place_child(const sdv_level *level, int f, int grid, int i, sdv_level *next,
+                            int child)
 {
+    int loop = next->face_size == 3, right = loop ? i & 1 : i == 1 || i == 2, up = i >= 2;
+    sdv_place place = level->places ? level->places[f] : sdv_first_place(grid);
     place.row = 2 * place.row + place.step * up;
     place.column = 2 * place.column + place.step * right;
-    return place;
-}
-
-static void sdv_split_quads(const sdv_level *level, const sdv_split *split, sdv_level *next)
-{
-    for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), quad = end - start == 4;
-        if (split->face[f] < 0) continue;
-        for (int h = start; h < end; h++) {
-            int child = split->child[h], i = quad ? h - start : 0;
-            if (child < 0) continue;
-            int after = split->child[h + 1 < end ? h + 1 : start];
-            int before = split->child[h > start ? h - 1 : end - 1];
-            sdv_split_vertex(level, split, next, 4, h, child);
-            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
-            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
-            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
-            sdv_place place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
-            next->places[child >> 2] = sdv_child_place(place, i >> 1, i == 1 || i == 2);
-            next->core[child >> 2] = level->rough[f];
-        }
-    }
+    if (loop && i == 3) place.step = -place.step;
+    next->places[child] = place;
+    next->core[child] = level->rough[f];
 }
 
 // The middle child is e1 e2 e0: its edge i lies across from child i + 2.
@@ -6966,26 +6951,31 @@ static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
     }
 }
 
-static void sdv_split_triangles(const sdv_level *level, const sdv_split *split, sdv_level *next)
+static void sdv_split_face(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                           int size, int f)
 {
-    for (int f = 0; f < level->face_count; f++) {
-        const int *child = split->child + 4 * (size_t)f;
-        sdv_place place = level->places ? level->places[f] : sdv_first_place(3 * f);
-        for (int i = 0; i < 4; i++) {
-            if (child[i] < 0) continue;
-            if (i == 3) {
-                sdv_split_middle(split, next, f);
-            } else {
-                int middle = child[3] < 0 ? -1 : child[3] + (i + 1) % 3;
-                sdv_split_vertex(level, split, next, 3, 3 * f + i, child[i]);
-                sdv_split_inside(next, sdv_turn(3, child[i], 1), middle);
-            }
-            int face = child[i] / 3;
-            next->places[face] = sdv_child_place(place, i >= 2, i & 1);
-            if (i == 3) next->places[face].step = -place.step;
-            next->core[face] = level->rough[f];
+    int start = sdv_face_start(level, f), count = sdv_face_end(level, f) - start, loop = size == 3;
+    const int *children = split->child + start + (loop ? f : 0);
+    for (int i = 0; i < count; i++) {
+        int child = children[i], h = start + i;
+        if (child < 0) continue;
+        sdv_split_vertex(level, split, next, size, h, child);
+        if (loop) {
+            int middle = children[3] < 0 ? -1 : children[3] + (i + 1) % 3;
+            sdv_split_inside(next, sdv_turn(3, child, 1), middle);
+        } else {
+            int after = children[i + 1 < count ? i + 1 : 0];
+            int before = children[i > 0 ? i - 1 : count - 1];
+            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
+            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
+            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
         }
+        sdv_place_child(level, f, count == size ? start : h, count == size ? i : 0, next,
+                        child / size);
     }
+    if (!loop || children[3] < 0) return;
+    sdv_split_middle(split, next, f);
+    sdv_place_child(level, f, start, 3, next, children[3] / 3);
 }
 
 static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_level *level,
@@ -7004,8 +6994,8 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
     sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
-    if (loop) sdv_split_triangles(level, split, next);
-    else sdv_split_quads(level, split, next);
+    for (int f = 0; f < level->face_count; f++)
+        sdv_split_face(level, split, next, loop ? 3 : 4, f);
     sdv_level_count(next);
     sdv_split_points(level, split, next, rules);
     sdv_level_fade(next);
