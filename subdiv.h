@@ -9120,14 +9120,9 @@ typedef struct sdv_exact_memory {
 
 #define SDV_CACHE_LINE 64
 
-static size_t sdv_exact_doubles(int channels, size_t count)
-{
-    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * count;
-}
-
 static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
 {
-    return sdv_exact_doubles(channels, (size_t)surface->work_count);
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
 }
 
 static size_t sdv_exact_kept_count(const sdv_exact *exact)
@@ -9135,43 +9130,40 @@ static size_t sdv_exact_kept_count(const sdv_exact *exact)
     return (size_t)exact->nest_count + (size_t)exact->nest_point_count;
 }
 
-static size_t sdv_exact_nest_size(const subdiv_surface *surface)
+static size_t sdv_exact_polynomial_count(const sdv_exact *exact)
 {
-    return 4 * sizeof(double) * (size_t)surface->exact->most_work;
+    return (size_t)exact->polynomial_count + 3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
+}
+
+// Carves scratch memory from base, or NULL. Returns how many bytes that takes, with room for an
+// alignment, and for loads of four floats that end behind the last polynomial.
+static size_t sdv_carve_exact(const subdiv_surface *surface, int channels, char *base,
+                              sdv_exact_memory *memory)
+{
+    const sdv_exact *exact = surface->exact;
+    size_t size = 0, fours = ((size_t)channels + 3) / 4, line = SDV_CACHE_LINE;
+    size_t polynomials = (size_t)channels * sdv_exact_polynomial_count(exact);
+    if (base) base += (line - (uintptr_t)base % line) % line;
+    memory->work = (double *)sdv_carve(base, &size, sdv_exact_work_size(surface, channels), 1);
+    memory->nest = (double *)sdv_carve(base, &size, 4 * (size_t)exact->most_work, sizeof(double));
+    memory->kept = (double *)sdv_carve(base, &size, 4 * fours * sdv_exact_kept_count(exact),
+                                       sizeof(double));
+    size = (size + line - 1) / line * line;
+    memory->polynomials = (float *)sdv_carve(base, &size, SDV_SLOTS * polynomials + 4,
+                                             sizeof(float));
+    return size + line;
 }
 
 static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
 {
     const sdv_exact *exact = surface->exact;
-    size_t count = (size_t)exact->polynomial_count +
-                   3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
-    size_t kept = sdv_exact_kept_count(exact), polynomial = SDV_SLOTS * sizeof(float);
-    double doubles = (double)surface->work_count + (double)kept + (double)exact->most_work;
-    if (!sdv_addressable(channels, sizeof(double) * doubles + (double)polynomial * (double)count))
-        return SIZE_MAX;
-    // Room for two alignments, and for loads of four floats that end behind the last polynomial.
-    return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
-           sdv_exact_nest_size(surface) + sdv_exact_doubles(channels, kept) +
-           polynomial * (size_t)channels * count;
-}
-
-static char *sdv_align(void *memory)
-{
-    return (char *)memory + (SDV_CACHE_LINE - (uintptr_t)memory % SDV_CACHE_LINE) % SDV_CACHE_LINE;
-}
-
-static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int channels, void *scratch)
-{
     sdv_exact_memory memory;
-    char *base = sdv_align(scratch);
-    memory.work = (double *)(void *)base;
-    base += sdv_exact_work_size(surface, channels);
-    memory.nest = (double *)(void *)base;
-    base += sdv_exact_nest_size(surface);
-    memory.kept = (double *)(void *)base;
-    base += sdv_exact_doubles(channels, sdv_exact_kept_count(surface->exact));
-    memory.polynomials = (float *)(void *)sdv_align(base);
-    return memory;
+    double doubles = (double)surface->work_count + (double)sdv_exact_kept_count(exact) +
+                     (double)exact->most_work;
+    double floats = SDV_SLOTS * (double)sdv_exact_polynomial_count(exact);
+    if (!sdv_addressable(channels, sizeof(double) * doubles + sizeof(float) * floats))
+        return SIZE_MAX;
+    return sdv_carve_exact(surface, channels, NULL, &memory);
 }
 
 // Jobs of an evaluation.
@@ -9321,7 +9313,7 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
     memset(&e, 0, sizeof e);
     e.surface = surface;
     e.channels = channels;
-    e.memory = sdv_exact_parts(surface, channels, scratch);
+    sdv_carve_exact(surface, channels, (char *)scratch, &e.memory);
     work.points = e.memory.work;
     sdv_make_exact_work(&work, opt);
     const sdv_exact *exact = e.surface->exact;
@@ -9813,7 +9805,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     memset(&e, 0, sizeof e);
     e.surface = surface;
     e.channels = channels;
-    e.memory = sdv_exact_parts(surface, channels, (void *)(size_t)scratch);     // only read
+    sdv_carve_exact(surface, channels, (char *)(size_t)scratch, &e.memory);     // only read
     e.count = count;
     e.locations = locations;
     memcpy(e.out, to, sizeof to);
