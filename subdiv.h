@@ -7793,71 +7793,76 @@ static void sdv_part_triangles(sdv_level *level, int dart)
         }
 }
 
-// Numbers what the next level has of a level, and writes the rows to it.
-static void sdv_split_rows(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
-                           sdv_batches *refine, sdv_arena *scratch)
+// Makes the next level of a level, and the rows to it.
+static void sdv_exact_step(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
+                           sdv_level *next, sdv_batches *refine, sdv_arena *next_arena,
+                           sdv_arena *scratch)
 {
-    int loop = maker->surface->rules.loop;
-    sdv_split_new(maker->writer->context, scratch, level, split);
-    if (maker->writer->context->result) return;
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_context *context = maker->writer->context;
+    sdv_split_new(context, scratch, level, split);
+    if (context->result) return;
     sdv_find_active(level, split);
-    sdv_number_faces(level, split, loop);
-    sdv_number_points(level, split, loop);
-    sdv_exact_rows(level, &maker->surface->rules, split, maker->writer, refine);
+    sdv_number_faces(level, split, rules->loop);
+    sdv_number_points(level, split, rules->loop);
+    sdv_exact_rows(level, rules, split, maker->writer, refine);
+    if (!context->result) sdv_split_level(context, next_arena, level, split, next, rules);
 }
 
-// Builds a kind: one step of refinement of a small mesh.
-static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
+// The faces around the vertex of a kind as level 0 of a cage, of which those at it are the core.
+static void sdv_nest_cage(sdv_context *context, sdv_arena *arena, const sdv_nest_kind *kind,
+                          int loop, sdv_cage *cage)
 {
-    int crease[4] = { 0, 1, 1, 2 };
+    int crease[4] = { 0, 1, 1, 2 }, faces = 4 * kind->faces;
     float forever[2] = { SUBDIV_INFINITE, SUBDIV_INFINITE };
-    sdv_context *context = maker->writer->context;
-    subdiv_surface *surface = maker->surface;
-    const sdv_rules *rules = &surface->rules;
-    int loop = rules->loop, n = kind->faces;
-    sdv_arena scratch = sdv_scratch();
     subdiv_mesh mesh;
-    sdv_cage cage;
-    sdv_split split;
-    sdv_level next;
     memset(&mesh, 0, sizeof mesh);
-    kind->points = 1 + (loop ? 3 : 6) * n + (kind->ring ? 0 : 2);
     mesh.vertex_count = kind->points;
-    mesh.face_count = 4 * n;
+    mesh.face_count = faces;
     mesh.face_size = loop ? 3 : 4;
-    mesh.face_vertices = SDV_NEW(context, &scratch, int, 16 * (size_t)n);
+    mesh.face_vertices = SDV_NEW(context, arena, int, 4 * (size_t)faces);
     mesh.crease_count = kind->rule == SDV_DART ? 2 : 0;
     mesh.crease_vertices = crease;
     mesh.corner_count = kind->rule == SDV_CORNER;
     mesh.corner_vertices = crease;
     mesh.crease_sharpness = mesh.corner_sharpness = forever;
     if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
-    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
-    if (!context->result && loop && n == 2 && kind->ring)
-        sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
-    kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
-    for (int f = 0; f < 4 * n && !context->result; f++)
-        cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
-    if (!context->result) sdv_split_rows(maker, &cage.level, &split, kind->refine, &scratch);
-    if (!context->result)
-        sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
-    if (!context->result) {
-        kind->work_count = next.first_point + next.vertex_count;
-        sdv_find_patches(maker->writer, &scratch, &next, rules, &kind->patches);
-    }
-    if (!context->result) {
-        sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
-        sdv_nest_children(maker, kind, &split, &next, &scratch);
-        sdv_nest_turns(context, &surface->arena, rules, kind);
-    }
+    if (!context->result) sdv_cage_build(context, arena, arena, cage, &mesh);
+    if (context->result) return;
+    if (loop && kind->faces == 2 && kind->ring)
+        sdv_part_triangles(&cage->level, kind->rule == SDV_DART);
+    for (int f = 0; f < faces; f++) cage->level.core[f] = cage->level.rough[f] = f % 4 == 0;
+}
+
+// Builds a kind: one step of refinement of a small mesh.
+static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv_arena *scratch)
+{
+    sdv_context *context = maker->writer->context;
+    sdv_arena *arena = &maker->surface->arena;
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_cage cage;
+    sdv_split split;
+    sdv_level next;
+    kind->points = 1 + (rules->loop ? 3 : 6) * kind->faces + (kind->ring ? 0 : 2);
+    kind->below = SDV_NEW(context, arena, int, kind->points);
+    if (!context->result) sdv_nest_cage(context, scratch, kind, rules->loop, &cage);
+    if (context->result) return;
+    sdv_exact_step(maker, &cage.level, &split, &next, kind->refine, scratch, scratch);
+    if (context->result) return;
+    kind->work_count = next.first_point + next.vertex_count;
+    sdv_find_patches(maker->writer, scratch, &next, rules, &kind->patches);
+    if (context->result) return;
+    sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
+    sdv_nest_children(maker, kind, &split, &next, scratch);
+    sdv_nest_turns(context, arena, rules, kind);
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
-        sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
-    sdv_arena_free(&scratch);
+        sdv_nest_limit(context, rules, kind, arena, scratch);
 }
 
 static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_rule rule)
 {
     const sdv_nest_kind *known = (const sdv_nest_kind *)sdv_items(&maker->kinds);
+    sdv_arena scratch = sdv_scratch();
     sdv_nest_kind kind;
     int count = (int)maker->kinds.count;
     for (int i = 0; i < count; i++)
@@ -7866,7 +7871,8 @@ static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_r
     kind.faces = faces;
     kind.ring = ring;
     kind.rule = rule;
-    sdv_build_nest_kind(maker, &kind);
+    sdv_build_nest_kind(maker, &kind, &scratch);
+    sdv_arena_free(&scratch);
     sdv_nest_kind *made = (sdv_nest_kind *)sdv_append(maker->writer->context, &maker->kinds, 1,
                                                       sizeof kind);
     if (made) *made = kind;
@@ -7915,66 +7921,53 @@ static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, in
     return 1;
 }
 
-// A nest of so many faces from h on, counter-clockwise. Returns its number.
-static int sdv_new_nest(sdv_exact_maker *maker, const sdv_level *level, int h, int faces, int ring,
-                        sdv_rule rule)
+// Makes a nest of so many faces from h on, counter-clockwise. They become leaves.
+static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h, int faces,
+                         int ring, sdv_rule rule)
 {
     sdv_context *context = maker->writer->context;
     int number = (int)maker->nests.count, kind = sdv_find_nest_kind(maker, faces, ring, rule);
     sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
-    if (context->result) return -1;
+    if (context->result) return;
     size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
     nest->kind = kind;
     nest->first = (int)maker->nest_points.count;
     nest->face = (int)maker->nest_faces.count;
     int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
-    sdv_append(context, &maker->nest_faces, (size_t)faces, sizeof(sdv_nest_face));
-    if (points) sdv_nest_points(level, h, faces, ring, maker->surface->rules.loop, points);
-    return number;
+    sdv_nest_face *face = (sdv_nest_face *)sdv_append(context, &maker->nest_faces, (size_t)faces,
+                                                      sizeof *face);
+    if (context->result) return;
+    sdv_nest_points(level, h, faces, ring, maker->surface->rules.loop, points);
+    for (int i = 0; i < faces; i++, face++) {
+        int f = sdv_face_of(level, h), start = sdv_face_start(level, f);
+        face->nest = number;
+        face->turn = h - start;
+        face->level = depth;
+        face->place = level->places ? level->places[f] : sdv_first_place(start);
+        level->rough[f] = 0;
+        if (i + 1 < faces) h = sdv_counter_clockwise(level, h);
+    }
 }
 
-// The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
-// number, or -2, at all its faces, and face_at where they stand in it.
-static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int depth, int h,
-                          int *at, int *face_at)
+// Looks for a nest at the vertex of h, and marks the face-vertices there as seen.
+static void sdv_find_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h,
+                          unsigned char *seen)
 {
-    const sdv_rules *rules = &maker->surface->rules;
-    int first = h, faces = 1, i, number = -2;
+    int first = h, last, faces = 1, i;
     while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
     int ring = i == h;
-    for (i = first; (i = sdv_counter_clockwise(level, i)) >= 0 && i != first; ) faces++;
-    int last = first;
-    for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
+    seen[last = first] = 1;
+    for (; (i = sdv_counter_clockwise(level, last)) >= 0 && i != first; faces++) seen[last = i] = 1;
     sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
     // A slit: the faces begin and end at the same sharp edge, which at a dart is the only one.
     // Apart: at a vertex that is not manifold a crease may run beside these faces, not along them;
     // then they have no nest before the last level, where the vertex has all but arrived.
     int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
     int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
-    if ((!apart || depth + 1 == SDV_EXACT_LEVELS) &&
-        sdv_is_nest(level, rules, first, faces, ring)) {
-        if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
-        number = sdv_new_nest(maker, level, first, faces, ring || dart, rule);
-    }
-    for (i = 0; i < faces; i++) {
-        at[first] = number;
-        face_at[first] = i;
-        if (i + 1 < faces) first = sdv_counter_clockwise(level, first);
-    }
-}
-
-// Takes face f, whose face-vertex h is at the vertex of a nest, as one of its faces: a leaf.
-static void sdv_take_nest_face(sdv_exact_maker *maker, sdv_level *level, int depth, int f, int h,
-                               int number, int face_at)
-{
-    int start = sdv_face_start(level, f);
-    int face = ((const sdv_nest *)sdv_items(&maker->nests))[number].face + face_at;
-    sdv_nest_face *taken = (sdv_nest_face *)sdv_items(&maker->nest_faces) + face;
-    taken->nest = number;
-    taken->turn = h - start;
-    taken->level = depth;
-    taken->place = level->places ? level->places[f] : sdv_first_place(start);
-    level->rough[f] = 0;
+    if (apart && depth + 1 < SDV_EXACT_LEVELS) return;
+    if (!sdv_is_nest(level, &maker->surface->rules, first, faces, ring)) return;
+    if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
+    sdv_new_nest(maker, level, depth, first, faces, ring || dart, rule);
 }
 
 // Turns the rough faces of nests into leaves.
@@ -7982,19 +7975,12 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
 {
     sdv_context *context = maker->writer->context;
     sdv_arena scratch = sdv_scratch();
-    int *at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
-    int *face_at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
-    for (int h = 0; h < level->face_vertex_count && !context->result; h++) at[h] = -1;
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), found = -1;
-        for (int h = start; h < end && level->rough[f] && !context->result; h++) {
-            if (sdv_fan_at(level, &maker->surface->rules, h) != SDV_FAN_ROUGH) continue;
-            if (at[h] == -1) sdv_find_nest(maker, level, depth, h, at, face_at);
-            found = h;
-        }
-        if (found >= 0 && !context->result && at[found] >= 0)
-            sdv_take_nest_face(maker, level, depth, f, found, at[found], face_at[found]);
-    }
+    unsigned char *seen = SDV_NEW(context, &scratch, unsigned char, level->face_vertex_count);
+    if (seen) memset(seen, 0, (size_t)level->face_vertex_count);
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++)
+        if (level->rough[sdv_face_of(level, h)] && !seen[h] &&
+            sdv_fan_at(level, &maker->surface->rules, h) == SDV_FAN_ROUGH)
+            sdv_find_nest(maker, level, depth, h, seen);
     sdv_arena_free(&scratch);
 }
 
@@ -8049,9 +8035,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
-    sdv_split_rows(maker, level, &split, &surface->refine[2 * depth], &scratch);
-    if (!context->result)
-        sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
+    sdv_exact_step(maker, level, &split, next, &surface->refine[2 * depth], next_arena, &scratch);
     sdv_arena_free(&scratch);
 }
 
@@ -8105,22 +8089,18 @@ SDV_INLINE int sdv_descend(int loop, double *x, double *y, double *scale)
     return child;
 }
 
-// What directions of a face are as seen from its vertex number turn: the first two and the last two
-// numbers times (u, v). And what its places are.
-static const signed char sdv_turns[2][4][4] = {
-    { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
-    { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
+// A place (u, v) of a face is at (x, y) as seen from its vertex number turn:
+//
+//     x = t[4] + t[0] u + t[1] v          y = t[5] + t[2] u + t[3] v
+static const signed char sdv_turns[2][4][6] = {
+    { {1, 0, 0, 1, 0, 0}, {0, 1, -1, 0, 0, 1}, {-1, 0, 0, -1, 1, 1}, {0, -1, 1, 0, 1, 0} },
+    { {1, 0, 0, 1, 0, 0}, {0, 1, -1, -1, 0, 1}, {-1, -1, 1, 0, 1, 0}, {0, 0, 0, 0, 0, 0} } };
 
-SDV_INLINE void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
+static void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
 {
-    double w = 1 - u - v;
-    if (loop) {
-        *x = turn == 0 ? u : turn == 1 ? v : w;
-        *y = turn == 0 ? v : turn == 1 ? w : u;
-    } else {
-        *x = turn == 0 ? u : turn == 1 ? v : turn == 2 ? 1 - u : 1 - v;
-        *y = turn == 0 ? v : turn == 1 ? 1 - u : turn == 2 ? 1 - v : u;
-    }
+    const signed char *t = sdv_turns[loop][turn];
+    *x = t[4] + t[0] * u + t[1] * v;
+    *y = t[5] + t[2] * u + t[3] * v;
 }
 
 // The number of the first polynomial of a child of a nest's face.
@@ -8306,30 +8286,36 @@ static size_t sdv_cell_in_grid(const sdv_square *square, int loop, int levels)
     return (size_t)(loop && (x & rest) + (y & rest) + square->above > rest ? 15 - i : i);
 }
 
-// Sets the cell of a square, in a grid for every two levels: four cells if it is large.
+// The first cell of the grid that cell number i is, or becomes.
+static size_t sdv_open_grid(sdv_cell_maker *maker, size_t i)
+{
+    size_t first = maker->cells.count;
+    if (maker->context->result) return 0;
+    unsigned cell = ((unsigned *)sdv_items(&maker->cells))[i];
+    if (cell & 1) return cell / 2;
+    if (first >= SDV_CELL_LEAF / 2)
+        sdv_fail(maker->context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
+    if (!sdv_append(maker->context, &maker->cells, 16, sizeof cell)) return 0;
+    ((unsigned *)sdv_items(&maker->cells))[i] = 2 * (unsigned)first + 1;
+    return first;
+}
+
+// Sets the cell of a square, in a grid for every two levels; after an odd number of levels it has
+// four cells.
 static void sdv_set_cell(sdv_cell_maker *maker, const sdv_square *square, unsigned cell)
 {
     int loop = maker->surface->rules.loop, levels = square->level;
-    size_t i = square->root;
-    for (; levels > 0; levels -= 2) {
-        unsigned *cells = (unsigned *)sdv_items(&maker->cells);
-        size_t first = cells[i] / 2;
-        if (!(cells[i] & 1)) {
-            first = maker->cells.count;
-            if (first >= SDV_CELL_LEAF / 2)
-                sdv_fail(maker->context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
-            if (!sdv_append(maker->context, &maker->cells, 16, sizeof *cells)) return;
-            cells = (unsigned *)sdv_items(&maker->cells);
-            cells[i] = 2 * (unsigned)first + 1;
-        }
-        for (int k = 0; k < 4 && levels == 1; k++) {
-            sdv_square part = sdv_split_square(*square, loop, k);
-            cells[first + sdv_cell_in_grid(&part, loop, 2)] = cell;
-        }
-        if (levels == 1) return;
-        i = first + sdv_cell_in_grid(square, loop, levels);
+    size_t i = square->root, first;
+    for (; levels > 1; levels -= 2)
+        i = sdv_open_grid(maker, i) + sdv_cell_in_grid(square, loop, levels);
+    first = levels ? sdv_open_grid(maker, i) : i;
+    if (maker->context->result) return;
+    unsigned *cells = (unsigned *)sdv_items(&maker->cells);
+    if (levels == 0) cells[i] = cell;
+    for (int k = 0; k < 4 && levels; k++) {
+        sdv_square part = sdv_split_square(*square, loop, k);
+        cells[first + sdv_cell_in_grid(&part, loop, 2)] = cell;
     }
-    ((unsigned *)sdv_items(&maker->cells))[i] = cell;
 }
 
 // Sets the cell of a square with one polynomial, or leaves it to its leaf. From the lowest bit on:
