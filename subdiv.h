@@ -63,7 +63,7 @@
            * >>grids     the general step: points of a level from those of the level before
              >>results   what makes the result: >>limit-surface  >>evaluate  >>results-as-meshes
            * >>calls     subdiv_refine and the other public functions up to here
-             >>exact-surface  the limit between the points: >>split  >>patches  >>nests  >>tree
+             >>exact-surface  the limit between the points: >>split  >>patches  >>nests  >>leaves
                          >>locations  >>cells  >>polynomials  >>samples
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
              >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
@@ -1607,7 +1607,8 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 //     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks);
 //                 rough: those among them that are no patch on this level
 //     nest        a vertex that stays irregular on every level, and the faces around it
-//     leaf        of the tree that finds the place of (face, u, v): a patch or a face of a nest
+//     leaf        of SUBDIV_EXACT: a patch or a face of a nest; cell: what finds the one that has
+//                 (face, u, v)
 //     tile        a face with rates of its own; home: of a shared point, the face that makes it
 //
 // A face-vertex h is a place in face_vertices, and stands for three things: a face, one of its
@@ -7069,33 +7070,18 @@ static void sdv_split_inside(sdv_level *next, int at, int other)
     next->sharpness[at] = 0;
 }
 
-// The place of the child at the vertex that is so far from vertex 0.
-static sdv_place sdv_child_place(sdv_place place, int up, int right)
+// Where the child of face f is that has its vertex i; in Loop the middle one is number 3, which is
+// turned. grid: the face-vertex of a face of the cage that has the child's grid.
+static void sdv_place_child(const sdv_level *level, int f, int grid, int i, sdv_level *next,
+                            int child)
 {
+    int loop = next->face_size == 3, right = loop ? i & 1 : i == 1 || i == 2, up = i >= 2;
+    sdv_place place = level->places ? level->places[f] : sdv_first_place(grid);
     place.row = 2 * place.row + place.step * up;
     place.column = 2 * place.column + place.step * right;
-    return place;
-}
-
-static void sdv_split_quads(const sdv_level *level, const sdv_split *split, sdv_level *next)
-{
-    for (int f = 0; f < level->face_count; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), quad = end - start == 4;
-        if (split->face[f] < 0) continue;
-        for (int h = start; h < end; h++) {
-            int child = split->child[h], i = quad ? h - start : 0;
-            if (child < 0) continue;
-            int after = split->child[h + 1 < end ? h + 1 : start];
-            int before = split->child[h > start ? h - 1 : end - 1];
-            sdv_split_vertex(level, split, next, 4, h, child);
-            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
-            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
-            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
-            sdv_place place = level->places ? level->places[f] : sdv_first_place(quad ? start : h);
-            next->places[child >> 2] = sdv_child_place(place, i >> 1, i == 1 || i == 2);
-            next->core[child >> 2] = level->rough[f];
-        }
-    }
+    if (loop && i == 3) place.step = -place.step;
+    next->places[child] = place;
+    next->core[child] = level->rough[f];
 }
 
 // The middle child is e1 e2 e0: its edge i lies across from child i + 2.
@@ -7109,26 +7095,31 @@ static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
     }
 }
 
-static void sdv_split_triangles(const sdv_level *level, const sdv_split *split, sdv_level *next)
+static void sdv_split_face(const sdv_level *level, const sdv_split *split, sdv_level *next,
+                           int size, int f)
 {
-    for (int f = 0; f < level->face_count; f++) {
-        const int *child = split->child + 4 * (size_t)f;
-        sdv_place place = level->places ? level->places[f] : sdv_first_place(3 * f);
-        for (int i = 0; i < 4; i++) {
-            if (child[i] < 0) continue;
-            if (i == 3) {
-                sdv_split_middle(split, next, f);
-            } else {
-                int middle = child[3] < 0 ? -1 : child[3] + (i + 1) % 3;
-                sdv_split_vertex(level, split, next, 3, 3 * f + i, child[i]);
-                sdv_split_inside(next, sdv_turn(3, child[i], 1), middle);
-            }
-            int face = child[i] / 3;
-            next->places[face] = sdv_child_place(place, i >= 2, i & 1);
-            if (i == 3) next->places[face].step = -place.step;
-            next->core[face] = level->rough[f];
+    int start = sdv_face_start(level, f), count = sdv_face_end(level, f) - start, loop = size == 3;
+    const int *children = split->child + start + (loop ? f : 0);
+    for (int i = 0; i < count; i++) {
+        int child = children[i], h = start + i;
+        if (child < 0) continue;
+        sdv_split_vertex(level, split, next, size, h, child);
+        if (loop) {
+            int middle = children[3] < 0 ? -1 : children[3] + (i + 1) % 3;
+            sdv_split_inside(next, sdv_turn(3, child, 1), middle);
+        } else {
+            int after = children[i + 1 < count ? i + 1 : 0];
+            int before = children[i > 0 ? i - 1 : count - 1];
+            next->face_vertices[sdv_turn(4, child, 2)] = split->face[f];
+            sdv_split_inside(next, sdv_turn(4, child, 1), after < 0 ? -1 : sdv_turn(4, after, 2));
+            sdv_split_inside(next, sdv_turn(4, child, 2), before < 0 ? -1 : sdv_turn(4, before, 1));
         }
+        sdv_place_child(level, f, count == size ? start : h, count == size ? i : 0, next,
+                        child / size);
     }
+    if (!loop || children[3] < 0) return;
+    sdv_split_middle(split, next, f);
+    sdv_place_child(level, f, start, 3, next, children[3] / 3);
 }
 
 static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_level *level,
@@ -7147,8 +7138,8 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
     sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
-    if (loop) sdv_split_triangles(level, split, next);
-    else sdv_split_quads(level, split, next);
+    for (int f = 0; f < level->face_count; f++)
+        sdv_split_face(level, split, next, loop ? 3 : 4, f);
     sdv_level_count(next);
     sdv_split_points(level, split, next, rules);
     sdv_level_fade(next);
@@ -7171,6 +7162,7 @@ typedef struct sdv_patch {
     unsigned char sharp;                // bit i: edge i is sharp
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
     unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
+    int polynomial;                     // of SUBDIV_EXACT: the number of its first polynomial
 } sdv_patch;
 
 // Which control points the vertices of a face are (see the gathering functions).
@@ -7621,7 +7613,7 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
 //     | n | n |       |
 //     v---+---+-------+
 //
-// A tree finds the face: a node is the first of four children, as a split numbers them, or a leaf.
+// Patches and faces of nests are the leaves; cells find the one that has a location.
 
 #define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade; the last
                                         // ones set the rings of vertices apart
@@ -7666,45 +7658,18 @@ typedef struct sdv_nest_face {
     sdv_place place;                    // on the grid of its cage face
 } sdv_nest_face;
 
-// A patch that is cut into strips.
-typedef struct sdv_cut_patch {
-    int patch, polynomial;              // its number, and that of the first of its polynomials
-    unsigned char along, up;            // see sdv_patch
-} sdv_cut_patch;
-
-// A node is the number of the first of four children or, if it is negative, a leaf: what it is, and
-// the number of a polynomial, a cut patch or a face of a nest.
-enum { SDV_LEAF_PATCH, SDV_LEAF_CUT, SDV_LEAF_NEST };
-
-SDV_INLINE int sdv_leaf_node(int what, int number)
-{
-    return ~(4 * number + what);
-}
-
-SDV_INLINE int sdv_leaf_what(int node)
-{
-    return ~node & 3;
-}
-
-SDV_INLINE int sdv_leaf_number(int node)
-{
-    return ~node >> 2;
-}
-
 typedef struct sdv_exact {
     sdv_patches *patches;               // [levels]
     sdv_strips *strips;                 // of semi-sharp patches, counted from 1
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
-    int *nodes;                         // first those of faces, or of an n-gon's quads
     unsigned char *absent;              // [face_count] without surface; NULL: none
     unsigned *cells;                    // see >>cells
-    sdv_cut_patch *cuts;
     sdv_nest_kind *kinds;
     sdv_nest *nests;
     int *nest_points;                   // work points
     sdv_nest_face *nest_faces;
-    int cut_count, kind_count, nest_count, nest_point_count, nest_face_count;
+    int kind_count, nest_count, nest_point_count, nest_face_count;
     int most_work;                      // of the kinds' work_counts
 } sdv_exact;
 
@@ -7712,16 +7677,8 @@ typedef struct sdv_exact {
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
-    sdv_array nodes, cuts, kinds, nests, nest_points, nest_faces;
-    int      *slots;                    // [face_count of the level] their nodes
+    sdv_array kinds, nests, nest_points, nest_faces;
 } sdv_exact_maker;
-
-// The first node of a face, or the node of an n-gon's quad.
-SDV_INLINE int sdv_face_node(const sdv_level *cage, int loop, int f, int corner)
-{
-    if (cage->face_size == (loop ? 3 : 4)) return f;
-    return sdv_face_start(cage, f) + corner;
-}
 
 // The rows from a level to the next: face points first, as the others are made from them. They
 // stand behind the vertex points of the next level, and edge points behind them.
@@ -7972,71 +7929,76 @@ static void sdv_part_triangles(sdv_level *level, int dart)
         }
 }
 
-// Numbers what the next level has of a level, and writes the rows to it.
-static void sdv_split_rows(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
-                           sdv_batches *refine, sdv_arena *scratch)
+// Makes the next level of a level, and the rows to it.
+static void sdv_exact_step(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
+                           sdv_level *next, sdv_batches *refine, sdv_arena *next_arena,
+                           sdv_arena *scratch)
 {
-    int loop = maker->surface->rules.loop;
-    sdv_split_new(maker->writer->context, scratch, level, split);
-    if (maker->writer->context->result) return;
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_context *context = maker->writer->context;
+    sdv_split_new(context, scratch, level, split);
+    if (context->result) return;
     sdv_find_active(level, split);
-    sdv_number_faces(level, split, loop);
-    sdv_number_points(level, split, loop);
-    sdv_exact_rows(level, &maker->surface->rules, split, maker->writer, refine);
+    sdv_number_faces(level, split, rules->loop);
+    sdv_number_points(level, split, rules->loop);
+    sdv_exact_rows(level, rules, split, maker->writer, refine);
+    if (!context->result) sdv_split_level(context, next_arena, level, split, next, rules);
 }
 
-// Builds a kind: one step of refinement of a small mesh.
-static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind)
+// The faces around the vertex of a kind as level 0 of a cage, of which those at it are the core.
+static void sdv_nest_cage(sdv_context *context, sdv_arena *arena, const sdv_nest_kind *kind,
+                          int loop, sdv_cage *cage)
 {
-    int crease[4] = { 0, 1, 1, 2 };
+    int crease[4] = { 0, 1, 1, 2 }, faces = 4 * kind->faces;
     float forever[2] = { SUBDIV_INFINITE, SUBDIV_INFINITE };
-    sdv_context *context = maker->writer->context;
-    subdiv_surface *surface = maker->surface;
-    const sdv_rules *rules = &surface->rules;
-    int loop = rules->loop, n = kind->faces;
-    sdv_arena scratch = sdv_scratch();
     subdiv_mesh mesh;
-    sdv_cage cage;
-    sdv_split split;
-    sdv_level next;
     memset(&mesh, 0, sizeof mesh);
-    kind->points = 1 + (loop ? 3 : 6) * n + (kind->ring ? 0 : 2);
     mesh.vertex_count = kind->points;
-    mesh.face_count = 4 * n;
+    mesh.face_count = faces;
     mesh.face_size = loop ? 3 : 4;
-    mesh.face_vertices = SDV_NEW(context, &scratch, int, 16 * (size_t)n);
+    mesh.face_vertices = SDV_NEW(context, arena, int, 4 * (size_t)faces);
     mesh.crease_count = kind->rule == SDV_DART ? 2 : 0;
     mesh.crease_vertices = crease;
     mesh.corner_count = kind->rule == SDV_CORNER;
     mesh.corner_vertices = crease;
     mesh.crease_sharpness = mesh.corner_sharpness = forever;
     if (!context->result) sdv_nest_mesh(kind, loop, mesh.face_vertices);
-    if (!context->result) sdv_cage_build(context, &scratch, &scratch, &cage, &mesh);
-    if (!context->result && loop && n == 2 && kind->ring)
-        sdv_part_triangles(&cage.level, kind->rule == SDV_DART);
-    kind->below = SDV_NEW(context, &surface->arena, int, kind->points);
-    for (int f = 0; f < 4 * n && !context->result; f++)
-        cage.level.core[f] = cage.level.rough[f] = f % 4 == 0;
-    if (!context->result) sdv_split_rows(maker, &cage.level, &split, kind->refine, &scratch);
-    if (!context->result)
-        sdv_split_level(context, &scratch, &cage.level, &split, &next, rules);
-    if (!context->result) {
-        kind->work_count = next.first_point + next.vertex_count;
-        sdv_find_patches(maker->writer, &scratch, &next, rules, &kind->patches);
-    }
-    if (!context->result) {
-        sdv_nest_points(&next, split.child[0], n, kind->ring, loop, kind->below);
-        sdv_nest_children(maker, kind, &split, &next, &scratch);
-        sdv_nest_turns(context, &surface->arena, rules, kind);
-    }
+    if (!context->result) sdv_cage_build(context, arena, arena, cage, &mesh);
+    if (context->result) return;
+    if (loop && kind->faces == 2 && kind->ring)
+        sdv_part_triangles(&cage->level, kind->rule == SDV_DART);
+    for (int f = 0; f < faces; f++) cage->level.core[f] = cage->level.rough[f] = f % 4 == 0;
+}
+
+// Builds a kind: one step of refinement of a small mesh.
+static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv_arena *scratch)
+{
+    sdv_context *context = maker->writer->context;
+    sdv_arena *arena = &maker->surface->arena;
+    const sdv_rules *rules = &maker->surface->rules;
+    sdv_cage cage;
+    sdv_split split;
+    sdv_level next;
+    kind->points = 1 + (rules->loop ? 3 : 6) * kind->faces + (kind->ring ? 0 : 2);
+    kind->below = SDV_NEW(context, arena, int, kind->points);
+    if (!context->result) sdv_nest_cage(context, scratch, kind, rules->loop, &cage);
+    if (context->result) return;
+    sdv_exact_step(maker, &cage.level, &split, &next, kind->refine, scratch, scratch);
+    if (context->result) return;
+    kind->work_count = next.first_point + next.vertex_count;
+    sdv_find_patches(maker->writer, scratch, &next, rules, &kind->patches);
+    if (context->result) return;
+    sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
+    sdv_nest_children(maker, kind, &split, &next, scratch);
+    sdv_nest_turns(context, arena, rules, kind);
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
-        sdv_nest_limit(context, rules, kind, &surface->arena, &scratch);
-    sdv_arena_free(&scratch);
+        sdv_nest_limit(context, rules, kind, arena, scratch);
 }
 
 static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_rule rule)
 {
     const sdv_nest_kind *known = (const sdv_nest_kind *)sdv_items(&maker->kinds);
+    sdv_arena scratch = sdv_scratch();
     sdv_nest_kind kind;
     int count = (int)maker->kinds.count;
     for (int i = 0; i < count; i++)
@@ -8045,7 +8007,8 @@ static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_r
     kind.faces = faces;
     kind.ring = ring;
     kind.rule = rule;
-    sdv_build_nest_kind(maker, &kind);
+    sdv_build_nest_kind(maker, &kind, &scratch);
+    sdv_arena_free(&scratch);
     sdv_nest_kind *made = (sdv_nest_kind *)sdv_append(maker->writer->context, &maker->kinds, 1,
                                                       sizeof kind);
     if (made) *made = kind;
@@ -8094,67 +8057,53 @@ static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, in
     return 1;
 }
 
-// A nest of so many faces from h on, counter-clockwise. Returns its number.
-static int sdv_new_nest(sdv_exact_maker *maker, const sdv_level *level, int h, int faces, int ring,
-                        sdv_rule rule)
+// Makes a nest of so many faces from h on, counter-clockwise. They become leaves.
+static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h, int faces,
+                         int ring, sdv_rule rule)
 {
     sdv_context *context = maker->writer->context;
     int number = (int)maker->nests.count, kind = sdv_find_nest_kind(maker, faces, ring, rule);
     sdv_nest *nest = (sdv_nest *)sdv_append(context, &maker->nests, 1, sizeof *nest);
-    if (context->result) return -1;
+    if (context->result) return;
     size_t count = (size_t)((const sdv_nest_kind *)sdv_items(&maker->kinds))[kind].points;
     nest->kind = kind;
     nest->first = (int)maker->nest_points.count;
     nest->face = (int)maker->nest_faces.count;
     int *points = (int *)sdv_append(context, &maker->nest_points, count, sizeof *points);
-    sdv_append(context, &maker->nest_faces, (size_t)faces, sizeof(sdv_nest_face));
-    if (points) sdv_nest_points(level, h, faces, ring, maker->surface->rules.loop, points);
-    return number;
+    sdv_nest_face *face = (sdv_nest_face *)sdv_append(context, &maker->nest_faces, (size_t)faces,
+                                                      sizeof *face);
+    if (context->result) return;
+    sdv_nest_points(level, h, faces, ring, maker->surface->rules.loop, points);
+    for (int i = 0; i < faces; i++, face++) {
+        int f = sdv_face_of(level, h), start = sdv_face_start(level, f);
+        face->nest = number;
+        face->turn = h - start;
+        face->level = depth;
+        face->place = level->places ? level->places[f] : sdv_first_place(start);
+        level->rough[f] = 0;
+        if (i + 1 < faces) h = sdv_counter_clockwise(level, h);
+    }
 }
 
-// The nest at the vertex of h, if there is one: -1 is none yet. at [face_vertex_count] gets its
-// number, or -2, at all its faces, and face_at where they stand in it.
-static void sdv_find_nest(sdv_exact_maker *maker, const sdv_level *level, int depth, int h,
-                          int *at, int *face_at)
+// Looks for a nest at the vertex of h, and marks the face-vertices there as seen.
+static void sdv_find_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h,
+                          unsigned char *seen)
 {
-    const sdv_rules *rules = &maker->surface->rules;
-    int first = h, faces = 1, i, number = -2;
+    int first = h, last, faces = 1, i;
     while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
     int ring = i == h;
-    for (i = first; (i = sdv_counter_clockwise(level, i)) >= 0 && i != first; ) faces++;
-    int last = first;
-    for (i = 1; i < faces; i++) last = sdv_counter_clockwise(level, last);
+    seen[last = first] = 1;
+    for (; (i = sdv_counter_clockwise(level, last)) >= 0 && i != first; faces++) seen[last = i] = 1;
     sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
     // A slit: the faces begin and end at the same sharp edge, which at a dart is the only one.
     // Apart: at a vertex that is not manifold a crease may run beside these faces, not along them;
     // then they have no nest before the last level, where the vertex has all but arrived.
     int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
     int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
-    if ((!apart || depth + 1 == SDV_EXACT_LEVELS) &&
-        sdv_is_nest(level, rules, first, faces, ring)) {
-        if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
-        number = sdv_new_nest(maker, level, first, faces, ring || dart, rule);
-    }
-    for (i = 0; i < faces; i++) {
-        at[first] = number;
-        face_at[first] = i;
-        if (i + 1 < faces) first = sdv_counter_clockwise(level, first);
-    }
-}
-
-// Takes face f, whose face-vertex h is at the vertex of a nest, as one of its faces: a leaf.
-static void sdv_take_nest_face(sdv_exact_maker *maker, sdv_level *level, int depth, int f, int h,
-                               int number, int face_at)
-{
-    int *nodes = (int *)sdv_items(&maker->nodes), start = sdv_face_start(level, f);
-    int face = ((const sdv_nest *)sdv_items(&maker->nests))[number].face + face_at;
-    sdv_nest_face *taken = (sdv_nest_face *)sdv_items(&maker->nest_faces) + face;
-    taken->nest = number;
-    taken->turn = h - start;
-    taken->level = depth;
-    taken->place = level->places ? level->places[f] : sdv_first_place(start);
-    level->rough[f] = 0;
-    nodes[maker->slots[f]] = sdv_leaf_node(SDV_LEAF_NEST, face);
+    if (apart && depth + 1 < SDV_EXACT_LEVELS) return;
+    if (!sdv_is_nest(level, &maker->surface->rules, first, faces, ring)) return;
+    if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
+    sdv_new_nest(maker, level, depth, first, faces, ring || dart, rule);
 }
 
 // Turns the rough faces of nests into leaves.
@@ -8162,48 +8111,17 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
 {
     sdv_context *context = maker->writer->context;
     sdv_arena scratch = sdv_scratch();
-    int *at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
-    int *face_at = SDV_NEW(context, &scratch, int, level->face_vertex_count);
-    for (int h = 0; h < level->face_vertex_count && !context->result; h++) at[h] = -1;
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int start = sdv_face_start(level, f), end = sdv_face_end(level, f), found = -1;
-        for (int h = start; h < end && level->rough[f] && !context->result; h++) {
-            if (sdv_fan_at(level, &maker->surface->rules, h) != SDV_FAN_ROUGH) continue;
-            if (at[h] == -1) sdv_find_nest(maker, level, depth, h, at, face_at);
-            found = h;
-        }
-        if (found >= 0 && !context->result && at[found] >= 0)
-            sdv_take_nest_face(maker, level, depth, f, found, at[found], face_at[found]);
-    }
+    unsigned char *seen = SDV_NEW(context, &scratch, unsigned char, level->face_vertex_count);
+    if (seen) memset(seen, 0, (size_t)level->face_vertex_count);
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++)
+        if (level->rough[sdv_face_of(level, h)] && !seen[h] &&
+            sdv_fan_at(level, &maker->surface->rules, h) == SDV_FAN_ROUGH)
+            sdv_find_nest(maker, level, depth, h, seen);
     sdv_arena_free(&scratch);
 }
 
-// ---------------------------------------------------------------------------------- >>tree
-// The tree of the exact surface, level by level.
-
-// The nodes of the next level's faces.
-static void sdv_exact_children(sdv_exact_maker *maker, const sdv_level *level,
-                               const sdv_split *split, const sdv_level *next, sdv_arena *arena)
-{
-    sdv_context *context = maker->writer->context;
-    int loop = maker->surface->rules.loop, size = loop ? 3 : 4;
-    int *slots = SDV_NEW(context, arena, int, next->face_count);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int start = sdv_face_start(level, f), count = sdv_face_end(level, f) - start;
-        int first = maker->slots[f];
-        if (!level->rough[f]) continue;
-        if (count == size) {
-            int four = (int)maker->nodes.count;
-            if (!sdv_append(context, &maker->nodes, 4, sizeof(int))) continue;
-            ((int *)sdv_items(&maker->nodes))[first] = four;
-            first = four;
-            count = 4;
-        }
-        for (int i = 0; i < count; i++)
-            slots[split->child[start + (loop ? f : 0) + i] / size] = first + i;
-    }
-    maker->slots = slots;
-}
+// -------------------------------------------------------------------------------- >>leaves
+// Preparing an exact surface, level by level.
 
 // Do the leaves of this level fit, and the next level, with at most four children a face-vertex?
 static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *surface,
@@ -8215,38 +8133,25 @@ static void sdv_check_exact_size(sdv_context *context, const subdiv_surface *sur
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the levels of this mesh make too many points");
 }
 
-// A patch becomes a leaf: with one polynomial, or one for each place where its strips cross.
-static int sdv_patch_leaf(sdv_exact_maker *maker, const sdv_patch *patch)
+// How many polynomials a patch has: one, or one for each place where its strips cross.
+static int sdv_patch_parts(const sdv_strips *strips, const sdv_patch *patch)
 {
-    const sdv_strips *strips = (const sdv_strips *)sdv_items(&maker->writer->strips);
-    sdv_exact *exact = maker->surface->exact;
-    int number = exact->patch_count++, polynomial = exact->polynomial_count;
-    exact->polynomial_count++;
-    if (!patch->up) return sdv_leaf_node(SDV_LEAF_PATCH, polynomial);
-    int parts = strips[patch->along - 1].count * strips[patch->up - 1].count;
-    exact->polynomial_count += parts - 1;
-    sdv_cut_patch *made = (sdv_cut_patch *)sdv_append(maker->writer->context, &maker->cuts, 1,
-                                                      sizeof *made);
-    if (!made) return 0;
-    made->patch = number;
-    made->polynomial = polynomial;
-    made->along = patch->along;
-    made->up = patch->up;
-    return sdv_leaf_node(SDV_LEAF_CUT, (int)maker->cuts.count - 1);
+    return patch->up ? strips[patch->along - 1].count * strips[patch->up - 1].count : 1;
 }
 
-// The patches of a level, which are those of its core that are not rough, in order.
+// Finds the patches of a level and numbers their polynomials.
 static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *level)
 {
     subdiv_surface *surface = maker->surface;
-    const sdv_patches *patches = &surface->exact->patches[depth];
-    const sdv_patch *patch;
-    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules,
-                     &surface->exact->patches[depth]);
-    patch = patches->items;
-    for (int f = 0; f < level->face_count && !maker->writer->context->result; f++)
-        if (level->core[f] && !level->rough[f])
-            ((int *)sdv_items(&maker->nodes))[maker->slots[f]] = sdv_patch_leaf(maker, patch++);
+    sdv_exact *exact = surface->exact;
+    sdv_patches *patches = &exact->patches[depth];
+    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, patches);
+    const sdv_strips *strips = (const sdv_strips *)sdv_items(&maker->writer->strips);
+    for (int i = 0; i < patches->count; i++) {
+        patches->items[i].polynomial = exact->polynomial_count;
+        exact->polynomial_count += sdv_patch_parts(strips, &patches->items[i]);
+    }
+    exact->patch_count += patches->count;
 }
 
 // A level: its patches and nests become leaves; then the rows to the next level, if any face is
@@ -8266,10 +8171,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
-    sdv_split_rows(maker, level, &split, &surface->refine[2 * depth], &scratch);
-    if (!context->result)
-        sdv_split_level(context, next_arena, level, &split, next, &surface->rules);
-    if (!context->result) sdv_exact_children(maker, level, &split, next, next_arena);
+    sdv_exact_step(maker, level, &split, next, &surface->refine[2 * depth], next_arena, &scratch);
     sdv_arena_free(&scratch);
 }
 
@@ -8291,14 +8193,10 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     subdiv_surface *surface = maker->surface;
     sdv_exact *exact = surface->exact;
     sdv_arena *arena = &surface->arena;
-    exact->cut_count = (int)maker->cuts.count;
     exact->kind_count = (int)maker->kinds.count;
     exact->nest_count = (int)maker->nests.count;
     exact->nest_point_count = (int)maker->nest_points.count;
     exact->nest_face_count = (int)maker->nest_faces.count;
-    exact->nodes = (int *)sdv_keep_array(context, arena, &maker->nodes, sizeof(int));
-    exact->cuts = (sdv_cut_patch *)sdv_keep_array(context, arena, &maker->cuts,
-                                                  sizeof(sdv_cut_patch));
     exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
                                                    sizeof(sdv_nest_kind));
     exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
@@ -8313,42 +8211,32 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 }
 
 // -------------------------------------------------------------------------------- >>locations
-// Which leaf of the tree a location is on, and which polynomial of that.
+// Where a location is on a leaf, and which polynomial of the leaf is there.
 
-// Which child of a face, and where on it; a middle triangle is turned by half.
-SDV_INLINE int sdv_descend_quad(double *x, double *y)
+// Which child of a face, and where on it; a middle triangle is turned by half: scale changes sign.
+SDV_INLINE int sdv_descend(int loop, double *x, double *y, double *scale)
 {
-    int right = *x >= 0.5, up = *y >= 0.5;
-    *x = 2 * *x - right;
-    *y = 2 * *y - up;
-    return right ^ (up * 3);
-}
-
-SDV_INLINE int sdv_descend_triangle(double *x, double *y, double *scale)
-{
-    int child = *x >= 0.5 ? 1 : *y >= 0.5 ? 2 : *x + *y < 0.5 ? 0 : 3;
-    *x = child == 3 ? 1 - 2 * *x : 2 * *x - (child == 1);
-    *y = child == 3 ? 1 - 2 * *y : 2 * *y - (child == 2);
-    if (child == 3) *scale = -*scale;
+    int right = *x >= 0.5, up = *y >= 0.5, middle = loop && !right && !up && *x + *y >= 0.5;
+    int child = middle ? 3 : loop && right ? 1 : loop && up ? 2 : right ^ (up * 3);
+    if (loop && right) up = 0;
+    *x = middle ? 1 - 2 * *x : 2 * *x - right;
+    *y = middle ? 1 - 2 * *y : 2 * *y - up;
+    *scale *= middle ? -2 : 2;
     return child;
 }
 
-// What directions of a face are as seen from its vertex number turn: the first two and the last two
-// numbers times (u, v). And what its places are.
-static const signed char sdv_turns[2][4][4] = {
-    { {1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0} },
-    { {1, 0, 0, 1}, {0, 1, -1, -1}, {-1, -1, 1, 0}, {0, 0, 0, 0} } };
+// A place (u, v) of a face is at (x, y) as seen from its vertex number turn:
+//
+//     x = t[4] + t[0] u + t[1] v          y = t[5] + t[2] u + t[3] v
+static const signed char sdv_turns[2][4][6] = {
+    { {1, 0, 0, 1, 0, 0}, {0, 1, -1, 0, 0, 1}, {-1, 0, 0, -1, 1, 1}, {0, -1, 1, 0, 1, 0} },
+    { {1, 0, 0, 1, 0, 0}, {0, 1, -1, -1, 0, 1}, {-1, -1, 1, 0, 1, 0}, {0, 0, 0, 0, 0, 0} } };
 
-SDV_INLINE void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
+static void sdv_turn_place(int loop, int turn, double u, double v, double *x, double *y)
 {
-    double w = 1 - u - v;
-    if (loop) {
-        *x = turn == 0 ? u : turn == 1 ? v : w;
-        *y = turn == 0 ? v : turn == 1 ? w : u;
-    } else {
-        *x = turn == 0 ? u : turn == 1 ? v : turn == 2 ? 1 - u : 1 - v;
-        *y = turn == 0 ? v : turn == 1 ? 1 - u : turn == 2 ? 1 - v : u;
-    }
+    const signed char *t = sdv_turns[loop][turn];
+    *x = t[4] + t[0] * u + t[1] * v;
+    *y = t[5] + t[2] * u + t[3] * v;
 }
 
 // The number of the first polynomial of a child of a nest's face.
@@ -8366,57 +8254,41 @@ SDV_INLINE float sdv_on_face(float u)
     return u < 1 ? u : 1;
 }
 
-// Where a location is: on a leaf of the tree, and on a polynomial of that.
+// Where a patch is, of those of all levels, one level's behind the other's.
+typedef struct sdv_patch_at {
+    int level, i;
+} sdv_patch_at;
+
+static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
+{
+    while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
+        at->i -= surface->exact->patches[at->level++].count;
+}
+
+static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
+{
+    sdv_patch_at at = { 0, number };
+    sdv_next_level(surface, &at);
+    return at;
+}
+
+static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
+                                     const int **points)
+{
+    const sdv_patches *patches = &surface->exact->patches[at.level];
+    *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
+    return &patches->items[at.i];
+}
+
+// Where a location is: on a leaf, and on a polynomial of that.
 typedef struct sdv_leaf {
-    int    node;                        // of the tree; 0: its face has no surface
+    const sdv_patch *patch;             // its leaf is a patch of these control points,
+    const int       *points;
+    int    nest_face;                   // or a face of a nest, or -1: its face has no surface
     int    below_kept;                  // in a nest, nearer to the vertex than polynomials are kept
     size_t polynomial;
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
-
-// From the cell of the deepest level a location is in. Nothing is rounded.
-SDV_INLINE void sdv_locate_quad(const int *nodes, int node, float u, float v, sdv_leaf *leaf)
-{
-    const int cells = 1 << SDV_EXACT_LEVELS;
-    int x = (int)(u * (float)cells), y = (int)(v * (float)cells), level = SDV_EXACT_LEVELS;
-    x -= x >> SDV_EXACT_LEVELS;                         // 1 is in the last one
-    y -= y >> SDV_EXACT_LEVELS;
-    for (int turn = x ^ y; node >= 0; ) {
-        level--;
-        node = nodes[node + 2 * (y >> level & 1) + (turn >> level & 1)];
-    }
-    float scale = (float)(cells >> level);
-    leaf->node = node;
-    leaf->sx = leaf->sy = (double)scale;
-    leaf->x = (double)(u * scale - (float)(x >> level));
-    leaf->y = (double)(v * scale - (float)(y >> level));
-}
-
-SDV_INLINE void sdv_locate_triangle(const int *nodes, int node, double x, double y,
-                                       sdv_leaf *leaf)
-{
-    double scale = 1;
-    if (x + y > 1) y = 1 - x;
-    for (; node >= 0; scale *= 2) node = nodes[node + sdv_descend_triangle(&x, &y, &scale)];
-    leaf->node = node;
-    leaf->x = x;
-    leaf->y = y;
-    leaf->sx = leaf->sy = scale;
-}
-
-SDV_INLINE void sdv_locate(const subdiv_surface *surface, int loop, const subdiv_location *at,
-                              sdv_leaf *leaf)
-{
-    float u = sdv_on_face(at->u), v = sdv_on_face(at->v);
-    int f = at->face;
-    leaf->node = leaf->below_kept = 0;
-    leaf->polynomial = 0;
-    if (surface->exact->absent && surface->exact->absent[f]) return;
-    if (surface->own_face) f = surface->own_face[f];
-    int node = surface->exact->nodes[sdv_face_node(&surface->order.cage, loop, f, at->corner)];
-    if (loop) sdv_locate_triangle(surface->exact->nodes, node, (double)u, (double)v, leaf);
-    else sdv_locate_quad(surface->exact->nodes, node, u, v, leaf);
-}
 
 // The strip that a coordinate is on; it then counts in the strip's own segment.
 SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
@@ -8429,21 +8301,21 @@ SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale
     return i;
 }
 
-SDV_INLINE void sdv_find_in_cut(const subdiv_surface *surface, int number, sdv_leaf *leaf)
+// Finds the part of a patch that is cut into strips.
+static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
 {
-    const sdv_cut_patch *cut = &surface->exact->cuts[number];
-    const sdv_strips *along = &surface->exact->strips[cut->along - 1];
-    int row = sdv_find_strip(&surface->exact->strips[cut->up - 1], &leaf->y, &leaf->sy);
+    const sdv_strips *along = &surface->exact->strips[leaf->patch->along - 1];
+    int row = sdv_find_strip(&surface->exact->strips[leaf->patch->up - 1], &leaf->y, &leaf->sy);
     int column = sdv_find_strip(along, &leaf->x, &leaf->sx);
-    leaf->polynomial = (size_t)(cut->polynomial + row * along->count + column);
+    leaf->polynomial += (size_t)(row * along->count + column);
 }
 
 // On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
 // as seen by the face again.
-SDV_INLINE void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, sdv_leaf *leaf)
+static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
 {
-    int turn = exact->nest_faces[number].turn, depth = 0;
-    double x, y, scale = 2 * leaf->sx;
+    int turn = exact->nest_faces[leaf->nest_face].turn, depth = 0;
+    double x, y, scale = leaf->sx;
     sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
     while ((loop ? x + y : x > y ? x : y) < 0.5) {
         if (++depth == SDV_NEST_DEPTH) {
@@ -8454,185 +8326,242 @@ SDV_INLINE void sdv_find_in_nest(const sdv_exact *exact, int loop, int number, s
         y *= 2;
         scale *= 2;
     }
-    int child = loop ? sdv_descend_triangle(&x, &y, &scale) : sdv_descend_quad(&x, &y);
+    int child = sdv_descend(loop, &x, &y, &scale);
     sdv_turn_place(loop, turn ? (loop ? 3 : 4) - turn : 0, x, y, &leaf->x, &leaf->y);
     leaf->sx = leaf->sy = scale;
-    leaf->polynomial = sdv_nest_polynomial_number(exact, number, depth, child);
+    leaf->polynomial = sdv_nest_polynomial_number(exact, leaf->nest_face, depth, child);
 }
 
-SDV_INLINE void sdv_find_polynomial(const subdiv_surface *surface, int loop, sdv_leaf *leaf)
+static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 {
-    int what = sdv_leaf_what(leaf->node), number = sdv_leaf_number(leaf->node);
-    leaf->polynomial = (size_t)number;
-    if (what == SDV_LEAF_CUT) sdv_find_in_cut(surface, number, leaf);
-    if (what == SDV_LEAF_NEST) sdv_find_in_nest(surface->exact, loop, number, leaf);
+    if (leaf->patch && leaf->patch->up) sdv_find_part(surface, leaf);
+    if (leaf->nest_face >= 0) sdv_find_in_nest(surface->exact, surface->rules.loop, leaf);
 }
 
 // ------------------------------------------------------------------------------------ >>cells
-// A faster way to the same polynomials, for locations in any order: a walk down the tree has its
-// branches mispredicted. Each face is one cell or, if there is more than one polynomial on it, a
-// grid of 16 cells, and such a cell may be a grid again.
+// Where a location is, is found in few steps, as branches would be mispredicted. Each face, or quad
+// of an n-gon, is one cell or, if there is more than one polynomial on it, a grid of 16 cells, and
+// such a cell may be a grid again.
 //
 //     +--+--+--+--+     A cell is a number: 2 first + 1 of a grid whose cells are those from first
 //     |  |  |  |  |     on. Or it has the number of the polynomial that is all over it, and which
 //     +--+--+--+--+     part of the face that covers: one in 2^across columns and 2^up rows (they
-//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. What
-//     +--+--+--+--+     is smaller than the cells of the second grid is left to the tree.
-//     |  |  |  |  |
-//     +--+--+--+--+     Loop: the triangle below the diagonal of a square has the square's number,
-//     |  |  |  |  |     the one above that of the opposite square (15 less it), behind the long
-//     +--+--+--+--+     side, where there is no triangle.
+//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. Or, if
+//     +--+--+--+--+     it is smaller than the cells of the second grid or has more than one
+//     |  |  |  |  |     polynomial even so, it has the number of a leaf.
+//     +--+--+--+--+
+//     |  |  |  |  |     Loop: the triangle below the diagonal of a square has the square's number,
+//     +--+--+--+--+     the one above that of the opposite square (15 less it), behind the long
+//                       side, where there is no triangle.
 
 #define SDV_CELL_LEVELS 4               // of two grids
 #define SDV_CELL_BITS 8                 // of what is not the polynomial's number
-#define SDV_CELL_NONE 14u               // ask the tree
+#define SDV_CELL_LEAF 0xe0000000u       // cells from here on have twice the number of a leaf more
+#define SDV_CELL_NONE 0xfffffffeu       // no surface
+#define SDV_CELL_FAR 1u                 // as the result of a look-up: see sdv_locate
 
-// Of more polynomials than a cell can number, the last ones are left to the tree. (Tests ask for
-// fewer.)
+// Of more polynomials than a cell can number, the last ones are left to their leaves. (Tests ask
+// for fewer.)
 #ifndef SDV_CELL_POLYNOMIALS
-#define SDV_CELL_POLYNOMIALS ((size_t)1 << (32 - SDV_CELL_BITS))
+#define SDV_CELL_POLYNOMIALS (SDV_CELL_LEAF >> SDV_CELL_BITS)
 #endif
 
-// From the lowest bit on: 0, as it is no grid; 3 bits across; 3 up; turned; the number. (14 has 7
-// across, more than there are levels.)
-static unsigned sdv_pack_cell(size_t polynomial, int across, int up, int turned)
-{
-    if (polynomial >= SDV_CELL_POLYNOMIALS) return SDV_CELL_NONE;
-    return (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(turned << 7 | up << 4 | across << 1);
-}
+// Which cells of a grid are the children, and their children, of its face.
+static const unsigned char sdv_grid_cells[2][16] = {
+    { 0, 1, 5, 4, 2, 3, 7, 6, 10, 11, 15, 14, 8, 9, 13, 12 },
+    { 0, 1, 4, 15, 2, 3, 6, 13, 8, 9, 12, 7, 10, 11, 14, 5 } };
 
 // A square of a face after so many splits; Loop: the triangle below its diagonal, or above.
 typedef struct sdv_square {
-    subdiv_location at;                 // the face, and which corner's quad
+    size_t root;                        // the cell of the whole face
     int level, x, y, above;             // number x along a row of 2^level, in row y
-    int node;                           // of the tree: its own, or the leaf that it is a part of
-    int depth;                          // on a face of a nest: how many levels down
-    int whole;                          // is one polynomial all over it?
-    unsigned cell;                      // if it is; else SDV_CELL_NONE
 } sdv_square;
 
-static sdv_leaf sdv_leaf_at(const subdiv_surface *surface, subdiv_location at, float u, float v)
+typedef struct sdv_cell_maker {
+    sdv_context *context;
+    const subdiv_surface *surface;
+    sdv_array cells;
+} sdv_cell_maker;
+
+// The cell of the face, or of the quad of an n-gon, that has the grid of face-vertex h.
+SDV_INLINE int sdv_root_cell(const sdv_level *cage, int loop, int h)
 {
-    sdv_leaf leaf;
-    memset(&leaf, 0, sizeof leaf);
-    at.u = u;
-    at.v = v;
-    sdv_locate(surface, surface->rules.loop, &at, &leaf);
-    if (leaf.node) sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-    return leaf;
+    return cage->face_size == (loop ? 3 : 4) ? sdv_face_of(cage, h) : h;
 }
 
-// The cell of a square of a cut patch, if one part reaches from corner to corner.
-static unsigned sdv_cut_cell(const subdiv_surface *surface, const sdv_square *square)
+// The square of a face after so many levels of refinement, which is at a place of a grid. The quads
+// of an n-gon are there after one.
+static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h, int column,
+                                int row, int step)
 {
-    float size = 1 / (float)(1 << square->level), low = size / (2 << SDV_STRIP_LEVELS);
-    float u = size * (float)square->x, v = size * (float)square->y, high = size - low;
-    sdv_leaf leaf = sdv_leaf_at(surface, square->at, u + low, v + low);
-    int across = 0, up = 0;
-    while (across <= square->level && 1 << across < leaf.sx) across++;
-    while (up <= square->level && 1 << up < leaf.sy) up++;
-    if (across > square->level || up > square->level ||
-        leaf.polynomial != sdv_leaf_at(surface, square->at, u + high, v + high).polynomial)
-        return SDV_CELL_NONE;
-    return sdv_pack_cell(leaf.polynomial, across, up, 0);
-}
-
-// Sets what a square is on, where the tree goes on with a node.
-static void sdv_square_node(const subdiv_surface *surface, sdv_square *square, int node)
-{
-    int what = sdv_leaf_what(node), level = square->level;
-    square->node = node;
-    square->depth = 0;
-    square->cell = SDV_CELL_NONE;
-    if (node < 0 && what == SDV_LEAF_PATCH)
-        square->cell = sdv_pack_cell((size_t)sdv_leaf_number(node), level, level, square->above);
-    if (node < 0 && what == SDV_LEAF_CUT) square->cell = sdv_cut_cell(surface, square);
-    square->whole = node < 0 && (what == SDV_LEAF_PATCH || square->cell != SDV_CELL_NONE);
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, above = step < 0, ngon = sdv_size_of(cage, h) != (loop ? 3 : 4);
+    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h), level - ngon, column - above,
+                          row - above, above };
+    return square;
 }
 
 // Number k of the four that a split makes of it, which are numbered as by its vertices; the one of
 // Loop's that is in the middle comes last.
-static void sdv_place_square(sdv_square *square, int loop, int k)
+static sdv_square sdv_split_square(sdv_square square, int loop, int k)
 {
     int middle = loop && k == 3, right = loop ? k == 1 : k == 1 || k == 2;
     int up = loop ? k == 2 : k >= 2;
-    square->level++;
-    square->x = 2 * square->x + (square->above ? 1 - right : right);
-    square->y = 2 * square->y + (square->above ? 1 - up : up);
-    square->above ^= middle;
+    square.level++;
+    square.x = 2 * square.x + (square.above ? 1 - right : right);
+    square.y = 2 * square.y + (square.above ? 1 - up : up);
+    square.above ^= middle;
+    return square;
 }
 
-static sdv_square sdv_split_square(const subdiv_surface *surface, const sdv_square *square, int k)
+// The cell of a square in the grid that is so many levels above it, at least two.
+static size_t sdv_cell_in_grid(const sdv_square *square, int loop, int levels)
 {
-    const sdv_exact *exact = surface->exact;
-    int loop = surface->rules.loop, sides = loop ? 3 : 4, number = sdv_leaf_number(square->node);
-    sdv_square part = *square;
-    sdv_place_square(&part, loop, k);
-    if (square->node >= 0) {
-        sdv_square_node(surface, &part, exact->nodes[square->node + k]);
-    } else if (!square->whole && sdv_leaf_what(square->node) == SDV_LEAF_NEST) {
-        int turn = exact->nest_faces[number].turn;
-        int child = k < sides ? (k + sides - turn) % sides : k;
-        size_t polynomial = sdv_nest_polynomial_number(exact, number, square->depth, child);
-        part.depth++;
-        part.whole = child > 0;
-        if (part.whole) part.cell = sdv_pack_cell(polynomial, part.level, part.level, part.above);
-    } else if (!square->whole) {
-        sdv_square_node(surface, &part, square->node);
+    int shift = levels - 2, rest = (1 << shift) - 1;
+    int x = square->x, y = square->y, i = (y >> shift & 3) << 2 | (x >> shift & 3);
+    return (size_t)(loop && (x & rest) + (y & rest) + square->above > rest ? 15 - i : i);
+}
+
+// The first cell of the grid that cell number i is, or becomes.
+static size_t sdv_open_grid(sdv_cell_maker *maker, size_t i)
+{
+    size_t first = maker->cells.count;
+    if (maker->context->result) return 0;
+    unsigned cell = ((unsigned *)sdv_items(&maker->cells))[i];
+    if (cell & 1) return cell / 2;
+    if (first >= SDV_CELL_LEAF / 2)
+        sdv_fail(maker->context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
+    if (!sdv_append(maker->context, &maker->cells, 16, sizeof cell)) return 0;
+    ((unsigned *)sdv_items(&maker->cells))[i] = 2 * (unsigned)first + 1;
+    return first;
+}
+
+// Sets the cell of a square, in a grid for every two levels; after an odd number of levels it has
+// four cells.
+static void sdv_set_cell(sdv_cell_maker *maker, const sdv_square *square, unsigned cell)
+{
+    int loop = maker->surface->rules.loop, levels = square->level;
+    size_t i = square->root, first;
+    for (; levels > 1; levels -= 2)
+        i = sdv_open_grid(maker, i) + sdv_cell_in_grid(square, loop, levels);
+    first = levels ? sdv_open_grid(maker, i) : i;
+    if (maker->context->result) return;
+    unsigned *cells = (unsigned *)sdv_items(&maker->cells);
+    if (levels == 0) cells[i] = cell;
+    for (int k = 0; k < 4 && levels; k++) {
+        sdv_square part = sdv_split_square(*square, loop, k);
+        cells[first + sdv_cell_in_grid(&part, loop, 2)] = cell;
     }
-    return part;
 }
 
-static size_t sdv_number_in_grid(const sdv_square *square)
+// Sets the cell of a square with one polynomial, or leaves it to its leaf. From the lowest bit on:
+// 0, as it is no grid; 3 bits across; 3 up; turned; the number.
+static void sdv_set_polynomial(sdv_cell_maker *maker, const sdv_square *square, size_t polynomial,
+                               int across, int up, unsigned leaf)
 {
-    int i = (square->y & 3) << 2 | (square->x & 3);
-    return (size_t)(square->above ? 15 - i : i);
+    unsigned cell = (unsigned)polynomial << SDV_CELL_BITS | (unsigned)square->above << 7 |
+                    (unsigned)up << 4 | (unsigned)across << 1;
+    sdv_set_cell(maker, square, polynomial < SDV_CELL_POLYNOMIALS ? cell : leaf);
 }
 
-// Makes cell number i, and its grid: where a quarter of that has one polynomial, all at once.
-static void sdv_make_cells(sdv_context *context, sdv_array *cells, const subdiv_surface *surface,
-                           const sdv_square *square, size_t i)
+// The strip that reaches from one segment to another, or -1.
+static int sdv_strip_over(const sdv_strips *strips, int from, int to)
 {
-    int grid = !square->whole && square->level < SDV_CELL_LEVELS && square->depth < SDV_NEST_DEPTH;
-    size_t first = cells->count;
-    if (first > INT_MAX) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "this mesh has too many faces");
-    if (context->result || (grid && !sdv_append(context, cells, 16, sizeof(unsigned)))) return;
-    ((unsigned *)sdv_items(cells))[i] = grid ? 2 * (unsigned)first + 1 : square->cell;
-    for (int k = 0; k < 4 && grid; k++) {
-        sdv_square quarter = sdv_split_square(surface, square, k);
-        for (int j = 0; j < 4; j++) {
-            sdv_square part = sdv_split_square(surface, &quarter, j);
-            size_t number = first + sdv_number_in_grid(&part);
-            if (quarter.whole) ((unsigned *)sdv_items(cells))[number] = quarter.cell;
-            else sdv_make_cells(context, cells, surface, &part, number);
+    for (int i = 0; i < strips->count; i++)
+        if (strips->items[i].from <= from && to <= strips->items[i].to) return i;
+    return -1;
+}
+
+// Sets the cells of a square of a patch of a level that is cut into strips: one, if one part
+// reaches from corner to corner.
+static void sdv_set_cut(sdv_cell_maker *maker, const sdv_square *square, const sdv_patch *patch,
+                        int level, unsigned leaf)
+{
+    const sdv_strips *along = &maker->surface->exact->strips[patch->along - 1];
+    const sdv_strips *up = &maker->surface->exact->strips[patch->up - 1];
+    int parts = 1 << (square->level - level), size = (1 << SDV_STRIP_LEVELS) / parts;
+    int x = (square->x % parts) * size, y = (square->y % parts) * size;
+    int i = sdv_strip_over(along, x, x + size), j = sdv_strip_over(up, y, y + size);
+    if (i >= 0 && j >= 0) {
+        int columns = level, rows = level;
+        for (int n = 1 << SDV_STRIP_LEVELS; n > along->items[i].unit; n /= 2) columns++;
+        for (int n = 1 << SDV_STRIP_LEVELS; n > up->items[j].unit; n /= 2) rows++;
+        if (columns <= square->level && rows <= square->level) {
+            size_t polynomial = (size_t)(patch->polynomial + j * along->count + i);
+            sdv_set_polynomial(maker, square, polynomial, columns, rows, leaf);
+            return;
         }
     }
+    for (int k = 0; k < 4 && square->level < SDV_CELL_LEVELS; k++) {
+        sdv_square part = sdv_split_square(*square, 0, k);
+        sdv_set_cut(maker, &part, patch, level, leaf);
+    }
+    if (square->level == SDV_CELL_LEVELS) sdv_set_cell(maker, square, leaf);
 }
 
-// The cells of all faces, and one for those without a surface.
-static void sdv_make_all_cells(sdv_context *context, subdiv_surface *surface)
+// Sets the cells of what is left of a nest's face after so many levels.
+static void sdv_set_nest_face(sdv_cell_maker *maker, const sdv_square *square, int face, int depth,
+                              unsigned leaf)
+{
+    const sdv_exact *exact = maker->surface->exact;
+    int loop = maker->surface->rules.loop, sides = loop ? 3 : 4;
+    if (square->level >= SDV_CELL_LEVELS || depth == SDV_NEST_DEPTH) {
+        sdv_set_cell(maker, square, leaf);
+        return;
+    }
+    for (int k = 0; k < 4; k++) {
+        int child = k < sides ? (k + sides - exact->nest_faces[face].turn) % sides : k;
+        size_t polynomial = sdv_nest_polynomial_number(exact, face, depth, child);
+        sdv_square part = sdv_split_square(*square, loop, k);
+        if (child == 0) sdv_set_nest_face(maker, &part, face, depth + 1, leaf);
+        else sdv_set_polynomial(maker, &part, polynomial, part.level, part.level, leaf);
+    }
+}
+
+// Sets the cells of all leaves, which are numbered: patches, then faces of nests.
+static void sdv_set_leaves(sdv_cell_maker *maker)
+{
+    const subdiv_surface *surface = maker->surface;
+    const sdv_exact *exact = surface->exact;
+    unsigned leaf = SDV_CELL_LEAF;
+    for (int level = 0; level < SDV_EXACT_LEVELS; level++)
+        for (int i = 0; i < exact->patches[level].count && !maker->context->result; i++) {
+            const sdv_patch *p = &exact->patches[level].items[i];
+            sdv_square square = sdv_square_at(surface, level, p->h, p->column, p->row, p->step);
+            int at = square.level;
+            if (at > SDV_CELL_LEVELS) sdv_set_cell(maker, &square, leaf);
+            else if (p->up) sdv_set_cut(maker, &square, p, at, leaf);
+            else sdv_set_polynomial(maker, &square, (size_t)p->polynomial, at, at, leaf);
+            leaf += 2;
+        }
+    for (int i = 0; i < exact->nest_face_count && !maker->context->result; i++) {
+        const sdv_nest_face *face = &exact->nest_faces[i];
+        const sdv_place *place = &face->place;
+        sdv_square square = sdv_square_at(surface, face->level, place->h, place->column,
+                                          place->row, place->step);
+        sdv_set_nest_face(maker, &square, i, 0, leaf);
+        leaf += 2;
+    }
+}
+
+// Makes the cells of all faces, and one more for faces without a surface.
+static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
 {
     const sdv_level *cage = &surface->order.cage;
     sdv_exact *exact = surface->exact;
-    sdv_array cells;
-    int loop = surface->rules.loop, size = loop ? 3 : 4;
-    memset(&cells, 0, sizeof cells);
-    size_t roots = (size_t)cage->face_vertex_count + 1;
-    sdv_append(context, &cells, roots, sizeof(unsigned));
-    for (size_t i = 0; i < roots && !context->result; i++)
-        ((unsigned *)sdv_items(&cells))[i] = SDV_CELL_NONE;
-    for (int f = 0; f < surface->face_count && !context->result; f++) {
+    sdv_cell_maker maker = { context, surface, { NULL, 0, 0 } };
+    int loop = surface->rules.loop, roots = cage->face_vertex_count + 1;
+    unsigned *cells = (unsigned *)sdv_append(context, &maker.cells, (size_t)roots, sizeof *cells);
+    for (int i = 0; i < roots && cells; i++) cells[i] = SDV_CELL_NONE;
+    sdv_set_leaves(&maker);
+    exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &maker.cells,
+                                              sizeof *cells);
+    for (int f = 0; f < surface->face_count && exact->absent && !context->result; f++) {
         int own = surface->own_face ? surface->own_face[f] : f;
-        if (exact->absent && exact->absent[f]) continue;
-        int count = sdv_face_end(cage, own) - sdv_face_start(cage, own);
-        for (int corner = 0; corner < (count == size ? 1 : count); corner++) {
-            sdv_square face = { { f, corner, 0, 0 }, 0, 0, 0, 0, 0, 0, 0, SDV_CELL_NONE };
-            int i = sdv_face_node(cage, loop, own, corner);
-            sdv_square_node(surface, &face, exact->nodes[i]);
-            sdv_make_cells(context, &cells, surface, &face, (size_t)i);
-        }
+        if (!exact->absent[f] || own < 0) continue;
+        for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
+            exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
     }
-    exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &cells, sizeof(unsigned));
 }
 
 // Is a location there?
@@ -8712,7 +8641,7 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
     }
 }
 
-// The first cell of a face, or of its corner; *odd: there is no such corner.
+// The cell of a face, or of the quad at its corner; *odd: there is no such corner.
 SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
                               unsigned *odd)
 {
@@ -8748,8 +8677,11 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_loo
     for (int k = 0; k < count; k++) {
         unsigned cell = cells[l->face[k]], grid = 0u - (cell & 1);
         cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
-        if (cell & 1) cell = cells[(cell >> 1) + (unsigned)l->second[k]];   // hardly ever
-        l->cells[k] = cell;
+        if (cell & 1) {                                                     // hardly ever
+            cell = cells[(cell >> 1) + (unsigned)l->second[k]];
+            if (cell & 1) cell = SDV_CELL_NONE;
+        }
+        l->cells[k] = cell < SDV_CELL_LEAF ? cell : SDV_CELL_FAR;
     }
 }
 
@@ -8793,7 +8725,68 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
     return found;
 }
 
-// Preparing an exact surface: its tree level by level, then its cells.
+// The patch that has a polynomial.
+static sdv_patch_at sdv_find_patch_of(const sdv_exact *exact, int polynomial)
+{
+    sdv_patch_at at = { 0, 0 };
+    for (int level = 1; level < SDV_EXACT_LEVELS; level++) {
+        const sdv_patches *patches = &exact->patches[level];
+        if (patches->count && patches->items[0].polynomial <= polynomial) at.level = level;
+    }
+    for (int end = exact->patches[at.level].count; at.i + 1 < end; ) {
+        int middle = at.i + (end - at.i) / 2;
+        if (exact->patches[at.level].items[middle].polynomial <= polynomial) at.i = middle;
+        else end = middle;
+    }
+    return at;
+}
+
+// Sets which leaf a cell is on. Returns its level.
+static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_leaf *leaf)
+{
+    const sdv_exact *exact = surface->exact;
+    int is_leaf = cell >= SDV_CELL_LEAF;
+    int number = (int)(is_leaf ? (cell - SDV_CELL_LEAF) / 2 : cell >> SDV_CELL_BITS);
+    int kept = number - exact->polynomial_count;
+    leaf->nest_face = -1;
+    if (is_leaf && number >= exact->patch_count) leaf->nest_face = number - exact->patch_count;
+    else if (!is_leaf && kept >= 0) leaf->nest_face = kept / 3 % exact->nest_face_count;
+    if (leaf->nest_face >= 0) return exact->nest_faces[leaf->nest_face].level;
+    sdv_patch_at at = is_leaf ? sdv_find_patch(surface, number) : sdv_find_patch_of(exact, number);
+    leaf->patch = sdv_patch_of(surface, at, &leaf->points);
+    leaf->polynomial = (size_t)leaf->patch->polynomial;
+    return at.level;
+}
+
+// Finds the leaf of a location.
+static sdv_leaf sdv_locate(const subdiv_surface *surface, const subdiv_location *at)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, f = surface->own_face ? surface->own_face[at->face] : at->face;
+    double u = (double)sdv_on_face(at->u), v = (double)sdv_on_face(at->v);
+    unsigned odd = 0;
+    unsigned cell = surface->exact->cells[sdv_first_cell(surface, loop, at->face, at->corner,
+                                                         &odd)];
+    sdv_leaf leaf;
+    memset(&leaf, 0, sizeof leaf);
+    leaf.nest_face = -1;
+    if (cell == SDV_CELL_NONE) return leaf;
+    if (loop && u + v > 1) v = 1 - u;
+    for (double x = u, y = v, scale = 1; cell & 1; ) {
+        int child = sdv_descend(loop, &x, &y, &scale);
+        child = 4 * child + sdv_descend(loop, &x, &y, &scale);
+        cell = surface->exact->cells[(cell >> 1) + sdv_grid_cells[loop][child]];
+    }
+    int level = sdv_leaf_of_cell(surface, cell, &leaf);
+    level -= sdv_face_end(cage, f) - sdv_face_start(cage, f) != (loop ? 3 : 4);
+    leaf.x = u;
+    leaf.y = v;
+    leaf.sx = 1;
+    for (int i = 0; i < level; i++) sdv_descend(loop, &leaf.x, &leaf.y, &leaf.sx);
+    leaf.sy = leaf.sx;
+    return leaf;
+}
+
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
 {
     sdv_exact *exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
@@ -8819,12 +8812,8 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     sdv_writer_new(context, &surface->points, cage, &writer);
     maker.writer = &writer;
     maker.surface = surface;
-    maker.slots = SDV_NEW(context, arena, int, level.face_count);
-    sdv_append(context, &maker.nodes, (size_t)level.face_vertex_count, sizeof(int));
     if (!context->result) {
         memset(level.core, 1, (size_t)level.face_count);
-        for (int f = 0; f < level.face_count; f++)
-            maker.slots[f] = sdv_face_node(&level, surface->rules.loop, f, 0);
         sdv_level_fade(&level);
         surface->work_count = level.vertex_count;
         sdv_find_absent(context, surface, hole);
@@ -8837,7 +8826,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result && !surface->borrows) sdv_make_all_cells(context, surface);
+    if (!context->result && !surface->borrows) sdv_make_cells(context, surface);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -8957,11 +8946,6 @@ SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
     return sdv_minus(sdv_plus(edge, edge), inside);
 }
 
-SDV_INLINE void sdv_load_points(const int *points, int count, const float *work, sdv_four *p)
-{
-    for (int i = 0; i < count; i++) p[i] = sdv_load(work + 4 * (size_t)points[i]);
-}
-
 // What lies beyond sharp edges is mirrored: first to the left and right in all rows that are known,
 // then below and above.
 static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
@@ -9039,6 +9023,7 @@ static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
 {
     sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
     sdv_four (*c)[5] = q->c;
+    q->degree = 4;
     sdv_four p35 = sdv_plus(p[3], p[5]), p08 = sdv_plus(p[0], p[8]), p16 = sdv_plus(p[1], p[6]);
     sdv_four d53 = sdv_minus(p[5], p[3]), d80 = sdv_minus(p[8], p[0]), d16 = sdv_minus(p[1], p[6]);
     c[0][0] = sdv_times(twelfth, sdv_sum3(p35, p08, p16));
@@ -9066,23 +9051,11 @@ static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
 // Linear: 0 at vertex 0.
 static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
 {
+    q->degree = 4;
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
     q->c[1][0] = p[5];
     q->c[0][1] = p[8];
-}
-
-static void sdv_triangle_polynomial(const sdv_patch *patch, const int *points, int linear,
-                                    const float *work, sdv_polynomial *q)
-{
-    sdv_four p[12];
-    q->degree = 4;
-    sdv_load_points(points, 12, work, p);
-    q->origin = p[4];
-    for (int i = 0; i < 12; i++) p[i] = sdv_minus(p[i], q->origin);
-    sdv_mirror_triangle(patch, p);
-    if (linear) sdv_plane(p, q);
-    else sdv_box_spline(p, q);
 }
 
 // A patch, its control points among work points in doubles, and the strips that it is cut into.
@@ -9101,11 +9074,6 @@ static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const
     if (patch->up) from.along = &surface->exact->strips[patch->along - 1];
     if (patch->up) from.up = &surface->exact->strips[patch->up - 1];
     return from;
-}
-
-static const double *sdv_double_point(const sdv_double_patch *from, int i)
-{
-    return from->work + 4 * (size_t)from->points[i];
 }
 
 static int sdv_double_parts(const sdv_double_patch *from)
@@ -9148,17 +9116,15 @@ static void sdv_cut_cubic(double (*p)[4], int step, int next)
     sdv_combine(p, step, next, rows);
 }
 
-// The part of a patch where two strips cross. It may be a thousandth of the patch, so it is made in
-// doubles. The polynomial starts where the strips' own segments do, which are its units.
-static void sdv_cut_polynomial(const sdv_double_patch *from, const sdv_strip *along,
-                               const sdv_strip *up, sdv_polynomial *q, double *origin)
+// The part of a patch where two strips cross, from its control points around origin. It may be a
+// thousandth of the patch, so it is made in doubles. The polynomial starts where the strips' own
+// segments do, which are its units.
+static void sdv_cut_polynomial(const sdv_double_patch *from, int part, double (*p)[4],
+                               sdv_polynomial *q, double *origin)
 {
-    int sharp = from->patch->sharp;
-    double p[16][4];
-    for (int i = 0; i < 16; i++)
-        for (int c = 0; c < 4; c++) p[i][c] = sdv_double_point(from, i)[c] - origin[c];
-    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, from->along, along);
-    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, from->up, up);
+    int sharp = from->patch->sharp, columns = from->along->count;
+    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, from->along, &from->along->items[part % columns]);
+    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, from->up, &from->up->items[part / columns]);
     sdv_cut_cubic(p, 1, 4);
     sdv_cut_cubic(p, 4, 1);
     for (int c = 0; c < 4; c++) {
@@ -9174,55 +9140,29 @@ static void sdv_cut_polynomial(const sdv_double_patch *from, const sdv_strip *al
 static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynomial *q,
                                 double *origin)
 {
-    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    const double *first = sdv_double_point(from, from->rules->loop ? 4 : 5);
-    int count = sdv_control_points(from->rules);
-    float points[4 * 16];
-    sdv_four p[16];
+    int loop = from->rules->loop, linear = from->rules->linear;
+    int count = sdv_control_points(from->rules), first = from->points[loop ? 4 : 5];
+    double p[16][4];
+    sdv_four f[16];
     q->origin = sdv_all(0);
-    for (int c = 0; c < 4; c++) origin[c] = first[c];
+    memcpy(origin, from->work + 4 * (size_t)first, 4 * sizeof *origin);
+    for (int k = 0; k < count; k++)
+        for (int c = 0; c < 4; c++)
+            p[k][c] = from->work[4 * (size_t)from->points[k] + (size_t)c] - origin[c];
     if (from->along) {
-        int columns = from->along->count;
-        sdv_cut_polynomial(from, &from->along->items[i % columns], &from->up->items[i / columns],
-                           q, origin);
+        sdv_cut_polynomial(from, i, p, q, origin);
         return;
     }
     for (int k = 0; k < count; k++)
-        for (int c = 0; c < 4; c++)
-            points[4 * k + c] = (float)(sdv_double_point(from, k)[c] - origin[c]);
-    if (from->rules->loop) {
-        sdv_triangle_polynomial(from->patch, same, from->rules->linear, points, q);
+        f[k] = sdv_of((float)p[k][0], (float)p[k][1], (float)p[k][2], (float)p[k][3]);
+    if (loop) {
+        sdv_mirror_triangle(from->patch, f);
+        if (linear) sdv_plane(f, q);
+        else sdv_box_spline(f, q);
         return;
     }
-    sdv_load_points(same, count, points, p);
-    if (from->patch->sharp) sdv_mirror_quad(from->patch, p);
-    sdv_quad_polynomial(p, from->rules->linear, q);
-}
-
-// Where a patch is, of those of all levels, one level's behind the other's.
-typedef struct sdv_patch_at {
-    int level, i;
-} sdv_patch_at;
-
-static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
-{
-    while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
-        at->i -= surface->exact->patches[at->level++].count;
-}
-
-static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
-{
-    sdv_patch_at at = { 0, number };
-    sdv_next_level(surface, &at);
-    return at;
-}
-
-static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
-                                     const int **points)
-{
-    const sdv_patches *patches = &surface->exact->patches[at.level];
-    *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
-    return &patches->items[at.i];
+    if (from->patch->sharp) sdv_mirror_quad(from->patch, f);
+    sdv_quad_polynomial(f, linear, q);
 }
 
 // A nest's points, four channels at a time, as seen from its vertex: base + shrink w.
@@ -9302,14 +9242,9 @@ typedef struct sdv_exact_memory {
 
 #define SDV_CACHE_LINE 64
 
-static size_t sdv_exact_doubles(int channels, size_t count)
-{
-    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * count;
-}
-
 static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
 {
-    return sdv_exact_doubles(channels, (size_t)surface->work_count);
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
 }
 
 static size_t sdv_exact_kept_count(const sdv_exact *exact)
@@ -9317,43 +9252,40 @@ static size_t sdv_exact_kept_count(const sdv_exact *exact)
     return (size_t)exact->nest_count + (size_t)exact->nest_point_count;
 }
 
-static size_t sdv_exact_nest_size(const subdiv_surface *surface)
+static size_t sdv_exact_polynomial_count(const sdv_exact *exact)
 {
-    return 4 * sizeof(double) * (size_t)surface->exact->most_work;
+    return (size_t)exact->polynomial_count + 3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
+}
+
+// Carves scratch memory from base, or NULL. Returns how many bytes that takes, with room for an
+// alignment, and for loads of four floats that end behind the last polynomial.
+static size_t sdv_carve_exact(const subdiv_surface *surface, int channels, char *base,
+                              sdv_exact_memory *memory)
+{
+    const sdv_exact *exact = surface->exact;
+    size_t size = 0, fours = ((size_t)channels + 3) / 4, line = SDV_CACHE_LINE;
+    size_t polynomials = (size_t)channels * sdv_exact_polynomial_count(exact);
+    if (base) base += (line - (uintptr_t)base % line) % line;
+    memory->work = (double *)sdv_carve(base, &size, sdv_exact_work_size(surface, channels), 1);
+    memory->nest = (double *)sdv_carve(base, &size, 4 * (size_t)exact->most_work, sizeof(double));
+    memory->kept = (double *)sdv_carve(base, &size, 4 * fours * sdv_exact_kept_count(exact),
+                                       sizeof(double));
+    size = (size + line - 1) / line * line;
+    memory->polynomials = (float *)sdv_carve(base, &size, SDV_SLOTS * polynomials + 4,
+                                             sizeof(float));
+    return size + line;
 }
 
 static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
 {
     const sdv_exact *exact = surface->exact;
-    size_t count = (size_t)exact->polynomial_count +
-                   3 * SDV_NEST_DEPTH * (size_t)exact->nest_face_count;
-    size_t kept = sdv_exact_kept_count(exact), polynomial = SDV_SLOTS * sizeof(float);
-    double doubles = (double)surface->work_count + (double)kept + (double)exact->most_work;
-    if (!sdv_addressable(channels, sizeof(double) * doubles + (double)polynomial * (double)count))
-        return SIZE_MAX;
-    // Room for two alignments, and for loads of four floats that end behind the last polynomial.
-    return 3 * SDV_CACHE_LINE + sdv_exact_work_size(surface, channels) +
-           sdv_exact_nest_size(surface) + sdv_exact_doubles(channels, kept) +
-           polynomial * (size_t)channels * count;
-}
-
-static char *sdv_align(void *memory)
-{
-    return (char *)memory + (SDV_CACHE_LINE - (uintptr_t)memory % SDV_CACHE_LINE) % SDV_CACHE_LINE;
-}
-
-static sdv_exact_memory sdv_exact_parts(const subdiv_surface *surface, int channels, void *scratch)
-{
     sdv_exact_memory memory;
-    char *base = sdv_align(scratch);
-    memory.work = (double *)(void *)base;
-    base += sdv_exact_work_size(surface, channels);
-    memory.nest = (double *)(void *)base;
-    base += sdv_exact_nest_size(surface);
-    memory.kept = (double *)(void *)base;
-    base += sdv_exact_doubles(channels, sdv_exact_kept_count(surface->exact));
-    memory.polynomials = (float *)(void *)sdv_align(base);
-    return memory;
+    double doubles = (double)surface->work_count + (double)sdv_exact_kept_count(exact) +
+                     (double)exact->most_work;
+    double floats = SDV_SLOTS * (double)sdv_exact_polynomial_count(exact);
+    if (!sdv_addressable(channels, sizeof(double) * doubles + sizeof(float) * floats))
+        return SIZE_MAX;
+    return sdv_carve_exact(surface, channels, NULL, &memory);
 }
 
 // Jobs of an evaluation.
@@ -9408,24 +9340,21 @@ static int sdv_lanes_from(int channels, int c)
     return channels - c < 4 ? channels - c : 4;
 }
 
-// Makes the polynomials of a patch, of which i is the first one's number. Returns how many.
-static int sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
-                                 const int *points, size_t i)
+// Makes the polynomials of a patch.
+static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
+                                  const int *points)
 {
     sdv_polynomial q;
     double origin[4];
-    int parts = 0;
     for (int c = 0; c < e->channels; c += 4) {
         const double *work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
         sdv_double_patch from = sdv_double_patch_of(e->surface, patch, points, work);
-        parts = sdv_double_parts(&from);
-        for (int k = 0; k < parts; k++) {
+        for (int k = 0; k < sdv_double_parts(&from); k++) {
             sdv_make_polynomial(&from, k, &q, origin);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
-                                sdv_polynomial_at(e, i + (size_t)k, c));
+                                sdv_polynomial_at(e, (size_t)(patch->polynomial + k), c));
         }
     }
-    return parts;
 }
 
 // Makes the polynomial of a child of a nest's face, number `face` of its own, after a refinement.
@@ -9468,42 +9397,18 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
     }
 }
 
-// The last cut patch of a number up to this, or of a polynomial: -1 if there is none.
-static int sdv_last_cut(const sdv_exact *exact, int patch, int polynomial)
-{
-    int low = 0, high = exact->cut_count;
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (exact->cuts[middle].patch <= patch && exact->cuts[middle].polynomial <= polynomial)
-            low = middle + 1;
-        else high = middle;
-    }
-    return low - 1;
-}
-
-// How many more polynomials than patches there are up to this cut patch.
-static int sdv_more_polynomials(const subdiv_surface *surface, int i)
-{
-    const sdv_cut_patch *cut = i < 0 ? NULL : &surface->exact->cuts[i];
-    if (!cut) return 0;
-    return cut->polynomial - cut->patch - 1 +
-           surface->exact->strips[cut->along - 1].count * surface->exact->strips[cut->up - 1].count;
-}
-
 static void sdv_exact_patches_job(void *context, int job)
 {
     const sdv_exact_evaluation *e = (const sdv_exact_evaluation *)context;
     const subdiv_surface *surface = e->surface;
     int first = sdv_share(surface->exact->patch_count, job, e->jobs);
     int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs);
-    int next = first + sdv_more_polynomials(surface, sdv_last_cut(surface->exact, first - 1,
-                                                                  INT_MAX));
     sdv_patch_at at = sdv_find_patch(surface, first);
     for (int i = first; i < end; i++, at.i++) {
         const int *points;
         sdv_next_level(surface, &at);
         const sdv_patch *patch = sdv_patch_of(surface, at, &points);
-        next += sdv_patch_polynomials(e, patch, points, (size_t)next);
+        sdv_patch_polynomials(e, patch, points);
     }
 }
 
@@ -9530,7 +9435,7 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
     memset(&e, 0, sizeof e);
     e.surface = surface;
     e.channels = channels;
-    e.memory = sdv_exact_parts(surface, channels, scratch);
+    sdv_carve_exact(surface, channels, (char *)scratch, &e.memory);
     work.points = e.memory.work;
     sdv_make_exact_work(&work, opt);
     const sdv_exact *exact = e.surface->exact;
@@ -9699,9 +9604,8 @@ static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
 static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
                                     int face, double x, double y, double (*weights)[6])
 {
-    double scale = 2;
-    int child = surface->rules.loop ? sdv_descend_triangle(&x, &y, &scale)
-                                    : sdv_descend_quad(&x, &y);
+    double scale = 1;
+    int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
     sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
     const int *points;
     const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
@@ -9852,15 +9756,15 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
 static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
 {
     const subdiv_surface *surface = e->surface;
-    int loop = surface->rules.loop, number = sdv_leaf_number(leaf->node);
-    const sdv_nest_face *face = &surface->exact->nest_faces[number];
+    int loop = surface->rules.loop;
+    const sdv_nest_face *face = &surface->exact->nest_faces[leaf->nest_face];
     const signed char *t = sdv_turns[loop][face->turn];
     int count = sdv_nest_work(surface->exact, face->nest);
     double stack[4 * SDV_NEST_STACK], *w = stack;
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
-    s.face = number - surface->exact->nests[face->nest].face;
+    s.face = leaf->nest_face - surface->exact->nests[face->nest].face;
     sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &s.x, &s.y);
     if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
     for (int c = 0; c < e->channels && w; c += 4) {
@@ -9880,107 +9784,91 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-static void sdv_put_leaf(sdv_exact_evaluation *e, const sdv_leaf *leaf, int loop, int job, size_t i)
-{
-    const float *data = e->memory.polynomials + SDV_SLOTS * (size_t)e->channels * leaf->polynomial;
-    sdv_where at = { (float)leaf->x, (float)leaf->y, (float)leaf->sx, (float)leaf->sy };
-    if (leaf->node == 0)
-        sdv_put_zeros(e, i);
-    else if (leaf->below_kept)
-        e->failed[job] |= !sdv_sample_nest(e, leaf, i);
-    else
-        sdv_put_channels(e, data, loop, &at, i);
-}
-
-// By the tree: at a location that is in no cell.
+// By its leaf: a location in a cell that has more than one polynomial.
 static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
 {
-    subdiv_location at = e->locations[i];
-    sdv_leaf leaf = sdv_leaf_at(e->surface, at, at.u, at.v);
-    sdv_put_leaf(e, &leaf, loop, job, i);
+    sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
+    sdv_find_polynomial(e->surface, &leaf);
+    sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
+    if (leaf.below_kept)
+        e->failed[job] |= !sdv_sample_nest(e, &leaf, i);
+    else if (leaf.patch || leaf.nest_face >= 0)
+        sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i);
+    else
+        sdv_put_zeros(e, i);
 }
 
-// Locations, looked up, and where their polynomials are, unless the tree is to be asked.
+// Locations, looked up, and where their polynomials are, unless their leaves are to be asked.
 typedef struct sdv_sample_batch {
+    int count;
     sdv_lookup at;
     const float *data[SDV_LOOKUP];
 } sdv_sample_batch;
 
-SDV_INLINE int sdv_find_some(sdv_exact_evaluation *e, int job, int loop, size_t i, int count,
+SDV_INLINE int sdv_find_some(const sdv_exact_evaluation *e, int loop, size_t i, int count,
                              sdv_sample_batch *batch)
 {
     size_t width = SDV_SLOTS * (size_t)e->channels;
-    if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) {
-        e->refused[job] = 1;
-        return 0;
-    }
+    batch->count = count;
+    if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) return 0;
     for (int k = 0; k < count; k++)
         batch->data[k] = e->memory.polynomials + width * (batch->at.cells[k] >> SDV_CELL_BITS);
     return 1;
 }
 
-// Whole batches, so that the loops have a constant count.
-static int sdv_find_batch(sdv_exact_evaluation *e, int job, size_t i, sdv_sample_batch *batch)
+// Looks up the next batch of the locations from i to end. Where it is a whole one, loops have a
+// constant count. Returns 0 if a location is not there.
+static int sdv_find_batch(const sdv_exact_evaluation *e, size_t i, size_t end,
+                          sdv_sample_batch *batch)
 {
-    return e->surface->rules.loop ? sdv_find_some(e, job, 1, i, SDV_LOOKUP, batch)
-                                  : sdv_find_some(e, job, 0, i, SDV_LOOKUP, batch);
+    int loop = e->surface->rules.loop;
+    if (end - i < SDV_LOOKUP) return sdv_find_some(e, loop, i, (int)(end - i), batch);
+    if (loop) return sdv_find_some(e, 1, i, SDV_LOOKUP, batch);
+    return sdv_find_some(e, 0, i, SDV_LOOKUP, batch);
 }
 
-// lanes, order: constants for what is asked for most; lanes 0: whatever e asks for.
-SDV_INLINE void sdv_put_found(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
-                              const sdv_sample_batch *batch, int k, size_t i)
+// Evaluates a batch of locations from i on, and fetches the polynomials of the next batch. lanes,
+// order: constants for what is asked for most; lanes 0: whatever e asks for.
+SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
+                              const sdv_sample_batch *batch, const sdv_sample_batch *next, size_t i)
 {
     const sdv_lookup *l = &batch->at;
-    sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
-    if (l->cells[k] == SDV_CELL_NONE) sdv_put_location(e, loop, job, i);
-    else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
-    else sdv_put_channels(e, batch->data[k], loop, &at, i);
-}
-
-// Fewer than a whole batch, at the end of a job.
-static void sdv_put_rest(sdv_exact_evaluation *e, int job, int loop, size_t i, int count)
-{
-    sdv_sample_batch batch;
-    int found = sdv_find_some(e, job, loop, i, count, &batch);
-    for (int k = 0; k < count && found; k++)
-        sdv_put_found(e, job, loop, 0, 0, &batch, k, i + (size_t)k);
-}
-
-// While a batch is evaluated, the polynomials of the next one, which is looked up, are fetched.
-SDV_INLINE void sdv_put_locations(sdv_exact_evaluation *e, int job, int loop, int lanes, int order)
-{
-    size_t i = (size_t)sdv_share(e->count, job, e->jobs), third;
-    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
-    sdv_sample_batch batches[2], *batch = batches, *next = batches + 1, *last;
-    if (end - i >= SDV_LOOKUP && !sdv_find_batch(e, job, i, next)) return;
-    third = SDV_SLOTS * (size_t)e->channels / 3;
-    while (end - i >= SDV_LOOKUP) {
-        last = batch;
-        batch = next;
-        if (end - i >= 2 * SDV_LOOKUP) {
-            next = last;
-            if (!sdv_find_batch(e, job, i + SDV_LOOKUP, next)) return;
-        }
-        for (int k = 0; k < SDV_LOOKUP; k++, i++) {
+    size_t third = SDV_SLOTS * (size_t)e->channels / 3;
+    int count = batch->count, fetched = next->count;
+    for (int k = 0; k < count; k++, i++) {
+        sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
+        if (k < fetched) {
             sdv_prefetch(next->data[k]);
             sdv_prefetch(next->data[k] + third);
             sdv_prefetch(next->data[k] + 2 * third);
-            sdv_put_found(e, job, loop, lanes, order, batch, k, i);
         }
+        if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, job, i);
+        else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
+        else sdv_put_channels(e, batch->data[k], loop, &at, i);
     }
-    if (i < end) sdv_put_rest(e, job, loop, i, (int)(end - i));
 }
 
 static void sdv_locations_job(void *context, int job)
 {
     sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
+    size_t i = (size_t)sdv_share(e->count, job, e->jobs);
+    size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
-    if (loop && order == 0) sdv_put_locations(e, job, 1, 3, 0);
-    else if (loop && order == 1) sdv_put_locations(e, job, 1, 3, 1);
-    else if (loop) sdv_put_locations(e, job, 1, 0, 0);
-    else if (order == 0) sdv_put_locations(e, job, 0, 3, 0);
-    else if (order == 1) sdv_put_locations(e, job, 0, 3, 1);
-    else sdv_put_locations(e, job, 0, 0, 0);
+    sdv_sample_batch batches[2], *batch = batches, *next = batches + 1;
+    e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
+    while (i < end && !e->refused[job]) {
+        sdv_sample_batch *last = batch;
+        batch = next;
+        next = last;
+        i += (size_t)batch->count;
+        e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
+        size_t first = i - (size_t)batch->count;
+        if (loop && order == 0) sdv_put_batch(e, job, 1, 3, 0, batch, next, first);
+        else if (loop && order == 1) sdv_put_batch(e, job, 1, 3, 1, batch, next, first);
+        else if (order == 0) sdv_put_batch(e, job, 0, 3, 0, batch, next, first);
+        else if (order == 1) sdv_put_batch(e, job, 0, 3, 1, batch, next, first);
+        else sdv_put_batch(e, job, loop, 0, 0, batch, next, first);
+    }
 }
 
 // The first location that is not there.
@@ -10039,7 +9927,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     memset(&e, 0, sizeof e);
     e.surface = surface;
     e.channels = channels;
-    e.memory = sdv_exact_parts(surface, channels, (void *)(size_t)scratch);     // only read
+    sdv_carve_exact(surface, channels, (char *)(size_t)scratch, &e.memory);     // only read
     e.count = count;
     e.locations = locations;
     memcpy(e.out, to, sizeof to);
@@ -10695,31 +10583,17 @@ static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int coun
         sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
 }
 
-// The patch of a leaf that is none of a nest.
-static const sdv_patch *sdv_leaf_patch(const subdiv_surface *surface, int node, const int **points)
-{
-    const sdv_exact *exact = surface->exact;
-    int number = sdv_leaf_number(node);
-    if (sdv_leaf_what(node) == SDV_LEAF_CUT) number = exact->cuts[number].patch;
-    else number -= sdv_more_polynomials(surface, sdv_last_cut(exact, INT_MAX, number));
-    return sdv_patch_of(surface, sdv_find_patch(surface, number), points);
-}
-
 // Adds the control points of a patch, or of the part of it that a location is on.
 static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
-    const int *points;
-    const sdv_patch *patch = sdv_leaf_patch(surface, leaf.node, &points);
     double all[16][6], weights[3 * 16];
-    int count = sdv_control_points(&surface->rules), part = 0;
-    sdv_find_polynomial(surface, surface->rules.loop, &leaf);
-    if (sdv_leaf_what(leaf.node) == SDV_LEAF_CUT)
-        part = (int)leaf.polynomial - surface->exact->cuts[sdv_leaf_number(leaf.node)].polynomial;
+    int count = sdv_control_points(&surface->rules);
+    sdv_find_polynomial(surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
-    sdv_patch_weights(surface, patch, part, &at, all);
+    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at, all);
     for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
-    sdv_add_rounded(make, points, count, weights);
+    sdv_add_rounded(make, leaf.points, count, weights);
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
@@ -10826,13 +10700,13 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
 {
     const subdiv_surface *surface = make->surface;
     const sdv_exact *exact = surface->exact;
-    const sdv_nest_face *face = &exact->nest_faces[sdv_leaf_number(leaf->node)];
+    const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
     const sdv_nest *nest = &exact->nests[face->nest];
     const sdv_nest_kind *kind = &exact->kinds[nest->kind];
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
     double x, y;
     sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
-    sdv_weigh_nest(surface, kind, sdv_leaf_number(leaf->node) - nest->face, x, y, w);
+    sdv_weigh_nest(surface, kind, leaf->nest_face - nest->face, x, y, w);
     for (int i = 0; i < kind->points; i++) {
         double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
@@ -10849,10 +10723,9 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     sdv_stencil_maker_new(context, &make, surface, count, 3);
     double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context->result; i++) {
-        sdv_leaf leaf;
-        sdv_locate(surface, surface->rules.loop, &locations[i], &leaf);
-        if (sdv_leaf_what(leaf.node) == SDV_LEAF_NEST) sdv_add_leaf_nest(&make, &leaf, w);
-        else if (leaf.node) sdv_add_leaf_patch(&make, leaf);
+        sdv_leaf leaf = sdv_locate(surface, &locations[i]);
+        if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
     }
     sdv_copy_stencils(&make, count, stencils);

@@ -752,7 +752,7 @@ static void test_batches(void)
     }
 }
 
-// With more polynomials than cells can number, the tree finds the others. Each face of a nest has
+// With more polynomials than cells can number, their leaves find the others. Each face of a nest has
 // three on every level whose polynomials are kept.
 enum { NEST_DEPTH = 4 };
 
