@@ -10804,13 +10804,14 @@ static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
 }
 
 // How many points are inside a face.
-static uint64_t sdv_count_inside(const sdv_tile *tile)
+static uint64_t sdv_count_inside(const sdv_tiling *tiling, int f)
 {
-    uint64_t columns = (uint64_t)tile->grid->columns, rows = (uint64_t)tile->grid->rows;
-    if (tile->loop) return (columns - 1) * (columns - 2) / 2;
-    if (!tile->ngon) return (columns - 1) * (rows - 1);
+    sdv_tile tile = sdv_tile_at(tiling, f);
+    uint64_t columns = (uint64_t)tile.grid->columns, rows = (uint64_t)tile.grid->rows;
+    if (tile.loop) return (columns - 1) * (columns - 2) / 2;
+    if (!tile.ngon) return (columns - 1) * (rows - 1);
     if (columns > 65536) return INT_MAX;                    // or the product would wrap
-    return 1 + (uint64_t)tile->sides * columns * (columns - 1);
+    return 1 + (uint64_t)tile.sides * columns * (columns - 1);
 }
 
 // The points on a side, from its first vertex or, backwards, the other.
@@ -10968,7 +10969,6 @@ static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena, const s
     tiling.home = SDV_NEW(context, arena, int, homes);
     if (context->result) return tiling;
     memset(tiling.starts, 0, (edges + faces + 1) * sizeof(int));
-    memset(tiling.insides, 0, faces * sizeof(sdv_inside));
     for (size_t i = 0; i < homes; i++) tiling.home[i] = -1;
     for (int kind = 1; kind >= 0; kind--) {
         for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
@@ -10980,29 +10980,23 @@ static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena, const s
     return tiling;
 }
 
-// Where the points stand: those inside each edge, then those inside each face; none where there is
-// no surface. Returns how many there are.
+// Finds where the points stand: those inside each edge, then those inside each face; none where
+// there is no surface. Returns how many there are.
 static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
 {
     const sdv_level *cage = tiling->cage;
+    int edges = cage->edge_count, all = edges + cage->face_count;
     uint64_t count = (uint64_t)cage->vertex_count;
-    for (int i = 0; i < cage->edge_count + cage->face_count && count <= INT_MAX; i++) {
-        int f = i - cage->edge_count;
+    for (int i = 0; i < all && count <= INT_MAX; i++) {
+        int f = i - edges, home = f < 0 ? tiling->home[cage->vertex_count + i] : -1;
         tiling->starts[i] = (int)count;
-        if (f < 0 && tiling->home[cage->vertex_count + i] >= 0)
-            count += (uint64_t)tiling->edge_rates[i] - 1;
-        if (f >= 0 && tiling->hole[f] != SDV_DROPPED) {
-            sdv_tile tile = sdv_tile_at(tiling, f);
-            count += sdv_count_inside(&tile);
-        }
+        if (home >= 0) count += (uint64_t)tiling->edge_rates[i] - 1;
+        if (f >= 0 && tiling->hole[f] != SDV_DROPPED) count += sdv_count_inside(tiling, f);
     }
-    if (count > INT_MAX) {
+    if (count > INT_MAX)
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
                  "these rates make more than %d vertices", INT_MAX);
-        return 0;
-    }
-    tiling->starts[cage->edge_count + cage->face_count] = (int)count;
-    return (int)count;
+    return tiling->starts[all] = context->result ? 0 : (int)count;
 }
 
 // --------------------------------------------------------------------------- >>tile-points
@@ -11018,16 +11012,6 @@ static sdv_exact_work sdv_begin_source(sdv_context *context, sdv_arena *arena,
     if (source.points) sdv_make_exact_work(&source, opt);
     return source;
 }
-
-// The first count points of a tiling and, unless NULL, their normals.
-typedef struct sdv_tile_points {
-    const sdv_tiling *tiling;
-    const sdv_exact_work *source;
-    float *points, *normals;
-    int    count, jobs;
-    void  *user;                        // of the allocator
-    unsigned char failed[SDV_MOST_JOBS];
-} sdv_tile_points;
 
 // A leaf of the exact surface covers an area of the grid of its face (a turned triangle the upper
 // half of a square, any other triangle the lower), and makes the points that are there. A point
@@ -11046,10 +11030,16 @@ typedef struct sdv_area {
     double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
 } sdv_area;                             // where t is from 0 to 1 along a side of the grid
 
-// A leaf, or a part of one, whose points are made. The polynomial is made for the first line.
+// What makes the points of a tiling. Each job has a copy.
 typedef struct sdv_leaf_points {
-    const sdv_tile_points *samples;
-    const sdv_window *out;
+    const sdv_tiling *tiling;
+    const sdv_exact_work *source;
+    void    *user;                      // of the allocator
+    int      jobs;
+    unsigned char *failed;              // [jobs]
+    sdv_window out;                     // the first points of the tiling
+    sdv_tangents tangents;              // or, without normals, nothing
+    // The leaf at hand, or a part of it:
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
     int      inside;                    // the first point inside its grid
@@ -11058,7 +11048,7 @@ typedef struct sdv_leaf_points {
     const sdv_nest_state *nest;         // whose points the patch has, or NULL
     sdv_nest_sample *vertex;            // not NULL: the last face of a nest, instead of a patch
     int      part, ready;               // part: its number, if the patch is cut into strips
-    sdv_polynomial polynomial;
+    sdv_polynomial polynomial;          // made for the first line: then it is ready
 } sdv_leaf_points;
 
 static int64_t sdv_units(const sdv_area *area)
@@ -11083,16 +11073,12 @@ static sdv_area sdv_area_of_part(sdv_area area, const sdv_double_patch *patch, i
     const sdv_strip *along = &patch->along->items[part % patch->along->count];
     const sdv_strip *up = &patch->up->items[part / patch->along->count];
     int64_t x = area.left * whole, y = area.bottom * whole;
-    area.bits += SDV_STRIP_LEVELS;
-    area.left = x + along->from;
-    area.right = x + along->to;
-    area.bottom = y + up->from;
-    area.top = y + up->to;
-    area.sx *= (double)whole / along->unit;
-    area.sy *= (double)whole / up->unit;
-    area.x = (area.x * (double)whole + along->origin) / along->unit;
-    area.y = (area.y * (double)whole + up->origin) / up->unit;
-    return area;
+    sdv_area made = { area.bits + SDV_STRIP_LEVELS, x + along->from, x + along->to, y + up->from,
+                      y + up->to, area.step, area.sx * ((double)whole / along->unit),
+                      area.sy * ((double)whole / up->unit),
+                      (area.x * (double)whole + along->origin) / along->unit,
+                      (area.y * (double)whole + up->origin) / up->unit };
+    return made;
 }
 
 // What is left of a nest is the plane of its vertex.
@@ -11138,7 +11124,7 @@ typedef struct sdv_line_points {
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
-    const sdv_window *out = l->out;
+    const sdv_window *out = &l->out;
     sdv_curve curve;
     int index = points->index;
     sdv_make_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
@@ -11156,12 +11142,12 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
 // point makes a row.
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 {
-    if (line->first > line->last || line->index >= l->out->count) return;
+    if (line->first > line->last || line->index >= l->out.count) return;
     const sdv_area *area = &l->area;
     double u = area->step * (area->sx * line->u - area->x), du = area->step * area->sx * line->du;
     double v = area->step * (area->sy * line->v - area->y), dv = area->step * area->sy * line->dv;
     int row = fabs(dv) <= 0, column = fabs(du) <= 0, loop = l->tile.loop;
-    int tangents = l->out->tangents != NULL;
+    int tangents = l->out.tangents != NULL;
     sdv_line_points point = *line;
     if (!l->ready++) sdv_make_leaf_polynomial(l);
     if (row && loop) sdv_put_tile_line(l, 1, 0, tangents, line, (float)v, u, du);
@@ -11276,7 +11262,7 @@ static void sdv_put_area(sdv_leaf_points *l)
 // Takes the face of face-vertex h. Returns 0 if it has no surface.
 static int sdv_begin_leaf(sdv_leaf_points *l, int h)
 {
-    const sdv_tiling *tiling = l->samples->tiling;
+    const sdv_tiling *tiling = l->tiling;
     int f = sdv_face_of(tiling->cage, h);
     if (tiling->hole[f] == SDV_DROPPED) return 0;
     l->tile = sdv_tile_at(tiling, f);
@@ -11289,7 +11275,7 @@ static int sdv_begin_leaf(sdv_leaf_points *l, int h)
 
 static void sdv_put_patch_points(sdv_leaf_points *l, sdv_patch_at at)
 {
-    const sdv_exact_work *source = l->samples->source;
+    const sdv_exact_work *source = l->source;
     const int *points;
     const sdv_patch *patch = sdv_patch_of(source->surface, at, &points);
     if (!sdv_begin_leaf(l, patch->h)) return;
@@ -11344,17 +11330,16 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 // the faces that are left, from the points of the first level, as samples have them.
 static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
 {
-    const sdv_tile_points *s = l->samples;
-    const subdiv_surface *surface = s->source->surface;
+    const subdiv_surface *surface = l->source->surface;
     const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
     sdv_nest_sample vertex;
     sdv_nest_state *nest = &vertex.state;
     const sdv_patch *patch;
     const int *points;
     int most = 0;
-    sdv_nest_load(nest, surface, number, s->source->points, w);
+    sdv_nest_load(nest, surface, number, l->source->points, w);
     for (int i = 0; i < nest->kind->faces; i++) {
-        sdv_tile tile = sdv_tile_at(s->tiling, sdv_face_of(s->tiling->cage, faces[i].place.h));
+        sdv_tile tile = sdv_tile_at(l->tiling, sdv_face_of(l->tiling->cage, faces[i].place.h));
         int depth = sdv_nest_depth(&tile, &faces[i]);
         if (depth > most) most = depth;
     }
@@ -11362,7 +11347,7 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
     l->part = 0;
     for (int depth = 0; depth <= most; depth++) {
         int last = depth == most;
-        if (last) sdv_nest_load(nest, surface, number, s->source->points, w);
+        if (last) sdv_nest_load(nest, surface, number, l->source->points, w);
         else sdv_nest_refine(nest);
         l->vertex = last ? &vertex : NULL;
         for (int i = 0; i < nest->kind->faces; i++) {
@@ -11382,52 +11367,52 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
 // Patches of all levels, then nests.
 static void sdv_tile_points_job(void *context, int job)
 {
-    sdv_tile_points *s = (sdv_tile_points *)context;
-    const subdiv_surface *surface = s->source->surface;
+    sdv_leaf_points l = *(const sdv_leaf_points *)context;
+    const subdiv_surface *surface = l.source->surface;
     const sdv_exact *exact = surface->exact;
     int patches = exact->patch_count, count = patches + exact->nest_count;
-    int i = sdv_share(count, job, s->jobs), end = sdv_share(count, job + 1, s->jobs);
-    sdv_context here = { SUBDIV_OK, NULL, s->user, NULL };
+    int i = sdv_share(count, job, l.jobs), end = sdv_share(count, job + 1, l.jobs);
+    sdv_context here = { SUBDIV_OK, NULL, l.user, NULL };
     sdv_arena arena = sdv_new_arena(0);
     double stack[4 * SDV_NEST_STACK], *w = stack;
-    int channels = s->source->channels;
-    sdv_tangents tangents;
-    sdv_window out = { s->points, (size_t)channels, channels, 0, s->count, 0, NULL };
-    sdv_leaf_points leaf;
-    memset(&tangents, 0, sizeof tangents);
-    tangents.normals = s->normals;
-    tangents.stride = 3;
-    if (s->normals) out.tangents = &tangents;
-    leaf.samples = s;
-    leaf.out = &out;
-    leaf.nest = NULL;
-    leaf.vertex = NULL;
+    if (l.tangents.normals) l.out.tangents = &l.tangents;
     sdv_patch_at at = sdv_find_patch(surface, i);
     for (; i < end && i < patches; i++, at.i++) {
         sdv_next_level(surface, &at);
-        sdv_put_patch_points(&leaf, at);
+        sdv_put_patch_points(&l, at);
     }
     for (; i < end && !here.result; i++) {
         if (w == stack && sdv_nest_work(exact, i - patches) > SDV_NEST_STACK)
             w = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
-        if (w) sdv_put_nest_points(&leaf, i - patches, w);
+        if (w) sdv_put_nest_points(&l, i - patches, w);
     }
-    sdv_flush_tangents(&tangents);
-    s->failed[job] = here.result != SUBDIV_OK;
+    sdv_flush_tangents(&l.tangents);
+    l.failed[job] = here.result != SUBDIV_OK;
     sdv_arena_free(&arena);
 }
 
+// Makes the first count points of a tiling and, unless NULL, their normals.
 static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
                                  const sdv_tiling *tiling, const sdv_exact_work *source,
                                  float *points, float *normals, int count)
 {
-    const subdiv_surface *surface = source->surface;
+    const sdv_exact *exact = source->surface->exact;
     size_t channels = (size_t)source->channels;
-    sdv_tile_points s = { tiling, source, points, normals, count, 0, context->user, { 0 } };
+    unsigned char failed[SDV_MOST_JOBS] = { 0 };
+    sdv_window out = { points, channels, source->channels, 0, count, 0, NULL };
+    sdv_leaf_points l;
     if (context->result) return;
-    s.jobs = sdv_jobs(opt, (int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
-    sdv_run(opt, sdv_tile_points_job, &s, s.jobs);
-    if (memchr(s.failed, 1, sizeof s.failed))
+    memset(&l, 0, sizeof l);
+    l.tiling = tiling;
+    l.source = source;
+    l.user = context->user;
+    l.jobs = sdv_jobs(opt, (int64_t)exact->patch_count + exact->nest_count, 64);
+    l.failed = failed;
+    l.out = out;
+    l.tangents.normals = normals;
+    l.tangents.stride = 3;
+    sdv_run(opt, sdv_tile_points_job, &l, l.jobs);
+    if (memchr(failed, 1, sizeof failed))
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
     for (int v = 0; v < tiling->cage->vertex_count; v++) {      // those without faces stay
         if (tiling->home[v] >= 0) continue;
@@ -11459,6 +11444,12 @@ static int sdv_user_face(const subdiv_surface *surface, int f)
     return surface->cage_face ? surface->cage_face[f] : f;
 }
 
+// The rate of face f in the user's list, or 0.
+static int sdv_face_rate(const sdv_tessellator *t, int f)
+{
+    return t->how->face_rates ? t->how->face_rates[sdv_user_face(t->surface, f)] : 0;
+}
+
 // Gives an edge its rate, unless that is 0.
 static void sdv_set_edge_rate(sdv_context *context, sdv_tessellator *t, int e, int rate)
 {
@@ -11473,13 +11464,13 @@ static void sdv_set_edge_rates(sdv_context *context, sdv_tessellator *t)
     const subdiv_tessellation *how = t->how;
     int *rates = t->points.edge_rates;
     memset(rates, 0, (size_t)cage->edge_count * sizeof(int));
-    for (int h = 0; h < cage->face_vertex_count && how->face_rates; h++) {
-        int f = sdv_user_face(t->surface, sdv_face_of(cage, h));
-        int rate = how->face_rates[f], *edge = &rates[cage->face_edges[h]];
+    for (int h = 0; h < cage->face_vertex_count; h++) {
+        int f = sdv_face_of(cage, h), rate = sdv_face_rate(t, f);
+        int *edge = &rates[cage->face_edges[h]];
         if (rate > *edge) *edge = rate;
-        if (rate < 0)
-            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
-                          "face %d: the rate is %d", f, rate);
+        if (rate >= 0) continue;
+        f = sdv_user_face(t->surface, f);
+        sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1, "face %d: the rate is %d", f, rate);
     }
     for (int e = 0; e < cage->edge_count; e++) {
         if (how->edge_rates) sdv_set_edge_rate(context, t, e, how->edge_rates[e]);
@@ -11513,15 +11504,6 @@ static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float f
     }
 }
 
-static void sdv_set_insides(sdv_tessellator *t)
-{
-    const int *rates = t->how->face_rates;
-    for (int f = 0; f < t->points.cage->face_count; f++) {
-        int rate = rates ? rates[sdv_user_face(t->surface, f)] : 0;
-        sdv_find_inside(&t->points, f, rate);
-    }
-}
-
 // UVs have the rates of the faces and edges that they are on.
 static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
 {
@@ -11542,13 +11524,6 @@ static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
     if (!context->result) t->mesh.uv_count = sdv_place_points(context, &t->uvs);
 }
 
-// Is the face left out of the result?
-static int sdv_is_left_out(const sdv_tessellator *t, int f)
-{
-    int hole = t->surface->hole[f];
-    return hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes));
-}
-
 // Counts the faces of each face of the cage, and writes their sizes if there is room for them.
 static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
 {
@@ -11556,10 +11531,11 @@ static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
     sdv_faces_at out = { t->triangles, NULL, t->mesh.face_sizes, 0, 0 };
     t->mesh.hole_count = 0;
     for (int f = 0; f < faces && out.faces <= INT_MAX; f++) {
+        int hole = t->surface->hole[f];
         t->first[f] = out;
-        if (sdv_is_left_out(t, f)) continue;
+        if (hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes))) continue;
         sdv_put_tile(&t->points, f, &out);
-        if (t->surface->hole[f]) t->mesh.hole_count += (int)(out.faces - t->first[f].faces);
+        if (hole) t->mesh.hole_count += (int)(out.faces - t->first[f].faces);
     }
     if (out.faces > INT_MAX)
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
@@ -11568,14 +11544,18 @@ static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
     t->mesh.face_count = (int)out.faces;
 }
 
-// Finds out what the result will be like, all but its numbers.
+// Finds out what the result will be like, all but its numbers. Statements stand before the first
+// face of their face, or of the next one that has any.
 static void sdv_plan_tiles(sdv_context *context, sdv_tessellator *t)
 {
-    int faces = t->points.cage->face_count;
+    const int *from = t->surface->fine.statement_faces;
+    int faces = t->points.cage->face_count, statements = t->surface->fine.statement_count;
+    int *to = t->mesh.statement_faces = SDV_NEW(context, &t->arena, int, statements);
     t->first = SDV_NEW(context, &t->arena, sdv_faces_at, (size_t)faces + 1);
     t->mesh.face_sizes = NULL;
     if (!context->result) sdv_count_tiles(context, t);
     if (context->result) return;
+    for (int i = 0; i < statements; i++) to[i] = (int)t->first[from[i]].faces;
     sdv_faces_at all = t->first[faces];
     t->mesh.face_size = t->triangles ? 3 : all.face_vertices == 4 * all.faces ? 4 : 0;
     if (t->mesh.face_size) return;
@@ -11590,7 +11570,7 @@ static void sdv_tile_job(void *context, int job)
     int faces = t->points.cage->face_count, end = sdv_share(faces, job + 1, t->jobs);
     for (int f = sdv_share(faces, job, t->jobs); f < end; f++) {
         sdv_faces_at out = t->first[f], uvs = out;
-        if (sdv_is_left_out(t, f)) continue;
+        if (t->first[f + 1].faces == out.faces) continue;
         out.vertices = t->mesh.face_vertices;
         sdv_put_tile(&t->points, f, &out);
         for (size_t i = t->first[f].faces; i < out.faces; i++)
@@ -11599,16 +11579,6 @@ static void sdv_tile_job(void *context, int job)
         if (uv && uv->own_face[f] >= 0) sdv_put_tile(&t->uvs, uv->own_face[f], &uvs);
         while (uv && uvs.face_vertices < out.face_vertices) uvs.vertices[uvs.face_vertices++] = -1;
     }
-}
-
-static void sdv_make_tiles(sdv_tessellator *t)
-{
-    int *hole = t->mesh.holes, faces = t->points.cage->face_count;
-    t->jobs = sdv_jobs(t->opt, faces, 1);
-    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
-    for (int f = 0; f < faces && t->mesh.hole_count; f++)
-        for (size_t i = t->first[f].faces; i < t->first[f + 1].faces && t->surface->hole[f]; i++)
-            *hole++ = (int)i;
 }
 
 // The points of the result, its UVs and colours.
@@ -11630,21 +11600,12 @@ static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
     }
 }
 
-// Statements stand before the first face of their face, or of the next one that has any.
-static void sdv_move_statements(sdv_context *context, sdv_tessellator *t)
-{
-    const subdiv_mesh *from = &t->surface->fine;
-    int *faces = SDV_NEW(context, &t->arena, int, from->statement_count);
-    for (int i = 0; i < from->statement_count && !context->result; i++)
-        faces[i] = (int)t->first[from->statement_faces[i]].faces;
-    t->mesh.statement_faces = faces;
-}
-
 static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float *positions,
                            float factor)
 {
     const subdiv_surface *surface = t->surface;
     subdiv_mesh made, *mesh = &t->mesh;
+    int faces = surface->order.cage.face_count, *holes;
     t->points = sdv_new_tiling(context, &t->arena, &surface->order.cage, surface->rules.loop,
                                surface->hole);
     t->positions = sdv_begin_source(context, &t->arena, surface, 3, positions, t->opt);
@@ -11652,17 +11613,22 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     sdv_set_edge_rates(context, t);
     if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
     if (context->result) return;
-    sdv_set_insides(t);
+    for (int f = 0; f < faces; f++)
+        sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
     *mesh = surface->fine;
     mesh->crease_count = mesh->corner_count = 0;
     mesh->vertex_count = sdv_place_points(context, &t->points);
     if (surface->uv && !context->result) sdv_tile_uvs(context, t);
     if (!context->result) sdv_plan_tiles(context, t);
-    if (!context->result) sdv_move_statements(context, t);
     if (!context->result) sdv_new_mesh(context, &made, mesh, SDV_LIMIT);
     if (context->result) return;
     *mesh = made;
-    sdv_make_tiles(t);
+    holes = mesh->holes;
+    for (int f = 0; f < faces && mesh->hole_count; f++)
+        for (size_t i = t->first[f].faces; i < t->first[f + 1].faces && surface->hole[f]; i++)
+            *holes++ = (int)i;
+    t->jobs = sdv_jobs(t->opt, faces, 1);
+    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
     sdv_make_samples(context, t);
     sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
     if (context->result) subdiv_mesh_free(mesh);
@@ -11705,19 +11671,17 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
                                            const subdiv_tessellation *how,
                                            const subdiv_options *opt)
 {
-    subdiv_mesh out;
     subdiv_surface *surface = NULL;
-    memset(&out, 0, sizeof out);
     sdv_context context = sdv_begin(opt);
     if (!fine || fine == cage)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    if (context.result) return context.result;
+    memset(fine, 0, sizeof *fine);
+    context.result = sdv_prepare_surface(&surface, cage, SUBDIV_EXACT, 1, sdv_find_exact_calls(),
+                                         opt);
     if (!context.result)
-        context.result = sdv_prepare_surface(&surface, cage, SUBDIV_EXACT, 1,
-                                             sdv_find_exact_calls(), opt);
-    if (!context.result)
-        context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
+        context.result = subdiv_surface_tessellate(fine, surface, cage->positions, how, opt);
     subdiv_surface_free(surface);
-    if (fine && fine != cage) *fine = out;
     return context.result;
 }
 #endif // SUBDIV_NO_EXACT
