@@ -2225,41 +2225,37 @@ static float sdv_fade_chaikin(float s, float sum, int count)
     return s > 1 ? s - 1 : 0;
 }
 
-// Of the edges that lead on from v: the sum of what is semi-sharp, and how many are.
+static int sdv_is_semi_sharp(float sharpness)
+{
+    return sharpness > 0 && sharpness < SUBDIV_INFINITE;
+}
+
+// Adds up the sharpness of the semi-sharp edges that lead on from v, and counts them. These are all
+// semi-sharp edges at v, as only a manifold edge between two faces is semi-sharp.
 static void sdv_sum_semi_sharp(const sdv_level *level, const float *sharpness, int v, float *sums)
 {
     sums[0] = sums[1] = 0;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-        if (sharpness[h] <= 0 || sharpness[h] >= SUBDIV_INFINITE) continue;
+        if (!sdv_is_semi_sharp(sharpness[h])) continue;
         sums[0] += sharpness[h];
         sums[1] += 1;
     }
 }
 
-// The halves of edges at v, from the semi-sharp ones among them. Each leads on from a face-vertex
-// at v, as only a manifold edge between two faces is semi-sharp.
-static void sdv_fade_halves(sdv_level *level, int v)
-{
-    int origin = level->origin ? level->origin[v] : -1;
-    float own[2];
-    const float *sums = origin >= 0 ? level->sums + 2 * (size_t)origin : own;
-    if (origin < 0) sdv_sum_semi_sharp(level, level->sharpness, v, own);
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        level->half_sharpness[h] = sdv_fade_chaikin(level->sharpness[h], sums[0], (int)sums[1]);
-}
-
-// Only Chaikin's depend on other edges.
+// Fades the halves of all edges, each at its vertex. Only Chaikin's depend on other edges.
 static void sdv_level_fade(sdv_level *level)
 {
-    if (!level->half_sharpness) return;
-    memset(level->half_sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
-    for (int v = 0; v < level->vertex_count; v++)
-        if (level->creased[v]) sdv_fade_halves(level, v);
-}
-
-static int sdv_is_semi_sharp(float sharpness)
-{
-    return sharpness > 0 && sharpness < SUBDIV_INFINITE;
+    float *half = level->half_sharpness, own[2];
+    if (!half) return;
+    memset(half, 0, (size_t)level->face_vertex_count * sizeof(float));
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (!level->creased[v]) continue;
+        int origin = level->origin ? level->origin[v] : -1;
+        const float *sums = origin >= 0 ? level->sums + 2 * (size_t)origin : own;
+        if (origin < 0) sdv_sum_semi_sharp(level, level->sharpness, v, own);
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+            half[h] = sdv_fade_chaikin(level->sharpness[h], sums[0], (int)sums[1]);
+    }
 }
 
 // The sharpness of the edge that leads to a vertex from the one before, where it ends.
@@ -2300,15 +2296,6 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
-// What is left, one level down, of the seam at a vertex with a partner.
-static float sdv_seam_left(const sdv_level *level, int v)
-{
-    float s = level->seam[v];
-    if (!level->half_sharpness) return sdv_fade(s);
-    const float *sums = level->sums + 2 * (size_t)level->origin[v];
-    return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
-}
-
 // The sharp edges at a vertex: how many now and on the next level, and of those that fade away
 // until then how many and the sum of their sharpness.
 typedef struct sdv_sharp_edges {
@@ -2327,7 +2314,19 @@ static void sdv_meet_edge(sdv_sharp_edges *edges, float sharpness, float half)
     edges->sum += sharpness;
 }
 
-// Of a vertex of some sharpness, of which so much is left one level down.
+static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
+{
+    sdv_sharp_edges edges = { 0, 0, 0, 0 };
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++)
+            if (sdv_is_edge_at(level, two[i], i == 0))
+                sdv_meet_edge(&edges, level->sharpness[two[i]], sdv_half(level, two[i]));
+    }
+    return edges;
+}
+
+// How a vertex of some sharpness, of which so much is left one level down, fades with its edges.
 static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
 {
     int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
@@ -2339,27 +2338,24 @@ static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edg
     return fading;
 }
 
+// What is left, one level down, of the seam at a vertex with a partner.
+static float sdv_seam_left(const sdv_level *level, int v)
+{
+    float s = level->seam[v];
+    if (!level->half_sharpness) return sdv_fade(s);
+    const float *sums = level->sums + 2 * (size_t)level->origin[v];
+    return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
+}
+
+// A vertex of UVs with a partner fades as that does, but, while its seam stays semi-sharp, a level
+// later [OSD].
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    int dependent = level->partner && level->partner[v] >= 0, waits = 0;
-    if (dependent) {
-        waits = sdv_seam_left(level, v) > 0;        // a level longer than its partner [OSD]
-        v = level->partner[v];
-    }
-    float sharpness = level->vertex_sharpness[v];
-    sdv_sharp_edges edges = { 0, 0, 0, 0 };
-    if (!level->creased[v] && sharpness <= 0) return fading;
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int before = sdv_previous(level, h);
-        if (sdv_is_edge_at(level, h, 1))
-            sdv_meet_edge(&edges, level->sharpness[h], sdv_half(level, h));
-        if (sdv_is_edge_at(level, before, 0))
-            sdv_meet_edge(&edges, sdv_sharpness_before(level, before),
-                            sdv_half_before(level, before));
-    }
-    fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
-    if (waits) fading.next = fading.rule;
+    int partner = level->partner ? level->partner[v] : -1, from = partner >= 0 ? partner : v;
+    float sharpness = level->vertex_sharpness[from];
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, from);
+    sdv_fading fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+    if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
 
