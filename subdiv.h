@@ -2138,41 +2138,37 @@ static float sdv_fade_chaikin(float s, float sum, int count)
     return s > 1 ? s - 1 : 0;
 }
 
-// Of the edges that lead on from v: the sum of what is semi-sharp, and how many are.
+static int sdv_is_semi_sharp(float sharpness)
+{
+    return sharpness > 0 && sharpness < SUBDIV_INFINITE;
+}
+
+// Adds up the sharpness of the semi-sharp edges that lead on from v, and counts them. These are all
+// semi-sharp edges at v, as only a manifold edge between two faces is semi-sharp.
 static void sdv_sum_semi_sharp(const sdv_level *level, const float *sharpness, int v, float *sums)
 {
     sums[0] = sums[1] = 0;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-        if (sharpness[h] <= 0 || sharpness[h] >= SUBDIV_INFINITE) continue;
+        if (!sdv_is_semi_sharp(sharpness[h])) continue;
         sums[0] += sharpness[h];
         sums[1] += 1;
     }
 }
 
-// The halves of edges at v, from the semi-sharp ones among them. Each leads on from a face-vertex
-// at v, as only a manifold edge between two faces is semi-sharp.
-static void sdv_fade_halves(sdv_level *level, int v)
-{
-    int origin = level->origin ? level->origin[v] : -1;
-    float own[2];
-    const float *sums = origin >= 0 ? level->sums + 2 * (size_t)origin : own;
-    if (origin < 0) sdv_sum_semi_sharp(level, level->sharpness, v, own);
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-        level->half_sharpness[h] = sdv_fade_chaikin(level->sharpness[h], sums[0], (int)sums[1]);
-}
-
-// Only Chaikin's depend on other edges.
+// Fades the halves of all edges, each at its vertex. Only Chaikin's depend on other edges.
 static void sdv_level_fade(sdv_level *level)
 {
-    if (!level->half_sharpness) return;
-    memset(level->half_sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
-    for (int v = 0; v < level->vertex_count; v++)
-        if (level->creased[v]) sdv_fade_halves(level, v);
-}
-
-static int sdv_is_semi_sharp(float sharpness)
-{
-    return sharpness > 0 && sharpness < SUBDIV_INFINITE;
+    float *half = level->half_sharpness, own[2];
+    if (!half) return;
+    memset(half, 0, (size_t)level->face_vertex_count * sizeof(float));
+    for (int v = 0; v < level->vertex_count; v++) {
+        if (!level->creased[v]) continue;
+        int origin = level->origin ? level->origin[v] : -1;
+        const float *sums = origin >= 0 ? level->sums + 2 * (size_t)origin : own;
+        if (origin < 0) sdv_sum_semi_sharp(level, level->sharpness, v, own);
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
+            half[h] = sdv_fade_chaikin(level->sharpness[h], sums[0], (int)sums[1]);
+    }
 }
 
 // The sharpness of the edge that leads to a vertex from the one before, where it ends.
@@ -2213,15 +2209,6 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
-// What is left, one level down, of the seam at a vertex with a partner.
-static float sdv_seam_left(const sdv_level *level, int v)
-{
-    float s = level->seam[v];
-    if (!level->half_sharpness) return sdv_fade(s);
-    const float *sums = level->sums + 2 * (size_t)level->origin[v];
-    return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
-}
-
 // The sharp edges at a vertex: how many now and on the next level, and of those that fade away
 // until then how many and the sum of their sharpness.
 typedef struct sdv_sharp_edges {
@@ -2240,7 +2227,19 @@ static void sdv_meet_edge(sdv_sharp_edges *edges, float sharpness, float half)
     edges->sum += sharpness;
 }
 
-// Of a vertex of some sharpness, of which so much is left one level down.
+static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
+{
+    sdv_sharp_edges edges = { 0, 0, 0, 0 };
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++)
+            if (sdv_is_edge_at(level, two[i], i == 0))
+                sdv_meet_edge(&edges, level->sharpness[two[i]], sdv_half(level, two[i]));
+    }
+    return edges;
+}
+
+// How a vertex of some sharpness, of which so much is left one level down, fades with its edges.
 static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
 {
     int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
@@ -2252,27 +2251,24 @@ static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edg
     return fading;
 }
 
+// What is left, one level down, of the seam at a vertex with a partner.
+static float sdv_seam_left(const sdv_level *level, int v)
+{
+    float s = level->seam[v];
+    if (!level->half_sharpness) return sdv_fade(s);
+    const float *sums = level->sums + 2 * (size_t)level->origin[v];
+    return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
+}
+
+// A vertex of UVs with a partner fades as that does, but, while its seam stays semi-sharp, a level
+// later [OSD].
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    int dependent = level->partner && level->partner[v] >= 0, waits = 0;
-    if (dependent) {
-        waits = sdv_seam_left(level, v) > 0;        // a level longer than its partner [OSD]
-        v = level->partner[v];
-    }
-    float sharpness = level->vertex_sharpness[v];
-    sdv_sharp_edges edges = { 0, 0, 0, 0 };
-    if (!level->creased[v] && sharpness <= 0) return fading;
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int before = sdv_previous(level, h);
-        if (sdv_is_edge_at(level, h, 1))
-            sdv_meet_edge(&edges, level->sharpness[h], sdv_half(level, h));
-        if (sdv_is_edge_at(level, before, 0))
-            sdv_meet_edge(&edges, sdv_sharpness_before(level, before),
-                            sdv_half_before(level, before));
-    }
-    fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
-    if (waits) fading.next = fading.rule;
+    int partner = level->partner ? level->partner[v] : -1, from = partner >= 0 ? partner : v;
+    float sharpness = level->vertex_sharpness[from];
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, from);
+    sdv_fading fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+    if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
 
@@ -2803,10 +2799,6 @@ static int sdv_grid_index(const sdv_grid *grid, int row, int column)
     return grid->triangle ? sdv_triangle_index(grid, row, column)
                           : sdv_quad_index(grid, row, column);
 }
-
-// The vertices of a face in halves of its segments: row, column.
-static const int sdv_corner_quad[5][2] = { {0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0} };
-static const int sdv_corner_triangle[4][2] = { {0, 0}, {0, 2}, {2, 0}, {0, 0} };
 
 // A row of points, or what lies on it from one column to another: its two ends, and those between
 // on its line.
@@ -10751,41 +10743,41 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
 
 #ifndef SUBDIV_NO_EXACT
 // ---------------------------------------------------------------------------------- >>tiles
-// THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face, on a grid of
-// its own: a quad of columns x rows pieces, a triangle under Loop of columns pieces a side, any
-// other polygon one quad of columns x columns pieces for each of its vertices. Where the edges cut
-// their face as its grid does, the face is that grid. Elsewhere the grid loses its outermost
-// pieces, and a strip joins what is left of it, the ring, with each edge:
+// THE ORDER OF THE RESULT with a rate for each edge and for the inside of each face. A tile is a
+// face of the cage with a grid of its own: a quad has columns x rows pieces, a triangle under Loop
+// columns pieces a side, any other polygon one quad of columns x columns pieces for each of its
+// vertices. Where the edges cut the face as its grid does, the face is that grid. Elsewhere the
+// grid loses its outermost pieces, and strips join the outline of the other pieces, the ring, with
+// the edges:
 //
-//     +--o-----o--+                ring: what is left, here 2 pieces
-//     | /|\   /|\ |                and corners, which are joined with those of the face
+//     +--o-----o--+                ring: here 2 pieces and corners, which are joined with the
+//     | /|\   /|\ |                vertices of the face
 //     |/ | \ / | \|
 //     o--+--o--+--o                edge: here 3 pieces
 
 typedef struct sdv_inside {
-    int columns, rows;
-    int margin;                         // 0: the grid reaches the edges; 1: strips do
+    int columns, rows;                  // of the grid
+    int left, right, bottom, top;       // the part of it that is made of grid pieces
+    int strips;                         // are there strips?
 } sdv_inside;
 
 typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
     const sdv_level *cage;
+    const unsigned char *hole;          // [face_count]
     int         loop;
     int        *edge_rates;             // [edge_count]
     sdv_inside *insides;                // [face_count]
     int        *starts;                 // [edge_count + face_count + 1] the first point inside each
-    int        *home;                   // [vertex_count + edge_count] where each is evaluated: a
-                                        // face-vertex, or -1
-    int        *number;                 // [face_count] of a face for subdiv_evaluate_at; NULL: same
-    const unsigned char *hole;          // [faces so numbered]
-} sdv_tiling;
+    int        *home;                   // [vertex_count + edge_count] the face-vertex whose face
+} sdv_tiling;                           // evaluates it, or -1
 
-// One face of it.
-typedef struct sdv_tile {
+typedef struct sdv_tile {               // one face of a tiling
     const sdv_tiling *tiling;
+    const int *vertices, *edges;        // [sides]
     int first, sides;                   // its face-vertices
     int inside;                         // its first point
     int loop, ngon;
-    sdv_inside grid;
+    sdv_inside *grid;
 } sdv_tile;
 
 static sdv_tile sdv_tile_at(const sdv_tiling *tiling, int f)
@@ -10795,23 +10787,25 @@ static sdv_tile sdv_tile_at(const sdv_tiling *tiling, int f)
     tile.tiling = tiling;
     tile.first = sdv_face_start(cage, f);
     tile.sides = sdv_face_end(cage, f) - tile.first;
+    tile.vertices = cage->face_vertices + tile.first;
+    tile.edges = cage->face_edges + tile.first;
     tile.inside = tiling->starts[cage->edge_count + f];
     tile.loop = tiling->loop;
     tile.ngon = !tile.loop && tile.sides != 4;
-    tile.grid = tiling->insides[f];
+    tile.grid = &tiling->insides[f];
     return tile;
 }
 
 static int sdv_edge_rate(const sdv_tile *tile, int side)
 {
-    return tile->tiling->edge_rates[tile->tiling->cage->face_edges[tile->first + side]];
+    return tile->tiling->edge_rates[tile->edges[side]];
 }
 
 // Pieces of the grid along a side.
-static int sdv_side_rate(const sdv_tile *tile, int side)
+static int64_t sdv_side_rate(const sdv_tile *tile, int side)
 {
-    if (tile->ngon) return 2 * tile->grid.columns;
-    return tile->loop || side % 2 == 0 ? tile->grid.columns : tile->grid.rows;
+    if (tile->ngon) return 2 * (int64_t)tile->grid->columns;
+    return side % 2 ? tile->grid->rows : tile->grid->columns;
 }
 
 static int sdv_is_regular(const sdv_tile *tile)
@@ -10821,134 +10815,89 @@ static int sdv_is_regular(const sdv_tile *tile)
     return 1;
 }
 
-// The grid of a face of such a rate; 0: that of its edges. Between a strip and the next there has
-// to be a point.
-static sdv_inside sdv_find_inside(sdv_tile tile, int rate)
+// Finds the grid of a face: of its rate or, if that is 0, of the rates of its edges. A grid with
+// strips has at least one point inside, to which they lead.
+static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
 {
-    int most[2] = { 1, 1 };             // of the even sides, of the odd ones
+    sdv_tile tile = sdv_tile_at(tiling, f);
+    sdv_inside *grid = tile.grid;
+    int quad = !tile.loop && !tile.ngon, most[2] = { 1, 1 };    // of the even and the odd sides
     for (int i = 0; i < tile.sides; i++) {
-        int *m = &most[tile.loop || tile.ngon ? 0 : i % 2], edge = sdv_edge_rate(&tile, i);
+        int *m = &most[quad && i % 2], edge = sdv_edge_rate(&tile, i);
         if (edge > *m) *m = edge;
     }
-    tile.grid.columns = rate ? rate : most[0];
-    tile.grid.rows = rate ? rate : most[1];
-    if (tile.ngon && tile.grid.columns == INT_MAX) tile.grid.columns--;     // too large either way
-    if (tile.ngon) tile.grid.columns = (tile.grid.columns + 1) / 2;
+    grid->columns = rate ? rate : most[0];
+    grid->rows = rate ? rate : most[1];
+    if (tile.ngon) grid->columns = grid->columns / 2 + grid->columns % 2;
+    if (!quad) grid->rows = grid->columns;
     int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
-    if (tile.grid.columns < least) tile.grid.columns = least;
-    if (tile.grid.rows < least) tile.grid.rows = least;
-    if (tile.loop || tile.ngon) tile.grid.rows = tile.grid.columns;
-    tile.grid.margin = !sdv_is_regular(&tile);
-    return tile.grid;
+    if (grid->columns < least) grid->columns = least;
+    if (grid->rows < least) grid->rows = least;
+    grid->strips = !sdv_is_regular(&tile);
+    grid->left = grid->bottom = grid->strips;
+    grid->right = grid->columns - (tile.ngon ? 0 : grid->strips << tile.loop);
+    grid->top = grid->rows - (tile.ngon ? 0 : grid->strips << tile.loop);
 }
 
 // How many points are inside a face.
-static uint64_t sdv_count_inside(const sdv_tile *tile)
+static uint64_t sdv_count_inside(const sdv_tiling *tiling, int f)
 {
-    uint64_t columns = (uint64_t)tile->grid.columns, rows = (uint64_t)tile->grid.rows;
-    if (tile->loop) return (columns - 1) * (columns - 2) / 2;
-    if (!tile->ngon) return (columns - 1) * (rows - 1);
+    sdv_tile tile = sdv_tile_at(tiling, f);
+    uint64_t columns = (uint64_t)tile.grid->columns, rows = (uint64_t)tile.grid->rows;
+    if (tile.loop) return (columns - 1) * (columns - 2) / 2;
+    if (!tile.ngon) return (columns - 1) * (rows - 1);
     if (columns > 65536) return INT_MAX;                    // or the product would wrap
-    return 1 + (uint64_t)tile->sides * columns * (columns - 1);
+    return 1 + (uint64_t)tile.sides * columns * (columns - 1);
 }
 
 // The points on a side, from its first vertex or, backwards, the other.
 static sdv_side sdv_tile_side(const sdv_tile *tile, int side, int backwards)
 {
-    const sdv_tiling *tiling = tile->tiling;
-    const int *vertices = tiling->cage->face_vertices + tile->first;
-    int a = vertices[side], b = vertices[side + 1 < tile->sides ? side + 1 : 0];
-    int e = tiling->cage->face_edges[tile->first + side];
-    return sdv_seen_side(tiling->starts[e], tiling->edge_rates[e], (a > b) != backwards);
+    int a = tile->vertices[side], b = tile->vertices[side + 1 < tile->sides ? side + 1 : 0];
+    return sdv_seen_side(tile->tiling->starts[tile->edges[side]], sdv_edge_rate(tile, side),
+                         (a > b) != backwards);
 }
 
-// A point inside the grid (of an n-gon: of its quad at vertex i).
-static int sdv_inside_tile(const sdv_tile *tile, int i, int row, int column)
-{
-    int columns = tile->grid.columns, first = tile->inside;
-    if (tile->ngon) first = sdv_inside_ngon(first, tile->sides, columns, i);
-    return sdv_inside_point(first, columns, tile->loop, row, column);
-}
-
-// The grid of a face (of an n-gon: of its quad at vertex i). With a margin its points on the edges
-// are not to be asked for.
+// The grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of the face:
+// with strips, not as the grid is cut.
 static sdv_grid sdv_tile_grid(const sdv_tile *tile, int i)
 {
-    const int *vertices = tile->tiling->cage->face_vertices + tile->first;
     int last = tile->sides - 1;
     sdv_grid grid;
     if (tile->ngon) {
-        sdv_ngon_grid(vertices[i], sdv_tile_side(tile, i, 0),
+        sdv_ngon_grid(tile->vertices[i], sdv_tile_side(tile, i, 0),
                       sdv_tile_side(tile, i > 0 ? i - 1 : last, 1), tile->inside, tile->sides,
-                      tile->grid.columns, i, &grid);
+                      tile->grid->columns, i, &grid);
         return grid;
     }
-    grid.columns = tile->grid.columns;
-    grid.rows = tile->grid.rows;
+    grid.columns = tile->grid->columns;
+    grid.rows = tile->grid->rows;
     grid.triangle = tile->loop;
     grid.inside = tile->inside;
     for (int k = 0; k <= last; k++) {
-        grid.corner[k] = vertices[k];
+        grid.corner[k] = tile->vertices[k];
         grid.side[k] = sdv_tile_side(tile, k, k >= 2);
     }
     grid.side[3] = grid.side[last];
     return grid;
 }
 
-// Point k of an edge of so many pieces: 0 its first vertex.
-static int sdv_side_point(const sdv_tile *tile, int side, int k, int pieces)
-{
-    const int *vertices = tile->tiling->cage->face_vertices + tile->first;
-    if (k == 0) return vertices[side];
-    if (k == pieces) return vertices[side + 1 < tile->sides ? side + 1 : 0];
-    sdv_side points = sdv_tile_side(tile, side, 0);
-    return points.first + points.step * k;
-}
-
-// Point j of the ring along a side, from the corner of the ring at vertex 0 of that side on. Of an
-// n-gon the grids are those at the side's two vertices.
-static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2], int j)
-{
-    int columns = tile->grid.columns, rows = tile->grid.rows;
-    if (tile->ngon && j >= columns) return sdv_grid_index(&grids[1], 2 * columns - 1 - j, 1);
-    if (tile->ngon || side == 0) return sdv_grid_index(grids, 1, j + 1);
-    if (side == 1) return sdv_grid_index(grids, j + 1, columns - 1 - (tile->loop ? j + 1 : 0));
-    if (tile->loop) return sdv_grid_index(grids, rows - 2 - j, 1);
-    if (side == 2) return sdv_grid_index(grids, rows - 1, columns - 1 - j);
-    return sdv_grid_index(grids, rows - 1 - j, 1);
-}
-
-typedef struct sdv_faces_at {           // where faces are written, or if NULL, counted
+// Where faces are written; they are only counted where an array is NULL.
+typedef struct sdv_faces_at {
     int  triangles;                     // quads are cut
-    int *vertices;
-    int *sizes;                         // or NULL: all the same
+    int *vertices, *sizes;
     size_t faces, face_vertices;
 } sdv_faces_at;
 
-static void sdv_put_face(sdv_faces_at *out, int size, const int *v)
+// size 3: the triangle a b c.
+static inline void sdv_put_face(sdv_faces_at *out, int size, int a, int b, int c, int d)
 {
-    for (int i = 0; i < size && out->vertices; i++)
-        out->vertices[out->face_vertices + (size_t)i] = v[i];
+    int *v = out->vertices ? out->vertices + out->face_vertices : NULL;
+    if (v && size == 3) sdv_put_face3(v, a, b, c);
+    else if (v) sdv_put_face4(v, a, b, c, d);
     if (out->sizes) out->sizes[out->faces] = size;
     out->faces++;
     out->face_vertices += (size_t)size;
-}
-
-static void sdv_put_triangle(sdv_faces_at *out, int a, int b, int c)
-{
-    int v[3] = { a, b, c };
-    sdv_put_face(out, 3, v);
-}
-
-static void sdv_put_quad(sdv_faces_at *out, int a, int b, int c, int d)
-{
-    int v[4] = { a, b, c, d };
-    if (!out->triangles) {
-        sdv_put_face(out, 4, v);
-        return;
-    }
-    sdv_put_triangle(out, a, b, c);
-    sdv_put_triangle(out, a, c, d);
 }
 
 // Cuts quads in two, from the last on, and returns where the triangles end.
@@ -10957,175 +10906,159 @@ static int *sdv_cut_quads(int *faces, const int *end)
     size_t count = (size_t)(end - faces) / 4;
     for (size_t i = count; i-- > 0;) {
         const int *q = faces + 4 * i;
-        int a = q[0], b = q[1], c = q[2], d = q[3], *out = faces + 6 * i;
-        out[0] = out[3] = a;
-        out[1] = b;
-        out[2] = out[4] = c;
-        out[5] = d;
+        int a = q[0], b = q[1], c = q[2], d = q[3];
+        sdv_put_face3(sdv_put_face3(faces + 6 * i, a, b, c), a, c, d);
     }
     return faces + 6 * count;
 }
 
+// Puts the faces that are pieces of the grid.
 static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
-    int margin = tile->grid.margin, grids = tile->ngon ? tile->sides : 1;
-    int cut = tile->ngon ? 0 : margin, right = tile->grid.columns - cut;
-    int top = tile->grid.rows - cut - (tile->loop ? margin : 0);
+    const sdv_inside *in = tile->grid;
+    int grids = tile->ngon ? tile->sides : 1, cut = out->triangles && !tile->loop;
+    size_t size = out->triangles ? 3 : 4, wide = (size_t)in->right - (size_t)in->left;
+    size_t pieces = (size_t)grids * wide * ((size_t)in->top - (size_t)in->bottom);
     int *faces = out->vertices + out->face_vertices;
-    for (int i = 0; i < grids && right > margin; i++) {
+    for (int i = 0; i < grids && pieces && out->vertices; i++) {
         sdv_grid grid = sdv_tile_grid(tile, i);
-        int *end = sdv_grid_faces(&grid, margin, top, margin, right, faces);
-        faces = out->triangles && !tile->loop ? sdv_cut_quads(faces, end) : end;
+        int right = in->right + tile->loop * in->bottom;        // as it is in row 0
+        int *end = sdv_grid_faces(&grid, in->bottom, in->top, in->left, right, faces);
+        faces = cut ? sdv_cut_quads(faces, end) : end;
     }
-    out->face_vertices = (size_t)(faces - out->vertices);
+    if (cut) pieces *= 2;
+    for (size_t i = 0; i < pieces && out->sizes; i++) out->sizes[out->faces + i] = (int)size;
+    out->faces += pieces;
+    out->face_vertices += size * pieces;
 }
 
-// Counts the faces inside a tile and gives their sizes, but not their vertices.
-static void sdv_count_inside_faces(const sdv_tile *tile, sdv_faces_at *out)
+// The vertices of a grid: row, column.
+static const int sdv_corners[2][5][2] = {
+    { {0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0} }, { {0, 0}, {0, 1}, {1, 0}, {0, 0}, {0, 0} } };
+
+// Point j of the ring along a side, from the ring's corner at vertex 0 of that side on. Of an n-gon
+// the grids are those at the side's two vertices.
+static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2], int j)
 {
-    size_t columns = (size_t)tile->grid.columns, rows = (size_t)tile->grid.rows;
-    size_t margin = (size_t)tile->grid.margin, quads;
-    if (tile->ngon) quads = (size_t)tile->sides * (columns - margin) * (columns - margin);
-    else quads = (columns - 2 * margin) * (rows - 2 * margin);
-    if (tile->loop) quads = (columns - 3 * margin) * (columns - 3 * margin);
-    size_t faces = out->triangles && !tile->loop ? 2 * quads : quads, size = out->triangles ? 3 : 4;
-    for (size_t i = 0; i < faces && out->sizes; i++) out->sizes[out->faces + i] = (int)size;
-    out->faces += faces;
-    out->face_vertices += size * faces;
+    const sdv_inside *in = tile->grid;
+    if (tile->ngon && j >= in->columns)
+        return sdv_grid_index(&grids[1], 2 * in->columns - 1 - j, 1);
+    if (tile->ngon) return sdv_grid_index(grids, 1, j + 1);
+    const int (*at)[2] = sdv_corners[tile->loop] + side;
+    int row = (at[0][0] ? in->top : in->bottom) + j * (at[1][0] - at[0][0]);
+    int column = (at[0][1] ? in->right : in->left) + j * (at[1][1] - at[0][1]);
+    return sdv_grid_index(grids, row, column);
 }
 
-// The strip between the ring, above, and a side: whichever piece has its middle first is joined to
-// the point reached on the other line, and two at once are a quad. In halves of a piece, middle i
-// of n is 2i + 1 along the side, and those of the ring are 2 behind (in a triangle's, which is
-// narrower, 3).
-static void sdv_put_strip(const sdv_tile *tile, int side, sdv_faces_at *out)
+// The strip between a side and the ring, which is above it: whichever piece has its middle first is
+// joined to the point reached on the other line, and two at once are a quad. In halves of a piece,
+// middle i of n is 2i + 1 along the side, and those of the ring are 2 behind (in a triangle's,
+// which is narrower, 3).
+static void sdv_put_strip(const sdv_tile *tile, int side, const sdv_grid grids[2],
+                          sdv_faces_at *out)
 {
-    int pieces = sdv_edge_rate(tile, side), rate = sdv_side_rate(tile, side);
-    int ring = rate - 2 - tile->loop, a = sdv_side_point(tile, side, 0, pieces);
-    const sdv_grid grids[2] = { sdv_tile_grid(tile, side),
-                                sdv_tile_grid(tile, side + 1 < tile->sides ? side + 1 : 0) };
-    int d = sdv_ring_point(tile, side, grids, 0);
+    int next = side + 1 < tile->sides ? side + 1 : 0, pieces = sdv_edge_rate(tile, side);
+    int rate = (int)sdv_side_rate(tile, side), inset = 2 + tile->loop, ring = rate - inset;
+    sdv_side edge = sdv_tile_side(tile, side, 0);
+    int a = tile->vertices[side], d = sdv_ring_point(tile, side, grids, 0);
     for (int i = 0, j = 0; i < pieces || j < ring;) {
         int64_t here = (2 * (int64_t)i + 1) * rate;
-        int64_t there = (2 * (int64_t)j + 3 + tile->loop) * pieces;
+        int64_t there = (2 * (int64_t)j + 1 + inset) * pieces;
         int on = i < pieces && (j == ring || here <= there);
         int up = j < ring && (i == pieces || there <= here);
-        int b = on ? sdv_side_point(tile, side, i + 1, pieces) : a;
-        int c = up ? sdv_ring_point(tile, side, grids, j + 1) : d;
-        if (on && up) sdv_put_quad(out, a, b, c, d);
-        else if (on) sdv_put_triangle(out, a, b, d);
-        else sdv_put_triangle(out, a, c, d);
-        a = b;
-        d = c;
         i += on;
         j += up;
+        int b = i == pieces ? tile->vertices[next] : edge.first + edge.step * i;
+        int c = up ? sdv_ring_point(tile, side, grids, j) : d;
+        int quad = on && up && !out->triangles;
+        if (on && up) sdv_put_face(out, quad ? 4 : 3, a, b, c, d);
+        if (!quad) sdv_put_face(out, 3, a, up ? c : b, d, d);
+        if (on) a = b;
+        d = c;
     }
 }
 
-static void sdv_put_strips(const sdv_tile *tile, sdv_faces_at *out)
+// Puts all faces of a tile.
+static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
 {
-    for (int i = 0; i < tile->sides && tile->grid.margin; i++) sdv_put_strip(tile, i, out);
+    sdv_tile tile = sdv_tile_at(tiling, f);
+    sdv_grid grids[2];
+    sdv_put_inside(&tile, out);
+    for (int i = 0; i < tile.sides && tile.grid->strips; i++) {
+        if (tile.ngon || i == 0) grids[0] = sdv_tile_grid(&tile, i);
+        if (tile.ngon) grids[1] = sdv_tile_grid(&tile, (i + 1) % tile.sides);
+        sdv_put_strip(&tile, i, grids, out);
+    }
 }
 
-static void sdv_new_tiling(sdv_context *context, sdv_arena *arena, sdv_tiling *tiling,
-                           const sdv_level *cage, int loop)
+// Makes a tiling without rates. Vertices and edges are evaluated on the first face that has them
+// and is no hole, or else on the first hole.
+static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
+                                 int loop, const unsigned char *hole)
 {
     size_t edges = (size_t)cage->edge_count, faces = (size_t)cage->face_count;
     size_t homes = (size_t)cage->vertex_count + edges;
-    tiling->cage = cage;
-    tiling->loop = loop;
-    tiling->edge_rates = SDV_NEW(context, arena, int, edges);
-    tiling->insides = SDV_NEW(context, arena, sdv_inside, faces);
-    tiling->starts = SDV_NEW(context, arena, int, edges + faces + 1);
-    tiling->home = SDV_NEW(context, arena, int, homes);
-    if (context->result) return;
-    memset(tiling->starts, 0, (edges + faces + 1) * sizeof(int));
-    memset(tiling->insides, 0, faces * sizeof(sdv_inside));
-    for (size_t i = 0; i < homes; i++) tiling->home[i] = -1;
-}
-
-// Vertices and edges are evaluated on the first face that has them and is no hole, or else on the
-// first hole.
-static void sdv_find_homes(sdv_tiling *tiling, const unsigned char *hole)
-{
-    const sdv_level *cage = tiling->cage;
-    tiling->hole = hole;
+    sdv_tiling tiling = { cage, hole, loop, NULL, NULL, NULL, NULL };
+    tiling.edge_rates = SDV_NEW(context, arena, int, edges);
+    tiling.insides = SDV_NEW(context, arena, sdv_inside, faces);
+    tiling.starts = SDV_NEW(context, arena, int, edges + faces + 1);
+    tiling.home = SDV_NEW(context, arena, int, homes);
+    if (context->result) return tiling;
+    memset(tiling.starts, 0, (edges + faces + 1) * sizeof(int));
+    for (size_t i = 0; i < homes; i++) tiling.home[i] = -1;
     for (int kind = 1; kind >= 0; kind--) {
         for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
-            int f = sdv_face_of(cage, h);
-            if (hole[tiling->number ? tiling->number[f] : f] != kind) continue;
-            tiling->home[cage->face_vertices[h]] = h;
-            tiling->home[cage->vertex_count + cage->face_edges[h]] = h;
+            if (hole[sdv_face_of(cage, h)] != kind) continue;
+            tiling.home[cage->face_vertices[h]] = h;
+            tiling.home[cage->vertex_count + cage->face_edges[h]] = h;
         }
     }
+    return tiling;
 }
 
-// Where the points stand: those inside each edge, then those inside each face; none where there is
-// no surface. Returns how many there are.
+// Finds where the points stand: those inside each edge, then those inside each face; none where
+// there is no surface. Returns how many there are.
 static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
 {
     const sdv_level *cage = tiling->cage;
+    int edges = cage->edge_count, all = edges + cage->face_count;
     uint64_t count = (uint64_t)cage->vertex_count;
-    for (int i = 0; i < cage->edge_count + cage->face_count && count <= INT_MAX; i++) {
-        int f = i - cage->edge_count;
+    for (int i = 0; i < all && count <= INT_MAX; i++) {
+        int f = i - edges, home = f < 0 ? tiling->home[cage->vertex_count + i] : -1;
         tiling->starts[i] = (int)count;
-        if (f < 0 && tiling->home[cage->vertex_count + i] >= 0)
-            count += (uint64_t)tiling->edge_rates[i] - 1;
-        if (f >= 0 && tiling->hole[tiling->number ? tiling->number[f] : f] != SDV_DROPPED) {
-            sdv_tile tile = sdv_tile_at(tiling, f);
-            count += sdv_count_inside(&tile);
-        }
+        if (home >= 0) count += (uint64_t)tiling->edge_rates[i] - 1;
+        if (f >= 0 && tiling->hole[f] != SDV_DROPPED) count += sdv_count_inside(tiling, f);
     }
-    if (count > INT_MAX) {
+    if (count > INT_MAX)
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
                  "these rates make more than %d vertices", INT_MAX);
-        return 0;
-    }
-    tiling->starts[cage->edge_count + cage->face_count] = (int)count;
-    return (int)count;
+    return tiling->starts[all] = context->result ? 0 : (int)count;
 }
 
 // --------------------------------------------------------------------------- >>tile-points
 // The points of a tiling on the limit surface, leaf by leaf of the tree.
 
-// Values that are evaluated: work points of SUBDIV_EXACT.
-typedef struct sdv_source {
-    const subdiv_surface *surface;
-    int          channels;              // 4 at most
-    const float *in;
-    double      *work;
-} sdv_source;
-
-static sdv_source sdv_begin_source(sdv_context *context, sdv_arena *arena,
-                                   const subdiv_surface *surface, int channels, const float *in,
-                                   const subdiv_options *opt)
+// Makes work points of SUBDIV_EXACT from values of up to four channels.
+static sdv_exact_work sdv_begin_source(sdv_context *context, sdv_arena *arena,
+                                       const subdiv_surface *surface, int channels,
+                                       const float *in, const subdiv_options *opt)
 {
-    sdv_source source = { surface, channels, in, NULL };
-    sdv_exact_work work = { surface, channels, in, (size_t)channels, NULL, 0, 1 };
-    work.points = (double *)sdv_new(context, arena, sdv_exact_work_size(surface, channels), 1);
-    source.work = work.points;
-    if (source.work) sdv_make_exact_work(&work, opt);
+    sdv_exact_work source = { surface, channels, in, (size_t)channels, NULL, 0, 1 };
+    source.points = (double *)sdv_new(context, arena, sdv_exact_work_size(surface, channels), 1);
+    if (source.points) sdv_make_exact_work(&source, opt);
     return source;
 }
 
-// The first count points of a tiling and, unless NULL, their normals.
-typedef struct sdv_tile_points {
-    const sdv_tiling *tiling;
-    const sdv_source *source;
-    float *points, *normals;
-    int    count, jobs;
-    void  *user;                        // of the allocator
-    unsigned char failed[SDV_MOST_JOBS];
-} sdv_tile_points;
-
 // A leaf of the exact surface covers an area of the grid of its face (a turned triangle the upper
-// half of one, any other triangle the lower), and makes the points that are there:
+// half of a square, any other triangle the lower), and makes the points that are there. A point
+// between two areas belongs to the one that is nearer to the middle of the grid or, if it is on an
+// edge of the face, of the edge:
 //
-//     +---+---+       those between cells belong to the area that is nearer to the middle of the
-//     | > | < |       grid or, if they are on an edge of the face, of the edge, so that what is
-//     +---+---+       left of a nest has no points but its vertex as soon as it is as small as the
-//     | > | < |       pieces of the grid. In triangles the middle is where u, v and 1 - u - v are
-//     +---+---+       1/3: no line between cells, which are at multiples of 2^-bits, is there
+//     +---+---+       So the face of a nest that is left after some levels has no points but its
+//     | > | < |       vertex as soon as it is as small as the pieces of the grid. In triangles the
+//     +---+---+       middle is where u, v and 1 - u - v are 1/3: no line between areas, which
+//     | > | < |       are at multiples of 2^-bits, is there.
+//     +---+---+
 typedef struct sdv_area {
     int     bits;                       // 2^bits units are a side of the grid: it is, in these,
     int64_t left, right, bottom, top;   // from left to right and from bottom to top
@@ -11133,20 +11066,25 @@ typedef struct sdv_area {
     double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
 } sdv_area;                             // where t is from 0 to 1 along a side of the grid
 
-// Makes them. The polynomial is made for the first line of them.
+// What makes the points of a tiling. Each job has a copy.
 typedef struct sdv_leaf_points {
-    const sdv_tile_points *samples;
-    const sdv_window  *out;
+    const sdv_tiling *tiling;
+    const sdv_exact_work *source;
+    void    *user;                      // of the allocator
+    int      jobs;
+    unsigned char *failed;              // [jobs]
+    sdv_window out;                     // the first points of the tiling
+    sdv_tangents tangents;              // or, without normals, nothing
+    // The leaf at hand, or a part of it:
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
+    int      inside;                    // the first point inside its grid
     sdv_area area;
-    const sdv_patch *patch;             // and its control points, seen from base: + shrink times
-    const int       *points;
-    const double    *work;
-    double   base[4], shrink;
-    sdv_nest_sample *vertex;            // or what is left of a nest
-    int      number, ready;             // number: of the part, if it is cut
-    sdv_polynomial polynomial;
+    sdv_double_patch patch;
+    const sdv_nest_state *nest;         // whose points the patch has, or NULL
+    sdv_nest_sample *vertex;            // not NULL: the last face of a nest, instead of a patch
+    int      part, ready;               // part: its number, if the patch is cut into strips
+    sdv_polynomial polynomial;          // made for the first line: then it is ready
 } sdv_leaf_points;
 
 static int64_t sdv_units(const sdv_area *area)
@@ -11165,61 +11103,51 @@ static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
 }
 
 // The part of a quad where two strips cross.
-static sdv_area sdv_area_of_strips(sdv_area area, const sdv_strip *along, const sdv_strip *up)
+static sdv_area sdv_area_of_part(sdv_area area, const sdv_double_patch *patch, int part)
 {
     const int64_t whole = 1 << SDV_STRIP_LEVELS;
+    const sdv_strip *along = &patch->along->items[part % patch->along->count];
+    const sdv_strip *up = &patch->up->items[part / patch->along->count];
     int64_t x = area.left * whole, y = area.bottom * whole;
-    area.bits += SDV_STRIP_LEVELS;
-    area.left = x + along->from;
-    area.right = x + along->to;
-    area.bottom = y + up->from;
-    area.top = y + up->to;
-    area.sx *= (double)whole / along->unit;
-    area.sy *= (double)whole / up->unit;
-    area.x = (area.x * (double)whole + along->origin) / along->unit;
-    area.y = (area.y * (double)whole + up->origin) / up->unit;
-    return area;
+    sdv_area made = { area.bits + SDV_STRIP_LEVELS, x + along->from, x + along->to, y + up->from,
+                      y + up->to, area.step, area.sx * ((double)whole / along->unit),
+                      area.sy * ((double)whole / up->unit),
+                      (area.x * (double)whole + along->origin) / along->unit,
+                      (area.y * (double)whole + up->origin) / up->unit };
+    return made;
 }
 
 // What is left of a nest is the plane of its vertex.
 static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
 {
-    int degree = vertex->state.surface->rules.loop ? 4 : 3;
-    float p[3][4];
     sdv_nest_vertex(vertex);
-    for (int c = 0; c < 4; c++) {
-        p[0][c] = (float)vertex->values[0][c];
-        p[1][c] = (float)vertex->tangents[0][c];
-        p[2][c] = (float)vertex->tangents[1][c];
-    }
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
-    q->degree = degree;
-    q->origin = sdv_load(p[0]);
-    q->c[1][0] = sdv_load(p[1]);
-    q->c[0][1] = sdv_load(p[2]);
+    q->degree = vertex->state.surface->rules.loop ? 4 : 3;
+    sdv_four *to[3] = { &q->origin, &q->c[1][0], &q->c[0][1] };
+    for (int i = 0; i < 3; i++) {
+        const double *p = i ? vertex->tangents[i - 1] : vertex->values[0];
+        *to[i] = sdv_of((float)p[0], (float)p[1], (float)p[2], (float)p[3]);
+    }
 }
 
-static void sdv_need_polynomial(sdv_leaf_points *l)
+static void sdv_make_leaf_polynomial(sdv_leaf_points *l)
 {
+    const sdv_nest_state *nest = l->nest;
     sdv_polynomial *q = &l->polynomial;
+    double start[4], shrink = nest ? nest->shrink : 1;
     float origin[4];
-    if (l->ready) return;
-    l->ready = 1;
     if (l->vertex) {
         sdv_vertex_plane(l->vertex, q);
         return;
     }
-    sdv_double_patch from = sdv_double_patch_of(l->samples->source->surface, l->patch, l->points,
-                                                l->work);
-    double start[4];
-    sdv_make_polynomial(&from, l->number, q, start);
-    sdv_four shrink = sdv_all((float)l->shrink);
-    for (int c = 0; c < 4; c++) origin[c] = (float)(l->base[c] + l->shrink * start[c]);
+    sdv_make_polynomial(&l->patch, l->part, q, start);
+    for (int c = 0; c < 4; c++)
+        origin[c] = (float)((nest ? nest->base[c] : 0) + shrink * start[c]);
     q->origin = sdv_load(origin);
-    for (int i = 0; i <= q->degree && l->shrink < 1; i++)
+    for (int i = 0; i <= q->degree && shrink < 1; i++)
         for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
-            q->c[i][j] = sdv_times(shrink, q->c[i][j]);
+            q->c[i][j] = sdv_times(sdv_all((float)shrink), q->c[i][j]);
 }
 
 // Points k from first to last on a line of the grid, at (u + k du, v + k dv).
@@ -11229,48 +11157,38 @@ typedef struct sdv_line_points {
     int     index, step;                // of point first, and from point to point
 } sdv_line_points;
 
-// Points of a line, of a window that starts with point 0; their tangents wait.
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
-    const sdv_window *out = l->out;
-    sdv_tangents *wait = out->tangents;
+    const sdv_window *out = &l->out;
     sdv_curve curve;
-    int lanes = out->lanes, step = points->step, index = points->index, i = 0;
-    ptrdiff_t stride = (ptrdiff_t)out->stride * step;
-    float *to = out->values + out->stride * (size_t)index;
+    int index = points->index;
     sdv_make_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
-    if (tangents) i = wait->count;
-    for (int64_t k = points->first, last = points->last; k <= last; k++, to += stride) {
+    for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
         sdv_four x = sdv_all((float)(from + (double)k * by));
-        sdv_store_some(to, loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), lanes);
+        sdv_store_some(out->values + out->stride * (size_t)index,
+                       loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), out->lanes);
         if (!tangents) continue;
-        wait->at[i] = index;
-        wait->along[i] = sdv_horner3(turned ? curve.across : curve.along, x);
-        wait->across[i] = sdv_horner3(turned ? curve.along : curve.across, x);
-        index += step;
-        if (++i < SDV_WAITING) continue;
-        wait->count = i;
-        sdv_flush_tangents(wait);
-        i = 0;
+        sdv_four along = sdv_horner3(curve.along, x), across = sdv_horner3(curve.across, x);
+        sdv_put_tangents(out, index, turned ? across : along, turned ? along : across);
     }
-    if (tangents) wait->count = i;
 }
 
-// Rows, columns, or else a slanted side, which only triangles have: there each point makes a row.
+// Puts the points of a row, a column or else a slanted side, which only triangles have: there each
+// point makes a row.
 static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 {
+    if (line->first > line->last || line->index >= l->out.count) return;
     const sdv_area *area = &l->area;
     double u = area->step * (area->sx * line->u - area->x), du = area->step * area->sx * line->du;
     double v = area->step * (area->sy * line->v - area->y), dv = area->step * area->sy * line->dv;
     int row = fabs(dv) <= 0, column = fabs(du) <= 0, loop = l->tile.loop;
-    int tangents = l->out->tangents != NULL;
+    int tangents = l->out.tangents != NULL;
     sdv_line_points point = *line;
-    if (line->first > line->last || line->index >= l->samples->count) return;
-    sdv_need_polynomial(l);
-    if (row && loop && tangents) sdv_put_tile_line(l, 1, 0, 1, line, (float)v, u, du);
+    if (!l->ready++) sdv_make_leaf_polynomial(l);
+    if (row && loop) sdv_put_tile_line(l, 1, 0, tangents, line, (float)v, u, du);
     else if (row && tangents) sdv_put_tile_line(l, 0, 0, 1, line, (float)v, u, du);
-    else if (row) sdv_put_tile_line(l, loop, 0, 0, line, (float)v, u, du);
+    else if (row) sdv_put_tile_line(l, 0, 0, 0, line, (float)v, u, du);
     else if (column && loop) sdv_put_tile_line(l, 1, 1, tangents, line, (float)u, v, dv);
     else if (column) sdv_put_tile_line(l, 0, 1, tangents, line, (float)u, v, dv);
     else for (; point.first <= line->last; point.first++, point.index += line->step) {
@@ -11279,223 +11197,151 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
     }
 }
 
-// Of the points k step / rate of a side, with a step of 1 or 2: the first one behind low, in units
-// of an area, or there, if the area owns that.
-static int64_t sdv_first_tick(const sdv_area *area, int64_t low, int owns, int step, int64_t rate)
+typedef struct sdv_ticks { int64_t first, last; } sdv_ticks;
+
+// Points k / rate of a side stand at its ticks k. Returns how many ticks, from 1 on, belong to the
+// areas before x, a place in units, where the middle is at so many sixths of the grid. half: the
+// side is a half of the edge that has the rate.
+static int64_t sdv_ticks_before(const sdv_area *area, int64_t x, int sixths, int64_t rate, int half)
 {
-    int bits = area->bits + step - 1, there = (low * rate & (((int64_t)1 << bits) - 1)) == 0;
-    return (low * rate >> bits) + !(owns && there);
+    int behind = 6 * x <= sixths * sdv_units(area);             // a tick at x belongs there
+    return x > 0 ? (x * rate - behind) >> (area->bits + half) : 0;
 }
 
-static int64_t sdv_last_tick(const sdv_area *area, int64_t high, int owns, int step, int64_t rate)
+// Finds the ticks inside a side that belong to an area from low to high.
+static sdv_ticks sdv_find_ticks(const sdv_area *area, int64_t low, int64_t high, int sixths,
+                                int rate, int half)
 {
-    int bits = area->bits + step - 1, there = (high * rate & (((int64_t)1 << bits) - 1)) == 0;
-    return (high * rate >> bits) - (!owns && there);
+    sdv_ticks ticks = { sdv_ticks_before(area, low, sixths, rate, half) + 1,
+                        sdv_ticks_before(area, high, sixths, rate, half) };
+    if (ticks.last == rate) ticks.last--;
+    return ticks;
 }
 
-// Finds the ticks from 1 to most that an area from low to high has, of a quad or on an edge.
-static void sdv_find_ticks(const sdv_area *area, int64_t low, int64_t high, int step, int64_t rate,
-                           int64_t most, sdv_line_points *line)
-{
-    int64_t units = sdv_units(area);
-    line->first = sdv_first_tick(area, low, 2 * low <= units, step, rate);
-    line->last = sdv_last_tick(area, high, 2 * high > units, step, rate);
-    if (line->first < 1) line->first = 1;
-    if (line->last > most) line->last = most;
-}
-
-// The points inside the grid, row by row.
-static void sdv_put_quad_inside(sdv_leaf_points *l)
+// Puts the points inside the grid, row by row. In triangles u + v has ticks as u and v have.
+static void sdv_put_area_inside(sdv_leaf_points *l)
 {
     const sdv_area *area = &l->area;
-    const sdv_tile *tile = &l->tile;
-    int columns = tile->grid.columns, rows = tile->grid.rows;
-    sdv_line_points row, up;
-    sdv_find_ticks(area, area->bottom, area->top, 1, rows, rows - 1, &up);
-    sdv_find_ticks(area, area->left, area->right, 1, columns, columns - 1, &row);
-    row.u = row.dv = 0;
-    row.du = 1.0 / columns;
-    row.step = 1;
+    int columns = l->tile.grid->columns, rows = l->tile.grid->rows, loop = l->tile.loop;
+    if (columns == 1 || rows == 1) return;
+    int64_t slant = area->left + area->bottom + (area->step < 0);
+    sdv_ticks along = sdv_find_ticks(area, area->left, area->right, 3 - loop, columns, 0);
+    sdv_ticks up = sdv_find_ticks(area, area->bottom, area->top, 3 - loop, rows, 0), slanted = up;
+    if (loop) slanted = sdv_find_ticks(area, slant, slant + 1, 4, columns, 0);
     for (int64_t j = up.first; j <= up.last; j++) {
-        row.v = (double)j / rows;
-        row.index = sdv_inside_tile(tile, l->corner, (int)j, (int)row.first);
+        sdv_line_points row = { along.first, along.last, 0, (double)j / rows, 1.0 / columns, 0,
+                                0, 1 };
+        if (loop && row.first < slanted.first - j) row.first = slanted.first - j;
+        if (loop && row.last > slanted.last - j) row.last = slanted.last - j;
+        row.index = sdv_inside_point(l->inside, columns, loop, (int)j, (int)row.first);
         sdv_put_line(l, &row);
     }
 }
 
-// Sides belong to the area that is nearer to the middle, see above. A turned one has them above and
-// on the right, the others below and on the left; each has one along a diagonal, where u + v is
-// what it is at the middle or more, or less.
-static void sdv_put_triangle_inside(sdv_leaf_points *l)
-{
-    const sdv_area *c = &l->area;
-    int n = l->tile.grid.columns, turned = c->step < 0;
-    int64_t units = sdv_units(c), slant = c->left + c->bottom + 1;      // u + v on the slanted side
-    int64_t left = sdv_first_tick(c, c->left, turned || 3 * c->left < units, 1, n);
-    int64_t right = sdv_last_tick(c, c->right, !turned || 3 * c->right > units, 1, n);
-    int64_t bottom = sdv_first_tick(c, c->bottom, turned || 3 * c->bottom < units, 1, n);
-    int64_t top = sdv_last_tick(c, c->top, !turned || 3 * c->top > units, 1, n);
-    int64_t diagonal = turned ? sdv_first_tick(c, slant, 3 * slant < 2 * units, 1, n)
-                              : sdv_last_tick(c, slant, 3 * slant > 2 * units, 1, n);
-    sdv_line_points row = { 0, 0, 0, 0, 1.0 / n, 0, 0, 1 };
-    for (int64_t j = bottom > 1 ? bottom : 1; j <= top; j++) {
-        int64_t most = n - 1 - j, slanted = diagonal - j;
-        row.first = turned && slanted > left ? slanted : left;
-        row.last = !turned && slanted < right ? slanted : right;
-        if (row.first < 1) row.first = 1;
-        if (row.last > most) row.last = most;
-        row.v = (double)j / n;
-        row.index = sdv_inside_tile(&l->tile, 0, (int)j, (int)row.first);
-        sdv_put_line(l, &row);
-    }
-}
-
-// The points on a side of a face that is an edge, if this is where they are made: point k of them
-// is at k step / rate of the grid's side, from its first vertex or, backwards, the other.
-static void sdv_put_edge(sdv_leaf_points *l, int side, int backwards, int64_t low, int64_t high,
-                         int step, const sdv_line_points *side_line)
-{
-    const sdv_tile *tile = &l->tile;
-    const sdv_level *cage = tile->tiling->cage;
-    int rate = sdv_edge_rate(tile, side), h = tile->first + side;
-    sdv_line_points line = *side_line;
-    if (tile->tiling->home[cage->vertex_count + cage->face_edges[h]] != h) return;
-    sdv_find_ticks(&l->area, low, high, step, rate,
-                   step == 1 ? rate - 1 : (rate - backwards) / 2, &line);
-    if (line.first > line.last) return;
-    sdv_side points = sdv_tile_side(tile, side, backwards);
-    line.index = points.first + points.step * (int)line.first;
-    line.step = points.step;
-    line.du *= (double)step / rate;
-    line.dv *= (double)step / rate;
-    sdv_put_line(l, &line);
-}
-
-// The spoke of an n-gon from edge number corner to the centre.
-static void sdv_put_spoke(sdv_leaf_points *l)
-{
-    int m = l->tile.grid.columns;
-    sdv_line_points line = { 0, 0, 1, 0, 0, 1.0 / m, 0, -1 };
-    sdv_find_ticks(&l->area, l->area.bottom, l->area.top, 1, m, m - 1, &line);
-    line.index = l->tile.inside + m + l->corner * (m - 1) - (int)line.first;
-    sdv_put_line(l, &line);
-}
-
-static void sdv_put_area_sides(sdv_leaf_points *l)
-{
-    static const sdv_line_points bottom  = { 0, 0, 0, 0,  1, 0, 0, 0 };
-    static const sdv_line_points right   = { 0, 0, 1, 0,  0, 1, 0, 0 };
-    static const sdv_line_points slanted = { 0, 0, 1, 0, -1, 1, 0, 0 };
-    static const sdv_line_points top     = { 0, 0, 0, 1,  1, 0, 0, 0 };
-    static const sdv_line_points left    = { 0, 0, 0, 0,  0, 1, 0, 0 };
-    const sdv_area *c = &l->area;
-    int loop = l->tile.loop, ngon = l->tile.ngon, last = l->tile.sides - 1;
-    int before = ngon ? l->corner ? l->corner - 1 : last : last;
-    int64_t units = sdv_units(c), end = loop ? c->left + c->bottom + 1 : c->right;
-    if (c->bottom == 0) sdv_put_edge(l, l->corner, 0, c->left, c->right, 1 + ngon, &bottom);
-    if (c->left == 0) sdv_put_edge(l, before, 1, c->bottom, c->top, 1 + ngon, &left);
-    if (ngon && end == units) sdv_put_spoke(l);
-    if (ngon) return;
-    if (end == units) sdv_put_edge(l, 1, 0, c->bottom, c->top, 1, loop ? &slanted : &right);
-    if (!loop && c->top == units) sdv_put_edge(l, 2, 1, c->left, c->right, 1, &top);
-}
-
-// The vertices of the face, and the centre of an n-gon.
-static void sdv_put_area_corners(sdv_leaf_points *l)
+// Puts the points on a side of the grid, if this is where they are made. Of an n-gon's quad the
+// sides are half an edge, the spoke that leads on from there, the spoke before, which the quad
+// before makes, and half an edge without its middle.
+static void sdv_put_area_side(sdv_leaf_points *l, int side)
 {
     const sdv_area *area = &l->area;
     const sdv_tile *tile = &l->tile;
-    const int (*at)[2] = tile->loop ? sdv_corner_triangle : sdv_corner_quad;
-    int64_t units = sdv_units(area);
-    for (int i = 0; i < (tile->loop ? 3 : 4); i++) {
-        int up = at[i][0] > 0, right = at[i][1] > 0;
-        if (!(right ? area->right == units : area->left == 0) ||
-            !(up ? area->top == units : area->bottom == 0)) continue;
-        int h = tile->first + (tile->ngon ? l->corner : i);
-        int v = tile->tiling->cage->face_vertices[h];
-        sdv_line_points point = { 0, 0, (double)right, (double)up, 0, 0, v, 0 };
-        int here = tile->tiling->home[v] == h;
-        if (tile->ngon && i > 0) {
-            here = i == 2 && l->corner == 0;
-            point.index = tile->inside;
-        }
-        if (here) sdv_put_line(l, &point);
-    }
+    const sdv_tiling *tiling = tile->tiling;
+    int ngon = tile->ngon, spoke = ngon && side == 1, half = ngon && !spoke, backwards = side >= 2;
+    const int *a = sdv_corners[tile->loop][side + backwards];
+    const int *b = sdv_corners[tile->loop][side + !backwards];
+    int before = l->corner > 0 ? l->corner - 1 : tile->sides - 1;
+    int edge = !ngon ? side : side == 3 ? before : l->corner;
+    int rate = spoke ? tile->grid->columns : sdv_edge_rate(tile, edge);
+    int home = tiling->home[tiling->cage->vertex_count + tile->edges[edge]];
+    if (ngon && side == 2) return;
+    if (!spoke && home != tile->first + edge) return;
+    sdv_ticks ticks = a[0] != b[0] ? sdv_find_ticks(area, area->bottom, area->top, 3, rate, half)
+                                   : sdv_find_ticks(area, area->left, area->right, 3, rate, half);
+    if (half && backwards && 2 * ticks.last == rate) ticks.last--;
+    double step = (double)(1 + half) / rate;
+    sdv_side points = sdv_tile_side(tile, edge, backwards);
+    if (spoke) points = sdv_seen_side(tile->inside + 1 + l->corner * (rate - 1), rate, 1);
+    sdv_line_points line = { ticks.first, ticks.last, (double)a[1], (double)a[0],
+                             (b[1] - a[1]) * step, (b[0] - a[0]) * step,
+                             points.first + points.step * (int)ticks.first, points.step };
+    sdv_put_line(l, &line);
+}
+
+// Puts a vertex of the grid, if this is where it is made: one of the face, or an n-gon's centre.
+static void sdv_put_area_corner(sdv_leaf_points *l, int i)
+{
+    const sdv_tile *tile = &l->tile;
+    const int *at = sdv_corners[tile->loop][i];
+    int side = tile->ngon ? l->corner : i, v = tile->vertices[side];
+    int centre = tile->ngon && i == 2, here = tile->tiling->home[v] == tile->first + side;
+    sdv_line_points point = { 0, 0, (double)at[1], (double)at[0], 0, 0, 0, 0 };
+    point.index = centre ? tile->inside : v;
+    if (centre ? l->corner == 0 : here && (!tile->ngon || i == 0)) sdv_put_line(l, &point);
 }
 
 static void sdv_put_area(sdv_leaf_points *l)
 {
+    const sdv_area *area = &l->area;
+    int loop = l->tile.loop, sides = loop ? 3 : 4;
+    int64_t units = sdv_units(area), end = loop ? area->left + area->bottom + 1 : area->right;
+    int meets[4] = { area->bottom == 0, end == units, loop ? area->left == 0 : area->top == units,
+                     area->left == 0 };
     l->ready = 0;
-    if (l->tile.loop) sdv_put_triangle_inside(l);
-    else sdv_put_quad_inside(l);
-    if (l->area.step < 0) return;
-    sdv_put_area_sides(l);
-    sdv_put_area_corners(l);
+    sdv_put_area_inside(l);
+    for (int i = 0; i < sides && area->step > 0; i++) {
+        if (!meets[i]) continue;
+        sdv_put_area_side(l, i);
+        if (meets[i > 0 ? i - 1 : sides - 1]) sdv_put_area_corner(l, i);
+    }
 }
 
-// A leaf on the grid of face-vertex h. 0: the face has no surface.
-static int sdv_begin_leaf(const sdv_tile_points *s, const sdv_window *out, int h,
-                          sdv_leaf_points *l)
+// Takes the face of face-vertex h. Returns 0 if it has no surface.
+static int sdv_begin_leaf(sdv_leaf_points *l, int h)
 {
-    const sdv_tiling *tiling = s->tiling;
+    const sdv_tiling *tiling = l->tiling;
     int f = sdv_face_of(tiling->cage, h);
-    if (tiling->hole[tiling->number ? tiling->number[f] : f] == SDV_DROPPED) return 0;
-    l->samples = s;
-    l->out = out;
+    if (tiling->hole[f] == SDV_DROPPED) return 0;
     l->tile = sdv_tile_at(tiling, f);
     l->corner = l->tile.ngon ? h - l->tile.first : 0;
-    l->work = s->source->work;
-    for (int c = 0; c < 4; c++) l->base[c] = 0;
-    l->shrink = 1;
-    l->vertex = NULL;
-    l->number = 0;
+    l->inside = l->tile.inside;
+    if (l->tile.ngon)
+        l->inside = sdv_inside_ngon(l->inside, l->tile.sides, l->tile.grid->columns, l->corner);
     return 1;
 }
 
-static void sdv_put_patch_points(const sdv_tile_points *s, const sdv_window *out, sdv_patch_at at)
+static void sdv_put_patch_points(sdv_leaf_points *l, sdv_patch_at at)
 {
-    const subdiv_surface *surface = s->source->surface;
+    const sdv_exact_work *source = l->source;
     const int *points;
-    const sdv_patch *patch = sdv_patch_of(surface, at, &points);
-    sdv_leaf_points l;
-    if (!sdv_begin_leaf(s, out, patch->h, &l)) return;
-    sdv_area area = sdv_area_at(at.level - l.tile.ngon, patch->column, patch->row, patch->step);
-    l.area = area;
-    l.patch = patch;
-    l.points = points;
-    if (!patch->up) {
-        sdv_put_area(&l);
-        return;
-    }
-    const sdv_strips *along = &surface->exact->strips[patch->along - 1];
-    const sdv_strips *up = &surface->exact->strips[patch->up - 1];
-    for (; l.number < along->count * up->count; l.number++) {
-        l.area = sdv_area_of_strips(area, &along->items[l.number % along->count],
-                                    &up->items[l.number / along->count]);
-        sdv_put_area(&l);
+    const sdv_patch *patch = sdv_patch_of(source->surface, at, &points);
+    if (!sdv_begin_leaf(l, patch->h)) return;
+    sdv_area area = sdv_area_at(at.level - l->tile.ngon, patch->column, patch->row, patch->step);
+    l->patch = sdv_double_patch_of(source->surface, patch, points, source->points);
+    int parts = sdv_double_parts(&l->patch);
+    for (l->part = 0; l->part < parts; l->part++) {
+        l->area = patch->up ? sdv_area_of_part(area, &l->patch, l->part) : area;
+        sdv_put_area(l);
     }
 }
 
-// The area of a face of a nest after so many levels, and where its vertex is; or that of its child.
+// The area of a face of a nest after so many levels, and where its vertex is; or that of its child
+// on the next level.
 static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
 {
-    const sdv_place *place = &face->place;
-    int loop = tile->loop, sides = loop ? 3 : 4, step = place->step;
-    int bits = face->level - tile->ngon + depth;
-    const int (*at)[2] = loop ? sdv_corner_triangle : sdv_corner_quad;
-    int64_t size = (int64_t)1 << depth;
-    int64_t right = step * at[face->turn][1] / 2, up = step * at[face->turn][0] / 2;
-    int64_t x = (place->column + right) * size, y = (place->row + up) * size;
+    const int (*at)[2] = sdv_corners[tile->loop];
+    int step = face->place.step, bits = face->level - tile->ngon + depth;
+    int right = step * at[face->turn][1], up = step * at[face->turn][0];
+    int64_t size = (int64_t)1 << depth, x = (face->place.column + right) * size;
+    int64_t y = (face->place.row + up) * size;
     if (child == 0) {
-        sdv_area own = sdv_area_at(bits, x - right, y - up, step);
-        own.x = (double)x;
-        own.y = (double)y;
-        return own;
+        sdv_area area = sdv_area_at(bits, x - right, y - up, step);
+        area.x = (double)x;
+        area.y = (double)y;
+        return area;
     }
-    int turned = child < sides ? (child + face->turn) % sides : child;
-    int64_t child_right = turned == 1 || turned == (loop ? 3 : 2), child_up = turned >= 2;
-    return sdv_area_at(bits + 1, 2 * (x - right) + step * child_right,
-                       2 * (y - up) + step * child_up, child == 3 && loop ? -step : step);
+    int middle = tile->loop && child == 3, i = (child + face->turn) % (tile->loop ? 3 : 4);
+    return sdv_area_at(bits + 1, 2 * (x - right) + step * (middle ? 1 : at[i][1]),
+                       2 * (y - up) + step * (middle ? 1 : at[i][0]), middle ? -step : step);
 }
 
 // After how many levels what is left of a face of a nest has no points but its vertex: it is
@@ -11503,127 +11349,112 @@ static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, i
 // points belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
-    int most = tile->grid.columns > tile->grid.rows ? tile->grid.columns : tile->grid.rows;
+    int most = tile->grid->columns > tile->grid->rows ? tile->grid->columns : tile->grid->rows;
     for (int i = 0; i < tile->sides; i++) {
         int rate = (sdv_edge_rate(tile, i) + tile->ngon) / (1 + tile->ngon);
         if (rate > most) most = rate;
     }
-    for (int depth = 0;; depth++) {
-        sdv_area area = sdv_nest_area(tile, face, depth, 0);
-        int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
-        int corner = (x == 0 || x == units) && (y == 0 || y == units);
-        int halves = units <= 2;                // of an edge: one of them has its middle
-        if (units > most || (units == most && corner && !halves)) return depth;
-    }
+    sdv_area area = sdv_nest_area(tile, face, 0, 0);
+    int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
+    int corner = (x == 0 || x == units) && (y == 0 || y == units), depth = 0;
+    // Of two halves of an edge one has its middle.
+    for (; units < most || (units == most && (!corner || units <= 2)); units *= 2) depth++;
+    return depth;
 }
 
-// The points on patches of a nest's next level.
-static void sdv_put_nest_level(const sdv_tile_points *s, const sdv_window *out,
-                               const sdv_nest_state *state, const sdv_nest_face *faces, int depth)
+// Puts the points of a nest: level by level those of the children that are patches, then those of
+// the faces that are left, from the points of the first level, as samples have them.
+static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
 {
-    sdv_leaf_points l;
-    for (int i = 0; i < state->kind->faces; i++) {
-        const sdv_nest_face *face = &faces[i];
-        if (!sdv_begin_leaf(s, out, face->place.h, &l)) continue;
-        l.work = state->w;
-        l.shrink = state->shrink;
-        for (int c = 0; c < 4; c++) l.base[c] = state->base[c];
-        for (int child = 1; child <= 3; child++) {
-            l.patch = sdv_nest_patch(state->kind, i, child, face->turn, &l.points);
-            l.area = sdv_nest_area(&l.tile, face, depth, child);
-            sdv_put_area(&l);
-        }
-    }
-}
-
-static void sdv_put_nest_points(const sdv_tile_points *s, const sdv_window *out, int number,
-                                double *w)
-{
-    const subdiv_surface *surface = s->source->surface;
+    const subdiv_surface *surface = l->source->surface;
     const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
-    int most = 0;
     sdv_nest_sample vertex;
-    sdv_nest_load(&vertex.state, surface, number, s->source->work, w);
-    int count = vertex.state.kind->faces;
-    for (int i = 0; i < count; i++) {
-        sdv_tile tile = sdv_tile_at(s->tiling, sdv_face_of(s->tiling->cage, faces[i].place.h));
+    sdv_nest_state *nest = &vertex.state;
+    const sdv_patch *patch;
+    const int *points;
+    int most = 0;
+    sdv_nest_load(nest, surface, number, l->source->points, w);
+    for (int i = 0; i < nest->kind->faces; i++) {
+        sdv_tile tile = sdv_tile_at(l->tiling, sdv_face_of(l->tiling->cage, faces[i].place.h));
         int depth = sdv_nest_depth(&tile, &faces[i]);
         if (depth > most) most = depth;
     }
-    for (int depth = 0; depth < most; depth++) {
-        sdv_nest_refine(&vertex.state);
-        sdv_put_nest_level(s, out, &vertex.state, faces, depth);
-        sdv_nest_descend(&vertex.state);
-    }
-    sdv_nest_load(&vertex.state, surface, number, s->source->work, w);      // as samples have it
-    for (int i = 0; i < count; i++) {
-        sdv_leaf_points l;
-        if (!sdv_begin_leaf(s, out, faces[i].place.h, &l)) continue;
-        vertex.face = i;
-        l.area = sdv_nest_area(&l.tile, &faces[i], most, 0);
-        l.vertex = &vertex;
-        sdv_put_area(&l);
+    l->nest = nest;
+    l->part = 0;
+    for (int depth = 0; depth <= most; depth++) {
+        int last = depth == most;
+        if (last) sdv_nest_load(nest, surface, number, l->source->points, w);
+        else sdv_nest_refine(nest);
+        l->vertex = last ? &vertex : NULL;
+        for (int i = 0; i < nest->kind->faces; i++) {
+            vertex.face = i;
+            if (!sdv_begin_leaf(l, faces[i].place.h)) continue;
+            for (int child = last ? 0 : 1; child <= (last ? 0 : 3); child++) {
+                l->area = sdv_nest_area(&l->tile, &faces[i], depth, child);
+                if (child) patch = sdv_nest_patch(nest->kind, i, child, faces[i].turn, &points);
+                if (child) l->patch = sdv_double_patch_of(surface, patch, points, w);
+                sdv_put_area(l);
+            }
+        }
+        if (!last) sdv_nest_descend(nest);
     }
 }
 
 // Patches of all levels, then nests.
 static void sdv_tile_points_job(void *context, int job)
 {
-    sdv_tile_points *s = (sdv_tile_points *)context;
-    const subdiv_surface *surface = s->source->surface;
+    sdv_leaf_points l = *(const sdv_leaf_points *)context;
+    const subdiv_surface *surface = l.source->surface;
     const sdv_exact *exact = surface->exact;
     int patches = exact->patch_count, count = patches + exact->nest_count;
-    int i = sdv_share(count, job, s->jobs), end = sdv_share(count, job + 1, s->jobs);
-    sdv_context here = { SUBDIV_OK, NULL, s->user, NULL };
+    int i = sdv_share(count, job, l.jobs), end = sdv_share(count, job + 1, l.jobs);
+    sdv_context here = { SUBDIV_OK, NULL, l.user, NULL };
     sdv_arena arena = sdv_new_arena(0);
-    double stack[4 * SDV_NEST_STACK], *large = NULL;
-    int lanes = s->source->channels;
-    sdv_tangents tangents;
-    sdv_window out = { s->points, (size_t)lanes, lanes, 0, s->count, 0, NULL };
-    memset(&tangents, 0, sizeof tangents);
-    tangents.normals = s->normals;
-    tangents.stride = 3;
-    if (s->normals) out.tangents = &tangents;
+    double stack[4 * SDV_NEST_STACK], *w = stack;
+    if (l.tangents.normals) l.out.tangents = &l.tangents;
     sdv_patch_at at = sdv_find_patch(surface, i);
     for (; i < end && i < patches; i++, at.i++) {
         sdv_next_level(surface, &at);
-        sdv_put_patch_points(s, &out, at);
+        sdv_put_patch_points(&l, at);
     }
     for (; i < end && !here.result; i++) {
-        int few = sdv_nest_work(exact, i - patches) <= SDV_NEST_STACK;
-        if (!few && !large) large = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
-        if (!here.result) sdv_put_nest_points(s, &out, i - patches, few ? stack : large);
+        if (w == stack && sdv_nest_work(exact, i - patches) > SDV_NEST_STACK)
+            w = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
+        if (w) sdv_put_nest_points(&l, i - patches, w);
     }
-    sdv_flush_tangents(&tangents);
-    s->failed[job] = here.result != SUBDIV_OK;
+    sdv_flush_tangents(&l.tangents);
+    l.failed[job] = here.result != SUBDIV_OK;
     sdv_arena_free(&arena);
 }
 
+// Makes the first count points of a tiling and, unless NULL, their normals.
 static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
-                                 const sdv_tiling *tiling, const sdv_source *source,
+                                 const sdv_tiling *tiling, const sdv_exact_work *source,
                                  float *points, float *normals, int count)
 {
-    const subdiv_surface *surface = source->surface;
-    size_t width = (size_t)source->channels;
-    sdv_tile_points s;
+    const sdv_exact *exact = source->surface->exact;
+    size_t channels = (size_t)source->channels;
+    unsigned char failed[SDV_MOST_JOBS] = { 0 };
+    sdv_window out = { points, channels, source->channels, 0, count, 0, NULL };
+    sdv_leaf_points l;
     if (context->result) return;
-    memset(&s, 0, sizeof s);
-    s.tiling = tiling;
-    s.source = source;
-    s.points = points;
-    s.normals = normals;
-    s.count = count;
-    s.user = context->user;
-    s.jobs = sdv_jobs(opt, (int64_t)surface->exact->patch_count + surface->exact->nest_count, 64);
-    sdv_run(opt, sdv_tile_points_job, &s, s.jobs);
-    if (memchr(s.failed, 1, sizeof s.failed))
+    memset(&l, 0, sizeof l);
+    l.tiling = tiling;
+    l.source = source;
+    l.user = context->user;
+    l.jobs = sdv_jobs(opt, (int64_t)exact->patch_count + exact->nest_count, 64);
+    l.failed = failed;
+    l.out = out;
+    l.tangents.normals = normals;
+    l.tangents.stride = 3;
+    sdv_run(opt, sdv_tile_points_job, &l, l.jobs);
+    if (memchr(failed, 1, sizeof failed))
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-    for (int v = 0; v < tiling->cage->vertex_count; v++) {      // those without faces
-        size_t to = width * (size_t)v;
+    for (int v = 0; v < tiling->cage->vertex_count; v++) {      // those without faces stay
         if (tiling->home[v] >= 0) continue;
-        const float *from = source->in + width * (size_t)(surface->source ? surface->source[v] : v);
-        memcpy(points + to, from, width * sizeof(float));
-        if (normals) memset(normals + to, 0, width * sizeof(float));
+        for (size_t c = 0; c < channels; c++)
+            points[channels * (size_t)v + c] = (float)source->points[4 * (size_t)v + c];
+        if (normals) memset(normals + 3 * (size_t)v, 0, 3 * sizeof(float));
     }
 }
 
@@ -11637,10 +11468,9 @@ typedef struct sdv_tessellator {
     const subdiv_options *opt;
     sdv_arena  arena;
     sdv_tiling points, uvs;
-    sdv_source positions;
+    sdv_exact_work positions;
     int        triangles;
-    size_t    *first_face;              // [face_count + 1] the first face of each, and its place in
-    size_t    *first_face_vertex;       // [face_count + 1] face_vertices
+    sdv_faces_at *first;                // [face_count + 1] where the faces of each begin
     subdiv_mesh mesh;                   // the result
     int        jobs;
 } sdv_tessellator;
@@ -11648,6 +11478,40 @@ typedef struct sdv_tessellator {
 static int sdv_user_face(const subdiv_surface *surface, int f)
 {
     return surface->cage_face ? surface->cage_face[f] : f;
+}
+
+// The rate of face f in the user's list, or 0.
+static int sdv_face_rate(const sdv_tessellator *t, int f)
+{
+    return t->how->face_rates ? t->how->face_rates[sdv_user_face(t->surface, f)] : 0;
+}
+
+// Gives an edge its rate, unless that is 0.
+static void sdv_set_edge_rate(sdv_context *context, sdv_tessellator *t, int e, int rate)
+{
+    if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
+    if (rate) t->points.edge_rates[e] = rate;
+}
+
+// Gives edges the rates that the user has listed: edge by edge, face by face, or for all.
+static void sdv_set_edge_rates(sdv_context *context, sdv_tessellator *t)
+{
+    const sdv_level *cage = t->points.cage;
+    const subdiv_tessellation *how = t->how;
+    int *rates = t->points.edge_rates;
+    memset(rates, 0, (size_t)cage->edge_count * sizeof(int));
+    for (int h = 0; h < cage->face_vertex_count; h++) {
+        int f = sdv_face_of(cage, h), rate = sdv_face_rate(t, f);
+        int *edge = &rates[cage->face_edges[h]];
+        if (rate > *edge) *edge = rate;
+        if (rate >= 0) continue;
+        f = sdv_user_face(t->surface, f);
+        sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1, "face %d: the rate is %d", f, rate);
+    }
+    for (int e = 0; e < cage->edge_count; e++) {
+        if (how->edge_rates) sdv_set_edge_rate(context, t, e, how->edge_rates[e]);
+        if (!rates[e]) rates[e] = how->rate ? how->rate : 1;
+    }
 }
 
 // Asks the user for the rates of edges, by their ends and middles: the points at rate 2.
@@ -11669,44 +11533,10 @@ static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float f
         int h = halves.home[cage->vertex_count + e];
         if (h < 0) continue;
         int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
-        int low = a < b ? a : b, high = a + b - low;
-        int rate = t->how->edge_rate(t->how->user, e, points + 3 * (size_t)low,
-                                     points + 3 * (size_t)halves.starts[e],
-                                     points + 3 * (size_t)high);
-        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
-        if (rate) t->points.edge_rates[e] = rate;
-    }
-}
-
-// The rates of edges as they are given: one by one, or by the faces that have them, or for all.
-static void sdv_set_edge_rates(sdv_context *context, sdv_tessellator *t)
-{
-    const sdv_level *cage = t->points.cage;
-    const subdiv_tessellation *how = t->how;
-    int *rates = t->points.edge_rates, e, f;
-    for (e = 0; e < cage->edge_count; e++) rates[e] = 0;
-    for (int h = 0; h < cage->face_vertex_count && how->face_rates; h++) {
-        f = sdv_user_face(t->surface, sdv_face_of(cage, h));
-        int rate = how->face_rates[f], *edge = &rates[cage->face_edges[h]];
-        if (rate > *edge) *edge = rate;
-        if (rate < 0)
-            sdv_fail_mesh(context, SUBDIV_ERROR_ARGUMENT, f, -1,
-                          "face %d: the rate is %d", f, rate);
-    }
-    for (e = 0; e < cage->edge_count; e++) {
-        int rate = how->edge_rates ? how->edge_rates[e] : 0;
-        if (rate < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "edge %d: the rate is %d", e, rate);
-        if (rate) rates[e] = rate;
-        if (!rates[e]) rates[e] = how->rate ? how->rate : 1;
-    }
-}
-
-static void sdv_set_insides(sdv_tessellator *t)
-{
-    const int *rates = t->how->face_rates;
-    for (int f = 0; f < t->points.cage->face_count; f++) {
-        int rate = rates ? rates[sdv_user_face(t->surface, f)] : 0;
-        t->points.insides[f] = sdv_find_inside(sdv_tile_at(&t->points, f), rate);
+        const float *low = points + 3 * (size_t)(a < b ? a : b);
+        const float *high = points + 3 * (size_t)(a < b ? b : a);
+        const float *middle = points + 3 * (size_t)halves.starts[e];
+        sdv_set_edge_rate(context, t, e, t->how->edge_rate(t->how->user, e, low, middle, high));
     }
 }
 
@@ -11715,67 +11545,57 @@ static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
 {
     const subdiv_surface *uv = t->surface->uv;
     const sdv_level *from = t->points.cage, *to = &uv->order.cage;
-    sdv_new_tiling(context, &t->arena, &t->uvs, to, t->points.loop);
-    t->uvs.number = SDV_NEW(context, &t->arena, int, to->face_count);
-    if (context->result) return;
-    for (int f = 0; f < from->face_count; f++) {
+    unsigned char *hole = SDV_NEW(context, &t->arena, unsigned char, to->face_count);
+    for (int f = 0; f < from->face_count && hole; f++)
+        if (uv->own_face[f] >= 0) hole[uv->own_face[f]] = t->surface->hole[f];
+    if (hole) t->uvs = sdv_new_tiling(context, &t->arena, to, t->points.loop, hole);
+    for (int f = 0; f < from->face_count && !context->result; f++) {
         int own = uv->own_face[f], start = sdv_face_start(from, f);
         if (own < 0) continue;
-        t->uvs.number[own] = f;
         t->uvs.insides[own] = t->points.insides[f];
         for (int h = sdv_face_start(to, own), i = 0; h < sdv_face_end(to, own); h++, i++)
             t->uvs.edge_rates[to->face_edges[h]] =
                 t->points.edge_rates[from->face_edges[start + i]];
     }
-    sdv_find_homes(&t->uvs, t->surface->hole);
-    t->mesh.uv_count = sdv_place_points(context, &t->uvs);
+    if (!context->result) t->mesh.uv_count = sdv_place_points(context, &t->uvs);
 }
 
-// Is the face left out of the result?
-static int sdv_is_left_out(const sdv_tessellator *t, int f)
-{
-    int hole = t->surface->hole[f];
-    return hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes));
-}
-
-// How many faces each face of the cage gets and, if they are of several sizes, which.
+// Counts the faces of each face of the cage, and writes their sizes if there is room for them.
 static void sdv_count_tiles(sdv_context *context, sdv_tessellator *t)
 {
     int faces = t->points.cage->face_count;
     sdv_faces_at out = { t->triangles, NULL, t->mesh.face_sizes, 0, 0 };
     t->mesh.hole_count = 0;
-    for (int f = 0; f < faces; f++) {
-        t->first_face[f] = out.faces;
-        t->first_face_vertex[f] = out.face_vertices;
-        if (sdv_is_left_out(t, f)) continue;
-        sdv_tile tile = sdv_tile_at(&t->points, f);
-        sdv_count_inside_faces(&tile, &out);
-        sdv_put_strips(&tile, &out);
-        if (out.faces > INT_MAX) {
-            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
-                     "these rates make more than %d faces", INT_MAX);
-            return;
-        }
-        if (t->surface->hole[f]) t->mesh.hole_count += (int)(out.faces - t->first_face[f]);
+    for (int f = 0; f < faces && out.faces <= INT_MAX; f++) {
+        int hole = t->surface->hole[f];
+        t->first[f] = out;
+        if (hole == SDV_DROPPED || (hole && !(t->opt && t->opt->keep_holes))) continue;
+        sdv_put_tile(&t->points, f, &out);
+        if (hole) t->mesh.hole_count += (int)(out.faces - t->first[f].faces);
     }
-    t->first_face[faces] = out.faces;
-    t->first_face_vertex[faces] = out.face_vertices;
+    if (out.faces > INT_MAX)
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
+                 "these rates make more than %d faces", INT_MAX);
+    t->first[faces] = out;
     t->mesh.face_count = (int)out.faces;
 }
 
-// What the result will be like, all but its numbers.
+// Finds out what the result will be like, all but its numbers. Statements stand before the first
+// face of their face, or of the next one that has any.
 static void sdv_plan_tiles(sdv_context *context, sdv_tessellator *t)
 {
-    size_t faces = (size_t)t->points.cage->face_count;
-    t->first_face = SDV_NEW(context, &t->arena, size_t, faces + 1);
-    t->first_face_vertex = SDV_NEW(context, &t->arena, size_t, faces + 1);
+    const int *from = t->surface->fine.statement_faces;
+    int faces = t->points.cage->face_count, statements = t->surface->fine.statement_count;
+    int *to = t->mesh.statement_faces = SDV_NEW(context, &t->arena, int, statements);
+    t->first = SDV_NEW(context, &t->arena, sdv_faces_at, (size_t)faces + 1);
     t->mesh.face_sizes = NULL;
     if (!context->result) sdv_count_tiles(context, t);
     if (context->result) return;
-    size_t count = t->first_face[faces], face_vertices = t->first_face_vertex[faces];
-    t->mesh.face_size = t->triangles ? 3 : face_vertices == 4 * count ? 4 : 0;
+    for (int i = 0; i < statements; i++) to[i] = (int)t->first[from[i]].faces;
+    sdv_faces_at all = t->first[faces];
+    t->mesh.face_size = t->triangles ? 3 : all.face_vertices == 4 * all.faces ? 4 : 0;
     if (t->mesh.face_size) return;
-    t->mesh.face_sizes = SDV_NEW(context, &t->arena, int, count);
+    t->mesh.face_sizes = SDV_NEW(context, &t->arena, int, all.faces);
     if (!context->result) sdv_count_tiles(context, t);
 }
 
@@ -11785,33 +11605,16 @@ static void sdv_tile_job(void *context, int job)
     const subdiv_surface *uv = t->surface->uv;
     int faces = t->points.cage->face_count, end = sdv_share(faces, job + 1, t->jobs);
     for (int f = sdv_share(faces, job, t->jobs); f < end; f++) {
-        if (sdv_is_left_out(t, f)) continue;
-        size_t first = t->first_face[f], at = t->first_face_vertex[f];
-        sdv_faces_at out = { t->triangles, t->mesh.face_vertices, NULL, first, at };
-        sdv_tile tile = sdv_tile_at(&t->points, f);
-        sdv_put_inside(&tile, &out);
-        sdv_put_strips(&tile, &out);
-        for (size_t i = first; i < t->first_face[f + 1]; i++)
+        sdv_faces_at out = t->first[f], uvs = out;
+        if (t->first[f + 1].faces == out.faces) continue;
+        out.vertices = t->mesh.face_vertices;
+        sdv_put_tile(&t->points, f, &out);
+        for (size_t i = t->first[f].faces; i < out.faces; i++)
             t->mesh.cage_faces[i] = sdv_user_face(t->surface, f);
-        if (!uv) continue;
-        sdv_faces_at seams = { t->triangles, t->mesh.face_uvs, NULL, first, at };
-        for (size_t i = at; uv->own_face[f] < 0 && i < t->first_face_vertex[f + 1]; i++)
-            t->mesh.face_uvs[i] = -1;
-        if (uv->own_face[f] < 0) continue;
-        tile = sdv_tile_at(&t->uvs, uv->own_face[f]);
-        sdv_put_inside(&tile, &seams);
-        sdv_put_strips(&tile, &seams);
+        uvs.vertices = t->mesh.face_uvs;
+        if (uv && uv->own_face[f] >= 0) sdv_put_tile(&t->uvs, uv->own_face[f], &uvs);
+        while (uv && uvs.face_vertices < out.face_vertices) uvs.vertices[uvs.face_vertices++] = -1;
     }
-}
-
-static void sdv_make_tiles(sdv_tessellator *t)
-{
-    int *hole = t->mesh.holes, faces = t->points.cage->face_count;
-    t->jobs = sdv_jobs(t->opt, faces, 1);
-    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
-    for (int f = 0; f < faces && t->mesh.hole_count; f++)
-        for (size_t i = t->first_face[f]; i < t->first_face[f + 1] && t->surface->hole[f]; i++)
-            *hole++ = (int)i;
 }
 
 // The points of the result, its UVs and colours.
@@ -11820,52 +11623,48 @@ static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
     const subdiv_surface *surface = t->surface, *uv = surface->uv;
     subdiv_mesh *mesh = &t->mesh;
     sdv_make_tile_points(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
-               mesh->vertex_count);
+                         mesh->vertex_count);
     if (surface->colors) {
-        sdv_source colors = sdv_begin_source(context, &t->arena, surface, 3, surface->colors,
-                                             t->opt);
+        sdv_exact_work colors = sdv_begin_source(context, &t->arena, surface, 3, surface->colors,
+                                                 t->opt);
         sdv_make_tile_points(context, t->opt, &t->points, &colors, mesh->colors, NULL,
                              mesh->vertex_count);
     }
     if (uv) {
-        sdv_source uvs = sdv_begin_source(context, &t->arena, uv, 2, surface->uvs, t->opt);
+        sdv_exact_work uvs = sdv_begin_source(context, &t->arena, uv, 2, surface->uvs, t->opt);
         sdv_make_tile_points(context, t->opt, &t->uvs, &uvs, mesh->uvs, NULL, mesh->uv_count);
     }
-}
-
-// Statements stand before the first face of their face, or of the next one that has any.
-static void sdv_move_statements(sdv_context *context, sdv_tessellator *t)
-{
-    const subdiv_mesh *from = &t->surface->fine;
-    int *faces = SDV_NEW(context, &t->arena, int, from->statement_count);
-    for (int i = 0; i < from->statement_count && !context->result; i++)
-        faces[i] = (int)t->first_face[from->statement_faces[i]];
-    t->mesh.statement_faces = faces;
 }
 
 static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float *positions,
                            float factor)
 {
     const subdiv_surface *surface = t->surface;
-    sdv_new_tiling(context, &t->arena, &t->points, &surface->order.cage, surface->rules.loop);
+    subdiv_mesh made, *mesh = &t->mesh;
+    int faces = surface->order.cage.face_count, *holes;
+    t->points = sdv_new_tiling(context, &t->arena, &surface->order.cage, surface->rules.loop,
+                               surface->hole);
     t->positions = sdv_begin_source(context, &t->arena, surface, 3, positions, t->opt);
     if (context->result) return;
-    sdv_find_homes(&t->points, surface->hole);
     sdv_set_edge_rates(context, t);
     if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
     if (context->result) return;
-    sdv_set_insides(t);
-    subdiv_mesh made, *mesh = &t->mesh;
+    for (int f = 0; f < faces; f++)
+        sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
     *mesh = surface->fine;
     mesh->crease_count = mesh->corner_count = 0;
     mesh->vertex_count = sdv_place_points(context, &t->points);
     if (surface->uv && !context->result) sdv_tile_uvs(context, t);
     if (!context->result) sdv_plan_tiles(context, t);
-    if (!context->result) sdv_move_statements(context, t);
     if (!context->result) sdv_new_mesh(context, &made, mesh, SDV_LIMIT);
     if (context->result) return;
     *mesh = made;
-    sdv_make_tiles(t);
+    holes = mesh->holes;
+    for (int f = 0; f < faces && mesh->hole_count; f++)
+        for (size_t i = t->first[f].faces; i < t->first[f + 1].faces && surface->hole[f]; i++)
+            *holes++ = (int)i;
+    t->jobs = sdv_jobs(t->opt, faces, 1);
+    sdv_run(t->opt, sdv_tile_job, t, t->jobs);
     sdv_make_samples(context, t);
     sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
     if (context->result) subdiv_mesh_free(mesh);
@@ -11908,18 +11707,17 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
                                            const subdiv_tessellation *how,
                                            const subdiv_options *opt)
 {
-    subdiv_mesh out;
     subdiv_surface *surface = NULL;
-    memset(&out, 0, sizeof out);
     sdv_context context = sdv_begin(opt);
     if (!fine || fine == cage)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    if (context.result) return context.result;
+    memset(fine, 0, sizeof *fine);
     sdv_request request = sdv_request_of(cage, SUBDIV_EXACT, sdv_find_exact_calls(), 1, opt);
-    if (!context.result) context.result = sdv_prepare(&surface, &request);
+    context.result = sdv_prepare(&surface, &request);
     if (!context.result)
-        context.result = subdiv_surface_tessellate(&out, surface, cage->positions, how, opt);
+        context.result = subdiv_surface_tessellate(fine, surface, cage->positions, how, opt);
     subdiv_surface_free(surface);
-    if (fine && fine != cage) *fine = out;
     return context.result;
 }
 #endif // SUBDIV_NO_EXACT
