@@ -2834,7 +2834,7 @@ static int *sdv_put_face4(int *out, int a, int b, int c, int d)
 }
 
 // The fine faces between two rows of points, low and high: quads a b c d. First all of them as if
-// the rows' ends, too, stood on their lines.
+// the rows' ends, too, stood on their lines; behind the last point numbers may be beyond INT_MAX.
 //
 //     d c
 //     a b
@@ -2842,19 +2842,23 @@ static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
     unsigned along = (unsigned)low->line.step, above = (unsigned)high->line.step;
     unsigned a = (unsigned)low->line.first, d = (unsigned)high->line.first;
-    unsigned quad[4] = { a, a + along, d + above, d };
-    const unsigned step[4] = { along, along, above, above };
-    for (int i = 0; i < low->size; i++)
-        for (int k = 0; k < 4; k++) {
-            out[4 * i + k] = (int)quad[k];
-            quad[k] += step[k];         // behind the last point it may be beyond INT_MAX
-        }
-    int *last = out + 4 * ((size_t)low->size - 1);
-    out[0] = low->left;
-    out[3] = high->left;
-    last[1] = low->right;
-    last[2] = high->right;
-    return last + 4;
+    unsigned b = a + along, c = d + above;
+    int *first = out;
+    for (int i = 0; i < low->size; i++, out += 4) {
+        out[0] = (int)a;
+        out[1] = (int)b;
+        out[2] = (int)c;
+        out[3] = (int)d;
+        a += along;
+        b += along;
+        c += above;
+        d += above;
+    }
+    first[0] = low->left;
+    first[3] = high->left;
+    out[-3] = low->right;
+    out[-2] = high->right;
+    return out;
 }
 
 // Triangles a b d and, turned by half, c d b; the last of a row has no c.
