@@ -2668,6 +2668,13 @@ static int sdv_is_ngon(const sdv_order *order, int f)
     return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
 }
 
+// How many grids a face has.
+static int sdv_grids_of(const sdv_order *order, int f)
+{
+    return sdv_is_ngon(order, f) ? sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f)
+                                 : 1;
+}
+
 // The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
 // vertex and, of a quad, the one before are seen from their other ends.
 static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
@@ -2923,8 +2930,7 @@ static int *sdv_first_faces(const sdv_order *order, int f, int *out)
 // The fine faces of cage face f.
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
-    int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
-    int grids = sdv_is_ngon(order, f) ? end - start : 1;
+    int start = sdv_face_start(&order->cage, f), grids = sdv_grids_of(order, f);
     if (order->n == 2) return sdv_first_faces(order, f, out);
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid;
@@ -5827,12 +5833,6 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
     sdv_put_last(&run, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0]));
 }
 
-static int sdv_grids_of(const sdv_order *order, int f)
-{
-    return sdv_is_ngon(order, f) ? sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f)
-                                 : 1;
-}
-
 // The limit of what is regular and smooth. Linear tangents are the edges to points 1 and 2.
 typedef struct sdv_grid_limit {
     float w[3 * 9];                     // see sdv_ring_of
@@ -6581,6 +6581,14 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     return context.result;
 }
 
+// A mesh that is to be made of a cage: zero until it is.
+static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv_mesh *cage)
+{
+    if (!fine || fine == cage)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
+    else memset(fine, 0, sizeof *fine);
+}
+
 // ----------------------------------------------------------------------------------- >>calls
 // The public functions of >>refine, >>animation and >>limit: all that stands above is called from
 // here. subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
@@ -6593,24 +6601,17 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt)
 {
-    subdiv_mesh out;
-    subdiv_surface *surface = NULL;
-    memset(&out, 0, sizeof out);
     sdv_context context = sdv_begin(opt);
-    if (!fine || fine == cage)
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
-    else if (cage && cage->positions && cage->vertex_count > 0)    // before all the work
-        sdv_check_positions(&context, cage->positions, cage->vertex_count);
-    if (context.result) {
-        if (fine && fine != cage) *fine = out;
-        return context.result;
-    }
+    subdiv_surface *surface = NULL;
     sdv_request request = sdv_request_of(cage, levels, NULL, 1, opt);
-    subdiv_result result = sdv_prepare(&surface, &request);
-    if (!result) result = sdv_make_mesh(&out, surface, surface, cage->positions, opt);
+    sdv_begin_mesh(&context, fine, cage);
+    if (!context.result && cage && cage->positions && cage->vertex_count > 0)
+        sdv_check_positions(&context, cage->positions, cage->vertex_count);    // before all the work
+    if (!context.result) context.result = sdv_prepare(&surface, &request);
+    if (!context.result)
+        context.result = sdv_make_mesh(fine, surface, surface, cage->positions, opt);
     subdiv_surface_free(surface);
-    *fine = out;
-    return result;
+    return context.result;
 }
 
 SUBDIV_DEF subdiv_result subdiv_surface_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
@@ -11711,14 +11712,11 @@ SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh 
                                            const subdiv_tessellation *how,
                                            const subdiv_options *opt)
 {
-    subdiv_surface *surface = NULL;
     sdv_context context = sdv_begin(opt);
-    if (!fine || fine == cage)
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, fine ? "fine is the cage" : "fine is NULL");
-    if (context.result) return context.result;
-    memset(fine, 0, sizeof *fine);
+    subdiv_surface *surface = NULL;
     sdv_request request = sdv_request_of(cage, SUBDIV_EXACT, sdv_find_exact_calls(), 1, opt);
-    context.result = sdv_prepare(&surface, &request);
+    sdv_begin_mesh(&context, fine, cage);
+    if (!context.result) context.result = sdv_prepare(&surface, &request);
     if (!context.result)
         context.result = subdiv_surface_tessellate(fine, surface, cage->positions, how, opt);
     subdiv_surface_free(surface);
