@@ -2445,12 +2445,22 @@ static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
     return mask;
 }
 
+// The smooth rules of each scheme; bilinear has those of Catmull-Clark, and does not ask for them.
+static sdv_mask sdv_smooth_vertex(const sdv_rules *rules, int faces)
+{
+    return rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
+}
+
+static sdv_mask sdv_smooth_edge(const sdv_rules *rules, int faces)
+{
+    return rules->loop ? sdv_loop_edge(faces) : sdv_catmull_clark_edge(faces);
+}
+
 // The mask of a vertex with so many faces: that of its rule, or a blend with that of the next one.
 static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int faces)
 {
-    sdv_mask smooth = rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
     sdv_mask masks[SDV_CORNER + 1];
-    masks[SDV_SMOOTH] = masks[SDV_DART] = smooth;
+    masks[SDV_SMOOTH] = masks[SDV_DART] = sdv_smooth_vertex(rules, faces);
     masks[SDV_CREASE] = sdv_crease_vertex();
     masks[SDV_CORNER] = sdv_corner_vertex();
     if (rules->linear) return masks[SDV_CORNER];
@@ -2464,122 +2474,144 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
                               int faces, int triangles)
 {
     if (rules->linear || (sharpness > 0 && stays_sharp)) return sdv_crease_edge();
-    sdv_mask smooth = rules->loop ? sdv_loop_edge(faces) :
-                      triangles ? sdv_smooth_triangle_edge(triangles) :
-                      sdv_catmull_clark_edge(faces);
+    sdv_mask smooth = triangles && !rules->loop ? sdv_smooth_triangle_edge(triangles)
+                                                : sdv_smooth_edge(rules, faces);
     if (sharpness <= 0) return smooth;
     return sdv_blend((double)(sharpness < 1 ? sharpness : 1), sdv_crease_edge(), smooth);
 }
 
 // Limit masks: where a vertex ends up when refinement goes on forever, and how the surface lies
 // there. They are the left eigenvectors of one step of refinement around the vertex: of the
-// eigenvalue 1 for the point; of the next ones for tangents, whose weights sum to 0. They are for
-// levels from 1 on, where all faces are quads (Loop: triangles). e: the neighbours, f: under
-// Catmull-Clark the vertices across the quads. Sharpness that is left counts as infinite [OSD].
+// eigenvalue 1 for the point; of the next ones for tangents, whose weights sum to 0. So they follow
+// from the masks above, whatever weights these have. They are for levels from 1 on, where all faces
+// are quads (Loop: triangles). Sharpness that is left counts as infinite [OSD].
 //
-// Smooth, Catmull-Clark, valence n [HKD93]. Regular: 4/9, 1/9, 1/36.
+// Smooth, valence n [HKD93], [Loop87]: from the weights of the vertex mask (v.edge, v.face) and of
+// the edge mask (self, face). Regular: 4/9, 1/9, 1/36; Loop 1/2, 1/12.
 //
-//     f----e----f
-//     |    |    |            P = (n^2 v + 4 (sum of e) + (sum of f)) / (n (n + 5))
-//     e----v----e
-//     |    |    |            (n = 2 as well, where OpenSubdiv takes P = v)
-//     f----e----f
-static sdv_mask sdv_catmull_clark_limit(int n)
+//     f----e----f            P = (v + y (sum of e) + z (sum of f)) / (1 + n (y + z))
+//     |    |    |
+//     e----v----e            y = (v.edge + 2/3 v.face) / (1/2 - face/3)
+//     |    |    |            z = (v.face + 2 face y) / 3
+//     f----e----f            Loop:  y = v.edge / (1 - self - 2 face)    z = 0
+static sdv_mask sdv_smooth_limit(const sdv_rules *rules, int n)
 {
-    double w = 1.0 / (n * (n + 5.0));
-    sdv_mask mask = { n / (n + 5.0), 4 * w, w, 0 };
+    sdv_mask v = sdv_smooth_vertex(rules, n), edge = sdv_smooth_edge(rules, 2);
+    double y = rules->loop ? v.edge / (1 - edge.self - 2 * edge.face)
+                           : (v.edge + 2 * v.face / 3) / (0.5 - edge.face / 3);
+    double z = rules->loop ? 0 : (v.face + 2 * edge.face * y) / 3, all = 1 + n * (y + z);
+    sdv_mask mask = { 1 / all, y / all, z / all, 0 };
     return mask;
 }
 
-// Smooth, Loop, valence n [Loop87], with the b of its vertex point. Regular: 1/2, 1/12.
+// On a crease or boundary: the point of the curve along it, a cubic B-spline [HDD94].
 //
-//       e---e
-//      / \ / \               P = (1 - n w) v + w (sum of e)
-//     e---v---e
-//      \ / \ /               w = 1 / (n + 3 / (8 b))
-//       e---e
-static sdv_mask sdv_loop_limit(int n)
-{
-    double w = 1 / (n + 0.375 / sdv_loop_vertex(n).edge);
-    sdv_mask mask = { 1 - n * w, w, 0, 0 };
-    return mask;
-}
-
-// On a crease or boundary: the point of the cubic B-spline curve [HDD94].
-//
-//     1/6---2/3---1/6        P = (a + 4v + b) / 6
+//     1/6---2/3---1/6        P = (v + y (a + b)) / (1 + 2 y)      y = v.crease / (1 - self)
 static sdv_mask sdv_crease_limit(void)
 {
-    sdv_mask mask = { 2.0 / 3, 0, 0, 1.0 / 6 };
+    double y = sdv_crease_vertex().crease / (1 - sdv_crease_edge().self), all = 1 + 2 * y;
+    sdv_mask mask = { 1 / all, 0, 0, y / all };
     return mask;
 }
 
-// Tangents t0 t1, each the weights of v, the e and the f, counter-clockwise from any e; t0 x t1 is
-// along the normal, their lengths mean nothing. Smooth, valence n, a = 2 pi/n [HKD93], [Loop87]:
+// Waves around a vertex: its neighbours weigh 4 cos(i a), the vertices f across the quads g times
+// the cosines beside them. A step of refinement multiplies them by the eigenvalue L; self and face
+// are the weights of the edge mask:
+//
+//     L = (b + sqrt(b^2 - 16 self)) / 8      b = 1 + 4 self + 2 face (1 + cos a)
+//     g = 4 face / (4 L - 1)                 Loop:  L = self + 2 face cos a
+typedef struct sdv_wave {
+    double factor, face;                // L and g
+} sdv_wave;
+
+static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
+{
+    sdv_mask edge = sdv_smooth_edge(rules, 2);
+    double b = 1 + 4 * edge.self + 2 * edge.face * (1 + cos(a));
+    sdv_wave wave = { edge.self + 2 * edge.face * cos(a), 0 };
+    if (rules->loop) return wave;
+    wave.factor = (b + sqrt(b * b - 16 * edge.self)) / 8;
+    wave.face = 4 * edge.face / (4 * wave.factor - 1);
+    return wave;
+}
+
+// Tangents t0 t1, each the weights of v, of the e and of the f, counter-clockwise from any e; t0 x
+// t1 is along the normal, their lengths mean nothing. Smooth, a = 2 pi/n [HKD93], [Loop87]:
 //
 //     t0 = sum of  4 cos(i a) e_i + g (cos(i a) + cos((i+1) a)) f_i       t1: the same with sin
-//     g  = 1 / (4 L - 1)      L = (5 + cos a + cos(a/2) sqrt(2 (9 + cos a))) / 16, the eigenvalue
 //
 // f_i stands between e_i and e_(i+1); Loop: the e alone. Valence 2 has no two such waves. Two quads
 // back to back have no tangent plane; e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
 // triangles make a cusp, and have no t1.
-static double sdv_face_wave(double a)
+static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, double *t1)
 {
-    double c = cos(a);
-    return 4 / (1 + c + cos(a / 2) * sqrt(2 * (9 + c)));
-}
-
-static void sdv_smooth_tangents(int n, int loop, double *t0, double *t1)
-{
-    double a = 6.283185307179586477 / n, g = n > 2 ? sdv_face_wave(a) : 0;
+    double a = 6.283185307179586477 / n, g = n > 2 ? sdv_wave_of(rules, a).face : 0;
     t0[0] = t1[0] = 0;
     for (int i = 0; i < n; i++) {
         t0[1 + i] = 4 * cos(i * a);
         t1[1 + i] = n > 2 ? 4 * sin(i * a) : 0;
     }
-    for (int i = 0; i < n && !loop; i++) {
+    for (int i = 0; i < n && !rules->loop; i++) {
         t0[1 + n + i] = g * (cos(i * a) + cos((i + 1) * a));
         t1[1 + n + i] = n > 2 ? g * (sin(i * a) + sin((i + 1) * a)) : n == 2 ? 1 - 2 * i : 0;
     }
 }
 
 // On a crease or boundary, for the side with k faces: e_0 and e_k are along the crease, and
-// t0 = e_0 - e_k; t1 leads across. It is half a wave, a = pi/k, with the weights of v and of the
-// two ends that make it an eigenvector (the faces of [BLZ00] and of [HDD94] refine otherwise):
+// t0 = e_0 - e_k; t1 leads across (the faces of [BLZ00] and of [HDD94] refine otherwise). It is
+// half a wave, a = pi/k, with weights x of the two ends and y of v that make it an eigenvector:
 //
-//     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i, 0 < i < k for the e
-//          + w (e_0 + e_k) - (2 w + (4 + 2 g) r) v              r = (1 + cos a) / sin a
-//     w  = g ((1 + g) sin a - (2 + g) r)
-//     Loop:  t1 = (1 + 2 cos a) (sum of sin(i a) e_i) - r cos a (e_0 + e_k) - r v
+//     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i  +  x (e_0 + e_k) + y v
+//
+//     (L - c) x - v.crease y = p       c: self of the edge mask on a crease
+//     (L - v.self) y - 2 c x = q       p, q: what the wave gives to e_0 and to v
+//     p = (g / 4 + face) sin a         q = (4 self + 2 face + g / 2) r
+//     Loop:  p = 4 face sin a          q = 4 self r         r = (1 + cos a) / sin a
 //
 // Regular is Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v, and Loop k = 3. A single face
 // fills a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
-static void sdv_crease_tangents(int k, int loop, double *t0, double *t1)
+static void sdv_crease_tangents(const sdv_rules *rules, int k, double *t0, double *t1)
 {
-    double a = 3.14159265358979323846 / k, c = cos(a), r = (1 + c) / sin(a);
-    double g = sdv_face_wave(a), w = g * ((1 + g) * sin(a) - (2 + g) * r);
-    if (loop) w = -r * c;
+    sdv_mask edge = sdv_smooth_edge(rules, 2), v = sdv_crease_vertex();
+    double a = 3.14159265358979323846 / k, r = (1 + cos(a)) / sin(a), c = sdv_crease_edge().self;
+    sdv_wave wave = sdv_wave_of(rules, a);
+    double g = wave.face, end = wave.factor - c, middle = wave.factor - v.self;
+    double p = rules->loop ? 4 * edge.face * sin(a) : (g / 4 + edge.face) * sin(a);
+    double q = (rules->loop ? 4 * edge.self : 4 * edge.self + 2 * edge.face + g / 2) * r;
+    double determinant = end * middle - 2 * c * v.crease;
     for (int i = 0; i <= k; i++) {
         t0[1 + i] = 0;
-        t1[1 + i] = (loop ? 1 + 2 * c : 4) * sin(i * a);
+        t1[1 + i] = 4 * sin(i * a);
     }
-    for (int i = 0; i < k && !loop; i++) {
+    for (int i = 0; i < k && !rules->loop; i++) {
         t0[2 + k + i] = 0;
         t1[2 + k + i] = k > 1 ? g * (sin(i * a) + sin((i + 1) * a)) : 0;
     }
     t0[0] = 0;
     t0[1] = 1;
     t0[1 + k] = -1;
-    t1[0] = k == 1 ? -2 : loop ? -r : -2 * w - (4 + 2 * g) * r;
-    t1[1] = t1[1 + k] = k == 1 ? 1 : w;
+    t1[0] = k == 1 ? -2 : (end * q + 2 * c * p) / determinant;
+    t1[1] = t1[1 + k] = k == 1 ? 1 : (middle * p + v.crease * q) / determinant;
 }
 
 // The limit mask of a rule at a vertex with so many faces. A corner is where it ends up.
 static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
 {
     if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
-    if (rule == SDV_CREASE) return sdv_crease_limit();
-    return rules->loop ? sdv_loop_limit(faces) : sdv_catmull_clark_limit(faces);
+    return rule == SDV_CREASE ? sdv_crease_limit() : sdv_smooth_limit(rules, faces);
+}
+
+// Whether regular vertices and edges are refined as cubic B-splines and, under Loop, box splines
+// are: SUBDIV_EXACT takes their surface for that.
+static int sdv_is_spline(const sdv_rules *rules)
+{
+    static const double splines[2][6] = { { 0.5, 0.0625, 0.0625, 0.25, 0.25, 0.125 },
+                                          { 0.625, 0.0625, 0, 0.375, 0.125, 0.125 } };
+    sdv_mask v = sdv_smooth_vertex(rules, rules->loop ? 6 : 4), edge = sdv_smooth_edge(rules, 2);
+    double weights[6] = { v.self, v.edge, v.face, edge.self, edge.face,
+                          sdv_crease_vertex().crease }, off = 0;
+    for (int i = 0; i < 6; i++) off += fabs(weights[i] - splines[rules->loop][i]);
+    return rules->linear || off < 1e-9;
 }
 
 // ----------------------------------------------------------------------------------- >>order
@@ -3354,8 +3386,8 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
 
-// Adds the row that makes point target from the edge of h: its ends, then on each side the face point
-// or, under Loop, the vertex opposite.
+// Adds the row that makes point target from the edge of h: its ends, then on each side the face
+// point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, int target,
                          sdv_writer *writer)
 {
@@ -4228,8 +4260,8 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     if (!weights) return made;
     made.weights = weights;
     for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
-    if (kind == SDV_RING) sdv_smooth_tangents(faces, loop, t0, t1);
-    if (kind == SDV_SPAN) sdv_crease_tangents(faces, loop, t0, t1);
+    if (kind == SDV_RING) sdv_smooth_tangents(limit->rules, faces, t0, t1);
+    if (kind == SDV_SPAN) sdv_crease_tangents(limit->rules, faces, t0, t1);
     if (tip) t0[1] = t1[2] = 1;
     weights[0] = (float)mask.self;
     for (int i = 1; i < first; i++) weights[i] = 0;
@@ -5043,6 +5075,8 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
         if (!exact) sdv_check_size(&context, &work, levels, built.level.edge_count);
     }
     if (levels != 0 && !context.result) sdv_set_rules(&context, made, request, &built);
+    if (exact && !context.result && !sdv_is_spline(&made->rules))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "SUBDIV_EXACT is for the standard masks alone");
     if (levels != 0 && made->uv && !context.result)
         sdv_prepare_values(&context, made->uv, made, &work, &built, &values);
     if (exact && !request->alone && !context.result) {
@@ -5326,8 +5360,8 @@ static void sdv_make_rows(const sdv_batch *batch, int first, int end, const floa
     else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
 }
 
-// The limit at a regular smooth vertex. Its weights are a few: of the vertex, of its neighbours, and
-// under Catmull-Clark of the vertices across its faces; of pairs of opposite ones in the tangents.
+// The limit at a regular smooth vertex. Its weights are a few: of the vertex, of its neighbours,
+// and under Catmull-Clark of the vertices across its faces; of pairs of opposite ones in tangents.
 typedef struct sdv_ring_weights {
     sdv_four self, edge, face, along[2], across[2];
 } sdv_ring_weights;
@@ -5372,7 +5406,8 @@ SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_fo
 
 // A row of a limit: its point and two tangents.
 SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width,
-                                   const sdv_ring_weights *ring, const float *work, sdv_four *p, sdv_four *t0, sdv_four *t1)
+                                   const sdv_ring_weights *ring, const float *work, sdv_four *p,
+                                   sdv_four *t0, sdv_four *t1)
 {
     const float *w = weights, *w0 = w + width, *w1 = w0 + width;
     const sdv_four p0 = sdv_load(work + 4 * (size_t)points[0]);
@@ -5403,7 +5438,8 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
     if (regular) ring = sdv_ring_of(batch->limit, width == 7);
     sdv_four p, t0, t1;
     for (int i = first; i < end; i++, row += 1 + width) {
-        sdv_limit_row_sums(batch->limit, row + 1, width, regular ? &ring : NULL, work, &p, &t0, &t1);
+        sdv_limit_row_sums(batch->limit, row + 1, width, regular ? &ring : NULL, work, &p, &t0,
+                           &t1);
         sdv_put_point(out, row[0], p);
         if (out->tangents) sdv_put_tangents(out, row[0], t0, t1);
     }
@@ -5845,7 +5881,7 @@ static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
     int n = rules->loop ? 6 : 4, count = rules->loop ? 7 : 9;
     sdv_mask mask = sdv_limit_mask(rules, SDV_SMOOTH, n);
     double t0[9], t1[9];
-    sdv_smooth_tangents(n, rules->loop, t0, t1);
+    sdv_smooth_tangents(rules, n, t0, t1);
     limit.linear = rules->linear;
     for (int k = 0; k < count; k++) {
         limit.w[k] = (float)(k == 0 ? mask.self : k <= n ? mask.edge : mask.face);
@@ -5907,7 +5943,8 @@ static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_lim
         int index = sdv_inside_point(to->first, to->columns, to->triangle, r, first);
         if (end <= first) continue;
         const sdv_four *a = sdv_region_at(region, r - 1, first);
-        const sdv_four *b = sdv_region_at(region, r, first), *c = sdv_region_at(region, r + 1, first);
+        const sdv_four *b = sdv_region_at(region, r, first);
+        const sdv_four *c = sdv_region_at(region, r + 1, first);
         if (to->triangle)
             sdv_limit_row_points(limit, 1, a, b, c, end - first, index, to->origin, to->out);
         else sdv_limit_row_points(limit, 0, a, b, c, end - first, index, to->origin, to->out);
@@ -6593,8 +6630,8 @@ static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv
 // The public functions of >>refine, >>animation and >>limit: all that stands above is called from
 // here. subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
 //
-//     sdv_prepare        the cage's topology (sdv_cage_build), then sdv_prepare_rows: level by level
-//                        sdv_fill_level, where sdv_vertex_row asks sdv_vertex_mask for the weights
+//     sdv_prepare        the cage's topology (sdv_cage_build), then its rows (sdv_prepare_rows): on
+//                        each level sdv_fill_level > sdv_vertex_row > sdv_vertex_mask
 //     subdiv_evaluate    sdv_make_work, then sdv_make_points: rows and grids add up the points
 //     sdv_make_mesh      the arrays of the result, its faces and what it carries along
 
@@ -6606,7 +6643,7 @@ SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cag
     sdv_request request = sdv_request_of(cage, levels, NULL, 1, opt);
     sdv_begin_mesh(&context, fine, cage);
     if (!context.result && cage && cage->positions && cage->vertex_count > 0)
-        sdv_check_positions(&context, cage->positions, cage->vertex_count);    // before all the work
+        sdv_check_positions(&context, cage->positions, cage->vertex_count);    // before the work
     if (!context.result) context.result = sdv_prepare(&surface, &request);
     if (!context.result)
         context.result = sdv_make_mesh(fine, surface, surface, cage->positions, opt);
@@ -7837,14 +7874,13 @@ static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nes
     kind->limit = SDV_NEW(context, arena, double, 3 * (size_t)kind->points);
     if (context->result) return;
     if (kind->ring) {
-        sdv_smooth_tangents(n, loop, t0, t1);
+        sdv_smooth_tangents(rules, n, t0, t1);
         size[1] = sdv_tangent_size(t0, edges, across, 0, 4);
         size[2] = sdv_tangent_size(t1, edges, across, 0, 4);
     } else {
-        sdv_crease_tangents(n, loop, t0, t1);
+        sdv_crease_tangents(rules, n, t0, t1);
         size[1] = sdv_tangent_size(t0, edges, across, 0, 1);
-        size[2] = sdv_tangent_size(t1, edges, across, 1,
-                                   loop ? 1 + 2 * cos(3.14159265358979323846 / n) : 4);
+        size[2] = sdv_tangent_size(t1, edges, across, 1, 4);
     }
     for (int k = 0; k < 3; k++) {
         double *w = kind->limit + k * kind->points, *from = k == 1 ? t0 : t1;
