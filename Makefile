@@ -88,7 +88,7 @@ $(TESTS:%=$(OUT)/%.log): $(OUT)/%.log: $(OUT)/test_% FORCE
 $(OUT)/cli.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/test_cli.sh $<
 
-$(OUT)/compile.log $(OUT)/docs.log: $(OUT)/%.log: FORCE | $(OUT)
+$(OUT)/compile.log $(OUT)/docs.log $(OUT)/edited.log: $(OUT)/%.log: FORCE | $(OUT)
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/$*.sh
 
 $(OUT)/opensubdiv.log: $(OUT)/opensubdiv FORCE
@@ -101,7 +101,7 @@ HAVE_OSD := $(shell printf '\043include <opensubdiv/far/primvarRefiner.h>\n' | \
 ifeq ($(HAVE_OSD),yes)
 TEST_LOGS = $(OUT)/opensubdiv.log
 endif
-TEST_LOGS += $(OUT)/compile.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) $(OUT)/cli.log
+TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) $(OUT)/cli.log
 
 test: $(TEST_LOGS) examples
 ifneq ($(HAVE_OSD),yes)
