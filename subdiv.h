@@ -1636,6 +1636,7 @@ typedef struct sdv_place {              // of a face on its cage face's grid (se
 } sdv_place;
 
 typedef struct sdv_level {
+    // The mesh.
     int vertex_count, face_count, face_vertex_count;
     int face_size;                      // of all faces; 0: see face_starts
     int *face_starts;                   // [face_count + 1]     the first face-vertex of each face
@@ -1649,23 +1650,29 @@ typedef struct sdv_level {
     int *edge_first;                    // [edge_count]         their first face-vertices
     int  edge_count;
 
+    // How sharp it is.
     float *sharpness;                   // [face_vertex_count]  of the edge that leads on
     float *half_sharpness;              // [face_vertex_count]  one level down, of the half of that
                                         //                      edge here; NULL: sdv_fade
     float *vertex_sharpness;            // [vertex_count]
     unsigned char *creased;             // [vertex_count]       has a sharp edge
+
+    // How the sharpness of values fades with that of the cage: see >>face-varying.
     int *partner;                       // [vertex_count]       fades as that vertex does; -1: by
                                         //                      itself; NULL: all do
     float *seam;                        // [vertex_count]       of those with a partner: the largest
                                         //                      sharpness of a semi-sharp seam there
     int *origin, origin_count;          // [vertex_count]       vertex of the cage, or -1; NULL:
-    float *sums;                        // [2 * origin_count]   not needed (see >>face-varying)
+    float *sums;                        // [2 * origin_count]   not needed
 
+    // Where its points are among the work points.
     int    first_point;                 // vertex v is work point first_point + v
     const struct sdv_order *order;      // of the cage on a later level: its points; else NULL
     int   *face_point;                  // [face_count]         work points of the face points
-    sdv_place *places;                  // [face_count]         of SUBDIV_EXACT; NULL on level 0
-    unsigned char *core;                // [face_count]         becomes leaves of SUBDIV_EXACT
+
+    // What SUBDIV_EXACT does with its faces.
+    sdv_place *places;                  // [face_count]         where they are; NULL on level 0
+    unsigned char *core;                // [face_count]         becomes leaves
     unsigned char *rough;               // [face_count]         in the core, and not a patch
 } sdv_level;
 
@@ -4077,39 +4084,46 @@ typedef struct sdv_exact_calls {
 static const sdv_exact_calls *sdv_find_exact_calls(void);       // NULL under SUBDIV_NO_EXACT
 
 struct subdiv_surface {
-    sdv_arena arena;
-    sdv_arena points;                   // of what makes points alone: rows and patches
+    // Of every surface.
+    sdv_arena arena;                    // its first block holds this struct
+    sdv_arena points;                   // of what makes points alone: rows, patches
+    int       levels;
+    sdv_rules rules;
+    sdv_order order;                    // of the result, and the topology of the cage
+    int       cage_vertex_count, cage_face_count;
+    int       face_count;               // of the cage, also faces without values
+    int      *cage_face;                // [face_count] the user's face; NULL: the same
     int       borrows;                  // the cage's faces, as the cage outlives the surface; it
                                         // is the library's own: nobody asks it for locations
-    int       levels;
-    int       cage_vertex_count, cage_face_count;
-    sdv_rules rules;
+
+    // What makes its points; from level 1 on.
+    int       work_count;               // work points
     sdv_batches *refine;                // [levels] the rows to each next level; of SUBDIV_EXACT
                                         // [2 levels]: to face points, to the others
+    sdv_order *orders;                  // [levels + 1] of the work points; not of SUBDIV_EXACT
+    int      *bases;                    // [levels + 2] where levels start among them
+    int      *quads;                    // see sdv_order
     sdv_batches limit_rows;             // of a limit: from the last level to it
-    int      *bases;                    // [levels + 2] where each level starts among work points
-    int      *quads;                    // of sdv_order
-    sdv_order *orders;                  // [levels + 1] of the work points
-
-    subdiv_surface *at_level_1;         // what makes the points of a limit on level 0
+    subdiv_surface *at_level_1;         // of a limit on level 0: what makes its points
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     const struct sdv_exact_calls *exact_calls;
-    int       work_count;               // work points
-    sdv_order order;
-    int       face_count;               // all faces, also those without values
+
+    // What is known of the result before its points are made; not of SUBDIV_EXACT.
+    subdiv_mesh fine;                   // without positions; without faces if levels > 0
     unsigned char *hole;                // [face_count]
     int      *first_face;               // [face_count + 1] of each one's fine faces; NULL: none are
                                         // left out, see sdv_first_fine_face
-    int      *cage_face;                // [face_count] the user's face; NULL: the same
-    subdiv_mesh fine;                   // the result without positions; without faces if levels > 0
 
-    subdiv_surface *uv;                 // what the result carries along: UVs, a surface of
-    float    *uvs, *colors;             // their own, and colours, both of the cage
+    // What the result carries along.
+    subdiv_surface *uv;                 // UVs: a surface of their own; or NULL
+    float    *uvs, *colors;             // of the cage
+
+    // Of a surface of values.
     int       is_values;                // made by subdiv_prepare_face_varying
-    int      *source;                   // values: [cage_vertex_count] which of the user's each
+    int      *source;                   // [cage_vertex_count] which of the user's values each
                                         // vertex takes; NULL: the same
-    int      *own_face;                 // values: [face_count] the face of order, -1: without
-};                                      // values; NULL: the same
+    int      *own_face;                 // [face_count] the face of order, -1: without values; NULL:
+};                                      // the same
 
 // Cuts faces into fans around vertex 0: what each face-vertex has.
 static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
