@@ -6173,10 +6173,13 @@ static void sdv_make_face_points(const subdiv_surface *surface, float *work, int
 static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face,
                                  int end, const sdv_window *out)
 {
-    const float *from = work + 4 * (size_t)sdv_first_face_point(surface);
-    int first = sdv_first_inside(&surface->order, 0);
-    for (int f = face; f < end && f < surface->cage_face_count; f++)
-        sdv_put_point(out, first + f, sdv_load(from + 4 * (size_t)f));
+    const float *from = work + 4 * ((size_t)sdv_first_face_point(surface) + (size_t)face);
+    int index = sdv_first_inside(&surface->order, face) - out->first;
+    if (end > surface->cage_face_count) end = surface->cage_face_count;
+    if (end - face > out->count - index) end = face + out->count - index;
+    for (int f = face; f < end; f++, index++, from += 4)
+        if (index >= 0)
+            sdv_store_some(out->values + out->stride * (size_t)index, sdv_load(from), out->lanes);
 }
 
 // A level from the one before, for the points that belong to cage faces face to end - 1.
