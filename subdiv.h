@@ -1432,7 +1432,7 @@ static void sdv_warn(sdv_context *context, int line, const char *format, ...)
 }
 
 // ------------------------------------------------------------------------------ >>validate
-// Everything behind this section may trust the mesh: all arrays there, all indices in range.
+// Everything after this section may trust the mesh: all arrays are there, all indices in range.
 
 SDV_INLINE int sdv_face_size(const subdiv_mesh *mesh, int face)
 {
@@ -1448,7 +1448,7 @@ static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
     return count;
 }
 
-// Is every array there that has a count?
+// Checks that every array with a count is there.
 static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
 {
     const struct { const char *name; int count; const void *array; } arrays[] = {
@@ -1604,7 +1604,7 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
     }
 }
 
-// Checks the numbers of count vectors or, by width 2, of UVs.
+// Checks count vectors of so many numbers each: 3 for a vertex, 2 for a UV.
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
@@ -12459,8 +12459,8 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     }
 }
 
-// Reports entries of a list that name an item once more. There are so many items: edges (ends: 2),
-// vertices (1) or faces (0).
+// Reports entries of a list that name an item once more. items: how many there are, of edges
+// (ends: 2), vertices (1) or faces (0).
 static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int items,
                              int ends, const char *format)
 {
@@ -12469,10 +12469,11 @@ static void sdv_report_twice(const sdv_checker *checker, const int *list, int co
     for (int i = 0; i < count; i++) {
         int item = list[i];
         if (item < 0) continue;
-        const int *end = ends == 2 ? checker->ends + 2 * (size_t)item : &item;
+        int a = ends == 2 ? checker->ends[2 * item] : item;
+        int b = ends == 2 ? checker->ends[2 * item + 1] : -1;
         if (last[item] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? end[0] : -1,
-                      ends == 2 ? end[1] : -1, format, last[item], i, end[0], end[ends / 2]);
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? a : -1, b,
+                      format, last[item], i, a, b);
         last[item] = i;
     }
 }
