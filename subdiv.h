@@ -1367,7 +1367,7 @@ static void sdv_warn(sdv_context *context, int line, const char *format, ...)
 }
 
 // ------------------------------------------------------------------------------ >>validate
-// Everything behind this section may trust the mesh: all arrays there, all indices in range.
+// Everything after this section may trust the mesh: all arrays are there, all indices in range.
 
 SDV_INLINE int sdv_face_size(const subdiv_mesh *mesh, int face)
 {
@@ -1383,7 +1383,7 @@ static size_t sdv_face_vertex_count(const subdiv_mesh *mesh)
     return count;
 }
 
-// Is every array there that has a count?
+// Checks that every array with a count is there.
 static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
 {
     const struct { const char *name; int count; const void *array; } arrays[] = {
@@ -1539,7 +1539,7 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
     }
 }
 
-// Checks the numbers of count vectors or, by width 2, of UVs.
+// Checks count vectors of so many numbers each: 3 for a vertex, 2 for a UV.
 static void sdv_check_finite(sdv_context *context, const char *what, int width,
                              const float *values, int count)
 {
@@ -12058,11 +12058,10 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
 
 // ---------------------------------------------------------------------------- >>inspection
 
-// Counts the edges of a cage that has the sharpness of the lists alone.
-static void sdv_count_edges(subdiv_info *info, const sdv_cage *cage)
+// Counts edges, vertices and faces of a cage that has the sharpness of the lists alone.
+static void sdv_count_parts(subdiv_info *info, const sdv_cage *cage, int regular)
 {
     const sdv_level *level = &cage->level;
-    info->edge_count = level->edge_count;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e];
         info->boundary_edge_count += sdv_is_boundary(level, h);
@@ -12070,12 +12069,6 @@ static void sdv_count_edges(subdiv_info *info, const sdv_cage *cage)
         info->crease_count += level->sharpness[h] > 0;
         info->infinite_crease_count += level->sharpness[h] >= SUBDIV_INFINITE;
     }
-}
-
-static void sdv_count_vertices(subdiv_info *info, const sdv_cage *cage, int regular)
-{
-    const sdv_level *level = &cage->level;
-    info->vertex_count = level->vertex_count;
     for (int v = 0; v < level->vertex_count; v++) {
         int faces = level->vertex_faces[v], valence = sdv_count_edges_at(cage, v).count;
         if (valence > info->max_valence) info->max_valence = valence;
@@ -12084,18 +12077,12 @@ static void sdv_count_vertices(subdiv_info *info, const sdv_cage *cage, int regu
         else if (valence == faces && valence != regular) info->extraordinary_vertex_count++;
         info->corner_count += level->vertex_sharpness[v] > 0;
     }
-}
-
-static void sdv_count_faces(subdiv_info *info, const sdv_cage *cage)
-{
-    const sdv_level *level = &cage->level;
-    info->face_count = level->face_count;
     for (int f = 0; f < level->face_count; f++) {
         int size = sdv_face_end(level, f) - sdv_face_start(level, f);
-        if (size == 3) info->triangle_count++;
-        else if (size == 4) info->quad_count++;
-        else info->ngon_count++;
         if (size > info->max_face_size) info->max_face_size = size;
+        info->triangle_count += size == 3;
+        info->quad_count += size == 4;
+        info->ngon_count += size > 4;
         info->hole_count += cage->hole[f];
     }
 }
@@ -12136,9 +12123,10 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
     if (!context.result) sdv_user_sharpness(&context, &arena, &cage, mesh);
     if (!context.result) {
-        sdv_count_edges(info, &cage);
-        sdv_count_vertices(info, &cage, mesh->scheme == SUBDIV_LOOP ? 6 : 4);
-        sdv_count_faces(info, &cage);
+        info->vertex_count = mesh->vertex_count;
+        info->edge_count = cage.level.edge_count;
+        info->face_count = mesh->face_count;
+        sdv_count_parts(info, &cage, mesh->scheme == SUBDIV_LOOP ? 6 : 4);
         sdv_count_components(info, &cage.level, parent);
     }
     sdv_arena_free(&arena);
@@ -12385,8 +12373,8 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     }
 }
 
-// Reports entries of a list that name an item once more. There are so many items: edges (ends: 2),
-// vertices (1) or faces (0).
+// Reports entries of a list that name an item once more. items: how many there are, of edges
+// (ends: 2), vertices (1) or faces (0).
 static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int items,
                              int ends, const char *format)
 {
@@ -12395,10 +12383,11 @@ static void sdv_report_twice(const sdv_checker *checker, const int *list, int co
     for (int i = 0; i < count; i++) {
         int item = list[i];
         if (item < 0) continue;
-        const int *end = ends == 2 ? checker->ends + 2 * (size_t)item : &item;
+        int a = ends == 2 ? checker->ends[2 * item] : item;
+        int b = ends == 2 ? checker->ends[2 * item + 1] : -1;
         if (last[item] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? end[0] : -1,
-                      ends == 2 ? end[1] : -1, format, last[item], i, end[0], end[ends / 2]);
+            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? a : -1, b,
+                      format, last[item], i, a, b);
         last[item] = i;
     }
 }
@@ -14388,7 +14377,7 @@ typedef struct sdv_explainer {
     int          item;                  // of this vertex, edge or face
     double      *weights;               // [vertices, faces] its mask
     int         *order;                 // [vertices] those that have a weight, heavy ones first
-    sdv_group   *groups;                // [vertices] the order cut into groups
+    sdv_group   *groups;                // [group_count] the order cut into groups
     int          group_count;
 } sdv_explainer;
 
@@ -14442,7 +14431,6 @@ static void sdv_find_mask(sdv_explainer *x)
     sdv_writer_new(x->context, &x->arena, level, &writer);
     x->weights = SDV_NEW(x->context, &x->arena, double, points);
     x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
-    x->groups = SDV_NEW(x->context, &x->arena, sdv_group, level->vertex_count);
     if (!x->context->result) {
         for (size_t i = 0; i < points; i++) x->weights[i] = 0;
         for (int f = 0; f < level->face_count; f++) level->face_point[f] = level->vertex_count + f;
@@ -14474,7 +14462,8 @@ static void sdv_find_groups(sdv_explainer *x)
         order[at] = v;
         count++;
     }
-    for (int i = 0; i < count; i++) {
+    x->groups = SDV_NEW(x->context, &x->arena, sdv_group, count);
+    for (int i = 0; i < count && !x->context->result; i++) {
         double weight = w[order[i]];
         if (i == 0 || weight <= least) {
             sdv_group *group = &x->groups[x->group_count++];
@@ -14651,79 +14640,69 @@ static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
             smooth && !x->rules.loop ? ", the f the face points there" : "");
 }
 
-static void sdv_say_sharpness(sdv_explainer *x, float sharpness)
+static const char *sdv_name_sharpness(float sharpness, char text[48])
 {
-    char text[32];
-    *sdv_write_exactly(text, sharpness) = 0;
-    if (sharpness >= SUBDIV_INFINITE) sdv_say(x->out, ", sharp forever");
-    else sdv_say(x->out, ", of sharpness %s", text);
+    sdv_text out = { text, 0, 48 };
+    char number[32];
+    *sdv_write_exactly(number, sharpness) = 0;
+    sdv_say(&out, sharpness >= SUBDIV_INFINITE ? "sharp forever" : "of sharpness %s", number);
+    return text;
 }
 
 // Names the edge of h by its ends: vertex v first if it is one, else the lower-numbered one.
-static void sdv_say_edge(sdv_explainer *x, int h, int v)
+static const char *sdv_name_edge(const sdv_level *level, int h, int v, char text[32])
 {
-    const sdv_level *level = &x->cage.level;
+    sdv_text out = { text, 0, 32 };
     int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
     int from = a == v || b == v ? v : a < b ? a : b;
-    sdv_say(x->out, "%d-%d", from, a + b - from);
+    sdv_say(&out, "%d-%d", from, a + b - from);
+    return text;
 }
 
-// Counts the sharp edges at a vertex and, if asked to, lists them.
-static int sdv_say_sharp_edges(sdv_explainer *x, int v, int list)
+// Counts the sharp edges at a vertex, and lists the first ones.
+static int sdv_list_sharp_edges(const sdv_level *level, int v, char list[64])
 {
-    const sdv_level *level = &x->cage.level;
+    sdv_text out = { list, 0, 64 };
     int count = 0;
+    char name[32];
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++) {
-            if (level->sharpness[two[i]] <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
-            if (list && count) sdv_say(x->out, " and ");
-            if (list) sdv_say_edge(x, two[i], v);
-            count++;
-        }
+        for (int i = 0; i < 2; i++)
+            if (level->sharpness[two[i]] > 0 && sdv_is_edge_at(level, two[i], i == 0))
+                sdv_say(&out, count++ ? " and %s" : "%s", sdv_name_edge(level, two[i], v, name));
     }
     return count;
 }
 
-static void sdv_say_corner(sdv_explainer *x, int v)
-{
-    float sharpness = x->cage.level.vertex_sharpness[v];
-    if (x->cage.level.vertex_faces[v] == 0) {
-        sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
-        return;
-    }
-    sdv_say(x->out, "Vertex %d is a corner", v);
-    if (sharpness > SUBDIV_INFINITE)
-        sdv_say(x->out, x->cage.vertex_nonmanifold[v]
-                        ? ": the surface is non-manifold there"
-                        : ": it has one face, and the rule is \"edge and corner\"");
-    else if (sharpness > 0)
-        sdv_say_sharpness(x, sharpness);
-    else
-        sdv_say(x->out, ": %d sharp edges meet there", sdv_say_sharp_edges(x, v, 0));
-    sdv_say(x->out, ".\n");
-}
-
 static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
 {
-    if (x->rules.linear) {
+    const sdv_level *level = &x->cage.level;
+    float sharpness = level->vertex_sharpness[v];
+    int implied = sharpness > SUBDIV_INFINITE, faces = level->vertex_faces[v];
+    char edges[64] = "", text[48];
+    int sharp_edges = sdv_list_sharp_edges(level, v, edges);
+    if (x->rules.linear)
         sdv_say(x->out, "Refinement is linear: vertex %d stays where it is.\n", v);
-    } else if (rule == SDV_CORNER) {
-        sdv_say_corner(x, v);
-    } else if (rule == SDV_SMOOTH) {
-        sdv_say(x->out, "Vertex %d is interior, of valence %d, and smooth.\n", v,
-                x->cage.level.vertex_faces[v]);
-    } else if (rule == SDV_DART) {
-        sdv_say(x->out, "Vertex %d is a dart: the crease ", v);
-        sdv_say_sharp_edges(x, v, 1);
-        sdv_say(x->out, " ends there.\nIt moves as if it were smooth.\n");
-    } else {
-        int boundary = sdv_count_edges_at(&x->cage, v).boundary == 2;
-        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n", v,
-                boundary ? "the boundary" : "a crease");
-        sdv_say_sharp_edges(x, v, 1);
-        sdv_say(x->out, ", a cubic B-spline.\n");
-    }
+    else if (rule == SDV_SMOOTH)
+        sdv_say(x->out, "Vertex %d is interior, of valence %d, and smooth.\n", v, faces);
+    else if (rule == SDV_DART)
+        sdv_say(x->out, "Vertex %d is a dart: the crease %s ends there.\n"
+                "It moves as if it were smooth.\n", v, edges);
+    else if (rule == SDV_CREASE)
+        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n"
+                "%s, a cubic B-spline.\n", v, sdv_count_edges_at(&x->cage, v).boundary == 2
+                ? "the boundary" : "a crease", edges);
+    else if (faces == 0)
+        sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
+    else if (implied && x->cage.vertex_nonmanifold[v])
+        sdv_say(x->out, "Vertex %d is a corner: the surface is non-manifold there.\n", v);
+    else if (implied)
+        sdv_say(x->out, "Vertex %d is a corner: it has one face, and the rule is "
+                "\"edge and corner\".\n", v);
+    else if (sharpness > 0)
+        sdv_say(x->out, "Vertex %d is a corner, %s.\n", v, sdv_name_sharpness(sharpness, text));
+    else
+        sdv_say(x->out, "Vertex %d is a corner: %d sharp edges meet there.\n", v, sharp_edges);
 }
 
 static void sdv_explain_vertex(sdv_explainer *x, int v)
@@ -14775,24 +14754,21 @@ static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
     const sdv_level *level = &x->cage.level;
     int h = level->edge_first[e];
     float sharpness = level->sharpness[h];
-    sdv_say(x->out, x->rules.linear ? "Refinement is linear: the edge point is the middle of edge "
-                                    : "Edge ");
-    sdv_say_edge(x, h, -1);
-    if (x->rules.linear) {
-        sdv_say(x->out, ".\n");
-    } else if (x->cage.edge_nonmanifold[e]) {
-        sdv_say(x->out, " is non-manifold, and so a crease.\n");
-    } else if (sdv_is_boundary(level, h)) {
-        sdv_say(x->out, " is on the boundary, which is a crease.\n");
-    } else if (sharpness <= 0) {
-        sdv_say(x->out, " is smooth, between the faces %d and %d.\n", sdv_face_of(level, h),
-                sdv_face_of(level, level->across[h]));
-    } else {
-        sdv_say(x->out, " is a crease");
-        sdv_say_sharpness(x, sharpness);
-        sdv_say(x->out, stays_sharp ? ".\n" : ".\nIt ends before the next level%s\n",
-                sharpness < 1 ? ", and so much of the point is still sharp:" : ".");
-    }
+    char text[48], name[32];
+    sdv_name_edge(level, h, -1, name);
+    if (x->rules.linear)
+        sdv_say(x->out, "Refinement is linear: the edge point is the middle of edge %s.\n", name);
+    else if (x->cage.edge_nonmanifold[e])
+        sdv_say(x->out, "Edge %s is non-manifold, and so a crease.\n", name);
+    else if (sdv_is_boundary(level, h))
+        sdv_say(x->out, "Edge %s is on the boundary, which is a crease.\n", name);
+    else if (sharpness <= 0)
+        sdv_say(x->out, "Edge %s is smooth, between the faces %d and %d.\n", name,
+                sdv_face_of(level, h), sdv_face_of(level, level->across[h]));
+    else
+        sdv_say(x->out, "Edge %s is a crease, %s.%s\n", name, sdv_name_sharpness(sharpness, text),
+                stays_sharp ? "" : sharpness >= 1 ? "\nIt ends before the next level." :
+                "\nIt ends before the next level, and so much of the point is still sharp:");
 }
 
 static void sdv_explain_edge(sdv_explainer *x, int e)
@@ -14821,15 +14797,15 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
 // Writes the first line, the words, the mask.
 static void sdv_explain_point(sdv_explainer *x, int point)
 {
-    sdv_level *level = &x->cage.level;
+    const sdv_level *level = &x->cage.level;
+    char name[32];
     sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
     if (x->kind == SDV_VERTEX_POINT) {
         sdv_say(x->out, "vertex point of vertex %d.\n", point);
         sdv_explain_vertex(x, point);
     } else if (x->kind == SDV_EDGE_POINT) {
-        sdv_say(x->out, "edge point of edge ");
-        sdv_say_edge(x, level->edge_first[x->item], -1);
-        sdv_say(x->out, ".\n");
+        sdv_say(x->out, "edge point of edge %s.\n",
+                sdv_name_edge(level, level->edge_first[x->item], -1, name));
         sdv_explain_edge(x, x->item);
     } else {
         int f = x->item, n = sdv_face_end(level, f) - sdv_face_start(level, f);
@@ -14887,12 +14863,10 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     if (!context.result) sdv_find_point(&x, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
     if (!context.result) sdv_find_mask(&x);
-    if (!context.result) {
-        sdv_find_groups(&x);
-        sdv_explain_point(&x, point);
-        if (out.size + 1 == capacity)
-            sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
-    }
+    if (!context.result) sdv_find_groups(&x);
+    if (!context.result) sdv_explain_point(&x, point);
+    if (!context.result && out.size + 1 == capacity)
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
     if (context.result) text[0] = 0;
     sdv_arena_free(&x.arena);
     subdiv_surface_free(cut);

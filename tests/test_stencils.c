@@ -666,6 +666,25 @@ static void test_explained_loop(void)
     }
 }
 
+// Wherever the text is cut off, nothing is written beyond its room. All points of a single quad
+// have a picture.
+static void test_explained_room(void)
+{
+    static test_cage c;
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 1, 1);
+    for (int point = 0; point < 9; point++) {
+        explain(&c.mesh, point);
+        const size_t size = strlen(text);
+        for (size_t room = 1; room <= size; room++) {
+            memset(text, '#', size + 64);
+            CHECK_EQUAL(subdiv_explain(text, room, &c.mesh, point, NULL), SUBDIV_ERROR_TOO_LARGE);
+            CHECK_EQUAL(strlen(text), 0);
+            for (size_t k = room; k < size + 64; k++) CHECK(text[k] == '#');
+        }
+        CHECK_EQUAL(subdiv_explain(text, size + 2, &c.mesh, point, NULL), SUBDIV_OK);
+    }
+}
+
 // ---------------------------------------------------------------------------------------- errors
 
 static int is_zero(const subdiv_stencils *s)
@@ -753,6 +772,7 @@ int main(void)
     RUN(test_explained_catmull_clark);
     RUN(test_explained_shapes);
     RUN(test_explained_loop);
+    RUN(test_explained_room);
     RUN(test_errors);
     return test_end("stencils");
 }
