@@ -14404,6 +14404,13 @@ static const char *sdv_fraction(double number, char text[32])
     return text;
 }
 
+// Whether a mask has these weights, as the formula of a paper does.
+static int sdv_has_weights(sdv_mask mask, double self, double edge, double face, double crease)
+{
+    return fabs(mask.self - self) + fabs(mask.edge - edge) + fabs(mask.face - face) +
+           fabs(mask.crease - crease) < 1e-9;
+}
+
 // ---- the mask
 
 // Adds the row that was written last to the weights of vertices and face points, factor times.
@@ -14610,22 +14617,40 @@ static void sdv_say_blend(sdv_explainer *x, const char *name, double weight, con
             sdv_fraction(1 - weight, less), smooth);
 }
 
-// Writes the formula of a rule at a vertex of valence n.
+// Writes the weights of a vertex mask.
+static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
+{
+    const char *const names[] = { "v", "(a + b)", "(e1 + ... + en)", "(f1 + ... + fn)" };
+    double weights[] = { mask.self, mask.crease, mask.edge, mask.face };
+    char text[32];
+    for (int i = 0; i < 4; i++)
+        if (fabs(weights[i]) > 0)
+            sdv_say(x->out, "%s%s %s", i ? " + " : "", sdv_fraction(weights[i], text), names[i]);
+    sdv_say(x->out, "\n");
+}
+
+// Writes the formula of a rule at a vertex of valence n: that of the paper, if the mask has it.
 static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
 {
+    sdv_fading stays = { rule, rule, 0 };
+    sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
+    double c = 0.375 + 0.25 * cos(6.283185307179586477 / n), b = (0.625 - c * c) / n;
+    double w = 1.0 / ((double)n * n);
     char text[32];
     sdv_say(x->out, "    %s = ", name);
     if (rule == SDV_CORNER || x->rules.linear)
         sdv_say(x->out, "v\n");
-    else if (rule == SDV_CREASE)
+    else if (rule == SDV_CREASE && sdv_has_weights(mask, 0.75, 0, 0, 0.125))
         sdv_say(x->out, "(a + 6 v + b) / 8  [HDD94]\n");
-    else if (x->rules.loop)
+    else if (rule != SDV_CREASE && x->rules.loop && sdv_has_weights(mask, 1 - n * b, b, 0, 0))
         sdv_say(x->out, "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
                 "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
-                sdv_fraction(sdv_loop_vertex(n).edge, text), n);
-    else
+                sdv_fraction(mask.edge, text), n);
+    else if (rule != SDV_CREASE && sdv_has_weights(mask, (n - 2.0) / n, w, w, 0))
         sdv_say(x->out, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d"
                 "  [CC78]\n", n);
+    else
+        sdv_say_weights(x, mask);
 }
 
 // Says what the letters in the formulas of two rules stand for.
@@ -14689,9 +14714,10 @@ static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
         sdv_say(x->out, "Vertex %d is a dart: the crease %s ends there.\n"
                 "It moves as if it were smooth.\n", v, edges);
     else if (rule == SDV_CREASE)
-        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n"
-                "%s, a cubic B-spline.\n", v, sdv_count_edges_at(&x->cage, v).boundary == 2
-                ? "the boundary" : "a crease", edges);
+        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n%s%s.\n", v,
+                sdv_count_edges_at(&x->cage, v).boundary == 2 ? "the boundary" : "a crease", edges,
+                sdv_has_weights(sdv_crease_vertex(), 0.75, 0, 0, 0.125) ? ", a cubic B-spline"
+                                                                        : "");
     else if (faces == 0)
         sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
     else if (implied && x->cage.vertex_nonmanifold[v])
@@ -14731,22 +14757,23 @@ static void sdv_explain_vertex(sdv_explainer *x, int v)
 
 // ---- edges and faces
 
-// Writes the formula of the smooth point of the edge of h.
+// Writes the formula of the smooth point of the edge of h: that of the paper, if the mask has it.
 static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
 {
     const sdv_level *level = &x->cage.level;
     int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
+    if (x->rules.loop || x->rules.triangles != SUBDIV_TRIANGLES_SMOOTH) triangles = 0;
+    sdv_mask mask = sdv_edge_mask(&x->rules, 0, 0, 2, triangles);
     char ends[32], faces[32];
     sdv_say(x->out, "    %s = ", name);
-    if (x->rules.loop) {
+    if (x->rules.loop && sdv_has_weights(mask, 0.375, 0, 0.125, 0))
         sdv_say(x->out, "(3 a + 3 b + c + d) / 8  [Loop87]\n");
-    } else if (x->rules.triangles == SUBDIV_TRIANGLES_SMOOTH && triangles) {
-        sdv_mask mask = sdv_smooth_triangle_edge(triangles);
-        sdv_say(x->out, "%s (a + b) + %s (f + g)  [OSD]\n", sdv_fraction(mask.self, ends),
-                sdv_fraction(mask.face, faces));
-    } else {
+    else if (!x->rules.loop && sdv_has_weights(mask, 0.25, 0, 0.25, 0))
         sdv_say(x->out, "(a + b + f + g) / 4  [CC78]\n");
-    }
+    else
+        sdv_say(x->out, "%s (a + b) + %s (%s)%s\n", sdv_fraction(mask.self, ends),
+                sdv_fraction(mask.face, faces), x->rules.loop ? "c + d" : "f + g",
+                triangles ? "  [OSD]" : "");
 }
 
 static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
