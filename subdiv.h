@@ -5122,7 +5122,25 @@ typedef struct sdv_window {             // a part of the result, four channels o
     int    first, count;                // so many points are written
     int    clip;                        // others come, too, and are left out
     struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
+    sdv_four origin;                    // from where points are seen: see sdv_find_origin
+    sdv_four near;                      // 1 in channels where that is 0, else 0
 } sdv_window;
+
+static sdv_window sdv_window_of(float *values, size_t stride, int lanes, int first, int count,
+                                int clip)
+{
+    sdv_window window = { values, stride, lanes, first, count, clip, NULL, sdv_all(0), sdv_all(1) };
+    return window;
+}
+
+// Points that will be written are seen from origin [4].
+static void sdv_see_from(sdv_window *window, const float *origin)
+{
+    float near[4];
+    for (int k = 0; k < 4; k++) near[k] = fabsf(origin[k]) > 0 ? 0 : 1;
+    window->origin = sdv_load(origin);
+    window->near = sdv_load(near);
+}
 
 SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
 {
@@ -5138,11 +5156,18 @@ SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
     }
 }
 
-SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
+// Writes a point that is seen from 0, if it is in the window.
+SDV_INLINE void sdv_put_whole(const sdv_window *out, int index, sdv_four a)
 {
     int i = index - out->first;
     if (i >= 0 && i < out->count && out->values)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
+}
+
+// Writes a point that is seen from the window's origin.
+SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
+{
+    sdv_put_whole(out, index, sdv_plus(out->origin, a));
 }
 
 // Writes four points, of which lane i of x[k] is channel k of point i, to where they stand in the
@@ -5344,13 +5369,14 @@ SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, 
     const int width = 1 + n0 + n1 + n2, stride = 1 + width + 3 * own, lanes = out->lanes;
     const int *row = batch->items + (size_t)stride * (size_t)first;
     const size_t step = out->stride;
+    const sdv_four origin = out->origin;
     float *values = out->values;
     float w[3] = { batch->shape.weight[0], batch->shape.weight[1], batch->shape.weight[2] };
     for (int i = first; i < end; i++, row += stride) {
         if (own) memcpy(w, row + 1 + width, sizeof w);
         sdv_four p = sdv_batch_sum(row + 1, n0, n1, n2, w, work);
         if (clip) sdv_put_point(out, row[0], p);
-        else sdv_store_some(values + step * (size_t)row[0], p, lanes);
+        else sdv_store_some(values + step * (size_t)row[0], sdv_plus(origin, p), lanes);
     }
 }
 
@@ -5515,7 +5541,7 @@ typedef struct sdv_region {               // the points of some cells and of tho
 typedef struct sdv_region_out {
     const sdv_window *out;
     int      first, columns, triangle;  // see sdv_inside_point
-    sdv_four origin;
+    sdv_four origin;                    // also of out
 } sdv_region_out;
 
 typedef struct sdv_grid_step {
@@ -5838,8 +5864,9 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     made[7] = edge[2];
     made[8] = face[2];
     sdv_points_run run = sdv_begin_run(out, target, 9, room);
-    for (int i = 0; i < 8; i++) sdv_put_next(&run, sdv_plus(origin, made[i]));
-    sdv_put_last(&run, sdv_plus(origin, made[8]));
+    for (int i = 0; i < 9; i++) made[i] = sdv_plus(out->origin, sdv_plus(origin, made[i]));
+    for (int i = 0; i < 8; i++) sdv_put_next(&run, made[i]);
+    sdv_put_last(&run, made[8]);
 }
 
 // The face points of the quads of another polygon on level 1, each between a corner, two edge
@@ -5878,9 +5905,10 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
         if (i > 0) e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), q.origin);
     }
     sdv_points_run run = sdv_begin_run(out, target, 3, room);
-    sdv_put_next(&run, sdv_triangle_edge(&q, e[0], e[2], d[0], e[1]));
-    sdv_put_next(&run, sdv_triangle_edge(&q, e[0], e[1], d[1], e[2]));
-    sdv_put_last(&run, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0]));
+    const sdv_four all = out->origin;
+    sdv_put_next(&run, sdv_plus(all, sdv_triangle_edge(&q, e[0], e[2], d[0], e[1])));
+    sdv_put_next(&run, sdv_plus(all, sdv_triangle_edge(&q, e[0], e[1], d[1], e[2])));
+    sdv_put_last(&run, sdv_plus(all, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0])));
 }
 
 // The limit of what is regular and smooth. Linear tangents are the edges to points 1 and 2.
@@ -5941,7 +5969,7 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
     }
     for (; k < count; k++, index++, a++, b++, c++) {
         sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
-        sdv_put_point(out, index, sdv_plus(origin, sums[0]));
+        sdv_put_whole(out, index, sdv_plus(origin, sums[0]));
         if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2]);
     }
 }
@@ -6064,7 +6092,7 @@ static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step
                               sdv_region *region)
 {
     const sdv_cells *cells = &from->cells;
-    sdv_window out = { (float *)(void *)region->points, 4, 4, 0, INT_MAX, 0, NULL };
+    sdv_window out = sdv_window_of((float *)(void *)region->points, 4, 4, 0, INT_MAX, 0);
     region->row = 2 * cells->bottom;
     region->column = 2 * cells->left;
     region->width = 2 * (cells->right - cells->left) + 1;
@@ -6084,7 +6112,7 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
     for (int i = last; i > 0; i--)
         needed[i - 1] = sdv_cells_before(needed[i], in->grids[i - 1].columns);
     const float *points = in->work + 4 * (size_t)in->surface->bases[in->full];
-    to->origin = sdv_load(points + 4 * (size_t)in->grids[0].corner[0]);
+    to->origin = sdv_times(to->out->near, sdv_load(points + 4 * (size_t)in->grids[0].corner[0]));
     region.cells = needed[0];
     region.points = last % 2 ? small : large;
     sdv_load_region(&in->grids[0], points, to->origin, &region);
@@ -6097,6 +6125,7 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
         sdv_load_sides(grid, in->work + 4 * (size_t)in->surface->bases[in->full + i], to->origin,
                        &region, 2 * before.cells.top, 2 * before.cells.right);
     }
+    to->origin = sdv_plus(to->origin, to->out->origin);
     if (in->limit) sdv_limit_region(&region, in->grids[last].columns, in->limit, to);
     else if (in->step.loop) sdv_refine_triangles(&region, in->grids[last].columns, &in->step, to);
     else sdv_refine_quads(&region, &in->step, to);
@@ -6179,7 +6208,8 @@ static void sdv_copy_face_points(const subdiv_surface *surface, const float *wor
     if (end - face > out->count - index) end = face + out->count - index;
     for (int f = face; f < end; f++, index++, from += 4)
         if (index >= 0)
-            sdv_store_some(out->values + out->stride * (size_t)index, sdv_load(from), out->lanes);
+            sdv_store_some(out->values + out->stride * (size_t)index,
+                           sdv_plus(out->origin, sdv_load(from)), out->lanes);
 }
 
 // A level from the one before, for the points that belong to cage faces face to end - 1.
@@ -6213,7 +6243,7 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
 {
     sdv_tangents tangents;
     int clip = count < surface->fine.vertex_count;
-    sdv_window out = { limit->positions, 3, 3, first, count, clip, NULL };
+    sdv_window out = sdv_window_of(limit->positions, 3, 3, first, count, clip);
     memset(&tangents, 0, sizeof tangents);
     tangents.normals = limit->normals;
     tangents.tangents = limit->tangents;
@@ -6221,6 +6251,7 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
     tangents.tangent_stride = 6;
     if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
                                                                         (size_t)limit->stride;
+    sdv_see_from(&out, work + 4 * (size_t)surface->work_count);
     if (limit->normals || limit->tangents) out.tangents = &tangents;
     sdv_make_faces(surface, work, face, end, &out);
     sdv_flush_tangents(&tangents);
@@ -6238,8 +6269,8 @@ typedef struct sdv_evaluation {
     int          channels;
     const float *in;                    // channels a vertex
     size_t       in_stride;
-    float       *work;                  // [4 * work_count] for every four channels
-    float       *out;
+    float       *work;                  // [4 * work_count + 4] for every four channels: their work
+    float       *out;                   // points, seen from the point behind all these
     size_t       out_stride;
     int          first_point, end_point;
     int          first_face, end_face;
@@ -6280,6 +6311,38 @@ static int sdv_share_faces(int first, int end, int i, int jobs)
     return face < first ? first : face < end ? face : end;
 }
 
+static float *sdv_work_of(const sdv_evaluation *e, int channel)
+{
+    return e->work + (size_t)channel * ((size_t)e->surface->work_count + 1);
+}
+
+// The values of vertex v, four channels from c on, of which so many are left.
+SDV_INLINE sdv_four sdv_input(const sdv_evaluation *e, int v, int c, int left)
+{
+    int from = e->surface->source ? e->surface->source[v] : v;
+    const float *in = e->in + e->in_stride * (size_t)from + c;
+    return sdv_of(in[0], left > 1 ? in[1] : 0, left > 2 ? in[2] : 0, left > 3 ? in[3] : 0);
+}
+
+// Finds from where four channels are seen, so that sums lose nothing where a cage is small and far
+// away: from its first vertex in channels where others, a thousand of them, are much nearer to that
+// than to 0; else from 0.
+static void sdv_find_origin(const sdv_evaluation *e, int c)
+{
+    int count = e->surface->cage_vertex_count, step = count / 1024 + 1, seen = 0;
+    float first[4], squares[4];
+    sdv_four origin = sdv_input(e, 0, c, e->channels - c), sum = sdv_all(0);
+    for (int v = 0; v < count; v += step, seen++) {
+        sdv_four d = sdv_minus(sdv_input(e, v, c, e->channels - c), origin);
+        sum = sdv_plus(sum, sdv_times(d, d));
+    }
+    sdv_store(first, origin);
+    sdv_store(squares, sum);
+    for (int k = 0; k < 4; k++)
+        if (!(64 * (double)squares[k] < seen * (double)first[k] * (double)first[k])) first[k] = 0;
+    memcpy(sdv_work_of(e, c) + 4 * (size_t)e->surface->work_count, first, sizeof first);
+}
+
 static void sdv_input_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6287,13 +6350,10 @@ static void sdv_input_job(void *context, int job)
     int end = sdv_share(e->surface->cage_vertex_count, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c;
-        size_t at = (size_t)c * (size_t)e->surface->work_count + 4 * (size_t)v;
-        for (int i = v; i < end; i++, at += 4) {
-            int from = e->surface->source ? e->surface->source[i] : i;
-            const float *in = e->in + e->in_stride * (size_t)from + c;
-            sdv_store(e->work + at, sdv_of(in[0], lanes > 1 ? in[1] : 0, lanes > 2 ? in[2] : 0,
-                                           lanes > 3 ? in[3] : 0));
-        }
+        float *work = sdv_work_of(e, c), *to = work + 4 * (size_t)v;
+        const sdv_four origin = sdv_load(work + 4 * (size_t)e->surface->work_count);
+        for (int i = v; i < end; i++, to += 4)
+            sdv_store(to, sdv_minus(sdv_input(e, i, c, lanes), origin));
     }
 }
 
@@ -6306,8 +6366,8 @@ static void sdv_level_job(void *context, int job)
     int face = sdv_share_faces(0, faces, job, e->jobs);
     int end = sdv_share_faces(0, faces, job + 1, e->jobs);
     for (int c = 0; c < e->channels; c += 4) {
-        float *work = e->work + (size_t)c * (size_t)surface->work_count;
-        sdv_window out = { work, 4, 4, 0, surface->work_count, 0, NULL };
+        float *work = sdv_work_of(e, c);
+        sdv_window out = sdv_window_of(work, 4, 4, 0, surface->work_count, 0);
         if (e->step < 0) sdv_make_face_points(surface, work, face, end);
         else sdv_refine_faces(surface, e->step, work, face, end, surface->bases[e->step + 1], &out);
     }
@@ -6318,6 +6378,7 @@ static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
     int last = surface->rules.limit ? surface->levels : surface->levels - 1;
+    for (int c = 0; c < e->channels && surface->cage_vertex_count; c += 4) sdv_find_origin(e, c);
     e->jobs = sdv_jobs(opt, surface->cage_vertex_count, 4096);
     sdv_run(opt, sdv_input_job, e, e->jobs);
     for (e->step = surface->rules.loop ? 0 : -1; e->step < last; e->step++) {
@@ -6342,20 +6403,26 @@ static void sdv_face_job(void *context, int job)
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = e->channels - c < 4 ? e->channels - c : 4;
         int count = e->end_point - e->first_point;
-        sdv_window out = { e->out + c, e->out_stride, lanes, e->first_point, count,
-                           count < surface->fine.vertex_count, NULL };
-        sdv_make_faces(surface, e->work + (size_t)c * (size_t)surface->work_count, face, end, &out);
+        sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count,
+                                       count < surface->fine.vertex_count);
+        const float *work = sdv_work_of(e, c);
+        sdv_see_from(&out, work + 4 * (size_t)surface->work_count);
+        sdv_make_faces(surface, work, face, end, &out);
     }
 }
 
 // Level 0 has no rows: its work points are the result.
 static void sdv_copy_work(const sdv_evaluation *e)
 {
-    for (int v = e->first_point; v < e->end_point; v++)
-        for (int c = 0; c < e->channels; c++)
-            e->out[e->out_stride * (size_t)(v - e->first_point) + (size_t)c] =
-                e->work[(size_t)(c / 4) * 4 * (size_t)e->surface->work_count +
-                        4 * (size_t)v + (size_t)(c & 3)];
+    for (int c = 0; c < e->channels; c += 4) {
+        int lanes = e->channels - c < 4 ? e->channels - c : 4;
+        int count = e->end_point - e->first_point;
+        const float *work = sdv_work_of(e, c);
+        sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count, 0);
+        sdv_see_from(&out, work + 4 * (size_t)e->surface->work_count);
+        for (int v = e->first_point; v < e->end_point; v++)
+            sdv_put_point(&out, v, sdv_load(work + 4 * (size_t)v));
+    }
 }
 
 static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
@@ -6772,8 +6839,9 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
 {
     if (surface->exact) return surface->exact_calls->size(surface, channels);
     surface = sdv_maker(surface);
-    if (!sdv_addressable(channels, sizeof(float) * (double)surface->work_count)) return SIZE_MAX;
-    return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
+    double points = (double)surface->work_count + 1;
+    if (!sdv_addressable(channels, sizeof(float) * points)) return SIZE_MAX;
+    return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * ((size_t)surface->work_count + 1);
 }
 
 static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
@@ -11493,7 +11561,7 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     const sdv_exact *exact = source->surface->exact;
     size_t channels = (size_t)source->channels;
     unsigned char failed[SDV_MOST_JOBS] = { 0 };
-    sdv_window out = { points, channels, source->channels, 0, count, 0, NULL };
+    sdv_window out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     sdv_leaf_points l;
     if (context->result) return;
     memset(&l, 0, sizeof l);

@@ -587,6 +587,44 @@ static void test_sizes_and_skews(void)
     }
 }
 
+// Half a million away from the origin, with coordinates that floats hold exactly there as well:
+// normals are the same, and points are where they were, in steps of 1/16, which floats have there.
+static void check_moved(random_cage *c)
+{
+    const float far[3] = { 262144, -524288, 131072 };
+    subdiv_mesh here = {0}, there = {0}, *m = &c->mesh;
+    subdiv_options opt = {0};
+    opt.limit = 1;
+    for (int i = 0; i < 3 * m->vertex_count; i++)
+        m->positions[i] = floorf(m->positions[i] * 16 + 0.5f) / 16;
+    CHECK_EQUAL(subdiv_refine(&here, m, 2, &opt), SUBDIV_OK);
+    for (int i = 0; i < 3 * m->vertex_count; i++) m->positions[i] += far[i % 3];
+    CHECK_EQUAL(subdiv_refine(&there, m, 2, &opt), SUBDIV_OK);
+    for (int v = 0; v < here.vertex_count; v++) {
+        const float *a = here.normals + 3 * v, *b = there.normals + 3 * v;
+        float length = a[0] * a[0] + a[1] * a[1] + a[2] * a[2], dot = 0;
+        for (int k = 0; k < 3; k++) {
+            dot += a[k] * b[k];
+            CHECK_NEAR(there.positions[3 * v + k] - far[k], here.positions[3 * v + k], 0.032);
+        }
+        if (length > 0.5f) CHECK_NEAR(dot, 1, 1e-5);
+    }
+    subdiv_mesh_free(&here);
+    subdiv_mesh_free(&there);
+}
+
+static void test_far_away(void)
+{
+    static char context[64];
+    test_context = context;
+    for (unsigned seed = 1; seed <= 100; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_MANIFOLD);
+        sprintf(context, "random cage %u", seed);
+        check_moved(c);
+        random_cage_free(c);
+    }
+}
+
 static void test_errors(void)
 {
     static test_cage c;
@@ -680,6 +718,7 @@ int main(void)
     RUN(test_level_zero);
     RUN(test_pieces);
     RUN(test_sizes_and_skews);
+    RUN(test_far_away);
     RUN(test_errors);
     RUN(test_normals_of_a_mesh);
     return test_end("limit");
