@@ -1734,6 +1734,8 @@ typedef struct sdv_level {
     int *vertex_faces;                  // [vertex_count]       how many there are
     int *face_edges;                    // [face_vertex_count]  numbers of edges: level 0 alone
     int *edge_first;                    // [edge_count]         their first face-vertices
+    int *edge_at;                       // [vertex_count]       the last edge listed there, or -1
+    struct sdv_listed_edge *edges;      // [edge_count]         (both for level 0 of positions)
     int  edge_count;
 
     float *sharpness;                   // [face_vertex_count]  of the edge that leads on
@@ -1894,129 +1896,80 @@ static int sdv_smaller_end(const sdv_level *level, int a, int b)
 typedef struct sdv_listed_edge {        // at its smaller end
     int other;                          // the other end
     int next;                           // the next edge there, or -1
+    int last;                           // the last face-vertex of its ring
 } sdv_listed_edge;
 
-// An edge begins with face-vertex h.
-static inline int sdv_new_edge(sdv_level *level, int h)
+// The edge at a vertex whose smaller end that is, or -1.
+static inline int sdv_listed(const sdv_level *level, int v, int other)
+{
+    int e = level->edge_at[v];
+    while (e >= 0 && level->edges[e].other != other) e = level->edges[e].next;
+    return e;
+}
+
+// The edge between two vertices, the first one if there are several, or -1.
+static int sdv_find_edge(const sdv_level *level, int a, int b)
+{
+    int v = sdv_smaller_end(level, a, b);
+    return sdv_listed(level, v, v == a ? b : a);
+}
+
+// The edges between many pairs of vertices.
+static inline void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
+                                  int count, int *found)
+{
+    for (int i = 0; i < count && !context->result; i++)
+        found[i] = sdv_find_edge(level, pairs[2 * i], pairs[2 * i + 1]);
+}
+
+// Takes face-vertex h as the first of a new edge, at v, its smaller end.
+static inline int sdv_new_edge(sdv_level *level, int h, int v, int other)
 {
     int e = level->edge_count++;
+    sdv_listed_edge edge = { other, level->edge_at[v], h };
     level->face_edges[h] = e;
-    level->edge_first[e] = h;
-    level->across[h] = h;
+    level->edge_first[e] = level->across[h] = h;
+    level->edges[e] = edge;
     return e;
 }
 
 // Takes h as the last one of the ring of edge e.
 static inline void sdv_join_edge(sdv_level *level, int e, int h)
 {
-    int first = level->edge_first[e];
+    int *last = &level->edges[e].last;
     level->face_edges[h] = e;
-    level->across[h] = level->across[first];
-    level->across[first] = h;
-}
-
-// Takes h into the ring of edge e as a further face or one wound the same way. If its own face has
-// the edge already, makes a new edge of h instead.
-static void sdv_join_nonmanifold(sdv_cage *cage, int e, int h, int start)
-{
-    sdv_level *level = &cage->level;
-    cage->edge_nonmanifold[e] = 1;
-    if (level->across[level->edge_first[e]] < start) sdv_join_edge(level, e, h);
-    else cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
-}
-
-// Turns the ring of an edge round.
-static void sdv_reverse_ring(int *across, int first)
-{
-    int before = first, k = across[first];
-    while (k != first) {
-        int next = across[k];
-        across[k] = before;
-        before = k;
-        k = next;
-    }
-    across[first] = before;
+    level->across[h] = level->edge_first[e];
+    level->across[*last] = h;
+    *last = h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
 // ends are the same vertex, or when one face has it twice: then each later time is an edge of its
-// own. Until all are there, rings fall, so that the last of each stands across from its first.
-static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
+// own.
+static void sdv_cage_edges(sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
     const int *vertices = level->face_vertices;
-    sdv_arena scratch = sdv_scratch();
-    int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
-    sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
-    for (int f = 0; f < level->face_count && !context->result; f++) {
+    for (int v = 0; v < level->vertex_count; v++) level->edge_at[v] = -1;
+    for (int f = 0; f < level->face_count; f++) {
         int start = sdv_face_start(level, f), end = sdv_face_end(level, f), b = vertices[start];
         for (int h = start; h < end; h++) {
             int a = b;
             b = vertices[h + 1 < end ? h + 1 : start];
-            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
-            while (e >= 0 && edges[e].other != other) e = edges[e].next;
-            int first = e < 0 ? -1 : level->edge_first[e];
-            if (a == b) {
-                cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
-            } else if (first < 0) {
-                e = sdv_new_edge(level, h);
-                edges[e].other = other;
-                edges[e].next = listed[v];
-                listed[v] = e;
-            } else if (first < start && level->across[first] == first && vertices[first] != a) {
-                sdv_join_edge(level, e, h);
-            } else {
-                sdv_join_nonmanifold(cage, e, h, start);
-            }
+            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a;
+            int e = sdv_listed(level, v, other), first = e < 0 ? -1 : level->edge_first[e];
+            int joins = e >= 0 && a != b && level->edges[e].last < start;
+            int manifold = joins ? level->across[first] == first && vertices[first] != a
+                                 : e < 0 && a != b;
+            if (joins) sdv_join_edge(level, e, h);
+            else if (e < 0) level->edge_at[v] = sdv_new_edge(level, h, v, other);
+            else sdv_new_edge(level, h, v, other);
+            if (manifold) continue;
+            if (e >= 0) cage->edge_nonmanifold[e] = 1;
+            cage->edge_nonmanifold[level->face_edges[h]] = 1;
         }
     }
-    sdv_arena_free(&scratch);
-    if (context->result) return;
-    const unsigned char *odd = cage->edge_nonmanifold, *behind = odd + level->edge_count;
-    for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(behind - odd))) != NULL; odd++)
-        sdv_reverse_ring(level->across, level->edge_first[odd - cage->edge_nonmanifold]);
-}
-
-// Notes the edges at v by their other ends: the first one if there are several; or forgets them.
-static void sdv_note_edges(const sdv_level *level, int v, int *edge_to, int forget)
-{
-    for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
-        int two[2] = { k, sdv_previous(level, k) };
-        for (int i = 0; i < 2; i++) {
-            int *edge = &edge_to[level->face_vertices[i ? two[i] : sdv_next(level, k)]];
-            int e = level->face_edges[two[i]];
-            if (forget) *edge = -1;
-            else if (*edge < 0 || e < *edge) *edge = e;
-        }
-    }
-}
-
-// The edges between many pairs of vertices, as sdv_find_edge finds them, but vertex by vertex: in
-// linear time however many pairs there are at a vertex with however many faces.
-static void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
-                           int count, int *found)
-{
-    sdv_arena scratch = sdv_scratch();
-    if (count == 0) return;
-    int *first = SDV_NEW(context, &scratch, int, level->vertex_count);
-    int *next = SDV_NEW(context, &scratch, int, count);
-    int *edge_to = SDV_NEW(context, &scratch, int, level->vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++) first[v] = edge_to[v] = -1;
-    for (int i = 0; i < count && !context->result; i++) {
-        int v = sdv_smaller_end(level, pairs[2 * i], pairs[2 * i + 1]);
-        next[i] = first[v];
-        first[v] = i;
-    }
-    for (int v = 0; v < level->vertex_count && !context->result; v++) {
-        if (first[v] < 0) continue;
-        sdv_note_edges(level, v, edge_to, 0);
-        for (int i = first[v]; i >= 0; i = next[i])
-            found[i] = edge_to[pairs[2 * i] == v ? pairs[2 * i + 1] : pairs[2 * i]];
-        sdv_note_edges(level, v, edge_to, 1);
-    }
-    sdv_arena_free(&scratch);
 }
 
 // Do the faces at v, whose edges are all manifold, form one fan? From face to face around v, to
@@ -2025,12 +1978,11 @@ static int sdv_is_fan(const sdv_level *level, int v)
 {
     int first = level->vertex_first[v], h = first, met = 1;
     if (first < 0) return 0;
-    for (;;) {
+    for (;; met++) {
         int before = sdv_previous(level, h), left = level->across[before];
         if (left == first) return met == level->vertex_faces[v];
         if (left == before) break;
         h = left;
-        met++;
     }
     for (h = first; level->across[h] != h; met++) h = sdv_next(level, level->across[h]);
     return met == level->vertex_faces[v];
@@ -2049,24 +2001,16 @@ static float sdv_clamp_sharpness(float s)
 }
 
 // The user's creases and corners. A crease that is no edge is skipped.
-static void sdv_user_sharpness(sdv_context *context, sdv_arena *scratch, sdv_cage *cage,
-                               const subdiv_mesh *mesh)
+static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const subdiv_mesh *mesh)
 {
-    sdv_level *level = &cage->level;
-    int *edges = SDV_NEW(context, scratch, int, mesh->crease_count);
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
-    if (context->result) return;
     memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
     memset(level->vertex_sharpness, 0, (size_t)level->vertex_count * sizeof(float));
     for (int i = 0; i < mesh->crease_count; i++) {
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
-        int e = edges[i];
+        int e = sdv_find_edge(level, a, b);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
     }
-    for (int i = 0; i < 2 * mesh->crease_count; i++)
-        if (edges[i / 2] >= 0 && level->sharpness[level->edge_first[edges[i / 2]]] > 0)
-            level->creased[mesh->crease_vertices[i]] = 1;
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
             sdv_clamp_sharpness(mesh->corner_sharpness[i]);
@@ -2121,8 +2065,9 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
            cage->level.vertex_faces[v] > edges.count;
 }
 
-// What is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
+// Adds what is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
 // vertices with one face; non-manifold vertices, but for a non-manifold edge that runs through.
+// Marks the ends of all sharp edges.
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
@@ -2130,10 +2075,11 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
-        if (!odd && !sdv_is_boundary(level, h)) continue;
+        if ((odd || sdv_is_boundary(level, h)) && level->sharpness[h] < SUBDIV_INFINITE)
+            sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        if (level->sharpness[h] <= 0) continue;
         int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
         if (odd) nonmanifold[a] = nonmanifold[b] = 1;
-        if (level->sharpness[h] < SUBDIV_INFINITE) sdv_sharpen_edge(level, e, SDV_IMPLIED);
         level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
@@ -2187,18 +2133,18 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    level->edge_at = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->edges = SDV_NEW(context, scratch, sdv_listed_edge, level->face_vertex_count);
     cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
     cage->vertex_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->vertex_count);
     if (context->result) return;
 
     memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
     sdv_level_count(level);
-    sdv_cage_edges(context, cage);
-    if (context->result) return;
+    sdv_cage_edges(cage);
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
-    sdv_user_sharpness(context, scratch, cage, mesh);
-    if (context->result) return;
+    sdv_user_sharpness(context, level, mesh);
     if (mesh->boundary == SUBDIV_BOUNDARY_NONE && mesh->scheme != SUBDIV_BILINEAR)
         sdv_open_boundary(cage);
     sdv_implied_sharpness(cage, mesh->boundary);
@@ -2347,14 +2293,21 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
+static sdv_fading sdv_own_fading(const sdv_level *level, int v)
+{
+    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    float sharpness = level->vertex_sharpness[v];
+    if (!level->creased[v] && sharpness <= 0) return smooth;
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, v);
+    return sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+}
+
 // A vertex of UVs with a partner fades as that does, but, while its seam stays semi-sharp, a level
 // later [OSD].
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    int partner = level->partner ? level->partner[v] : -1, from = partner >= 0 ? partner : v;
-    float sharpness = level->vertex_sharpness[from];
-    sdv_sharp_edges edges = sdv_count_sharp_edges(level, from);
-    sdv_fading fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+    int partner = level->partner ? level->partner[v] : -1;
+    sdv_fading fading = sdv_own_fading(level, partner >= 0 ? partner : v);
     if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
@@ -12081,28 +12034,6 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 
 // ------------------------------------------------------------------------------ >>oddities
 // What subdiv_check finds, kind by kind. Each kind looks at every face, edge, vertex or entry once.
-
-// Does the edge that leads on from h join a and b?
-static int sdv_joins(const sdv_level *level, int h, int a, int b)
-{
-    int from = level->face_vertices[h], to = level->face_vertices[sdv_next(level, h)];
-    return (from == a && to == b) || (from == b && to == a);
-}
-
-// The edge between a and b, the first one if there are several, or -1. The face-vertices on it are
-// met in rising order, but for the last of a face that leads to its first.
-static int sdv_find_edge(const sdv_level *level, int a, int b)
-{
-    int closing = -1, k = level->vertex_first[sdv_smaller_end(level, a, b)];
-    for (; k >= 0; k = level->vertex_next[k]) {
-        int before = sdv_previous(level, k), joins = sdv_joins(level, before, a, b);
-        if (closing >= 0 && sdv_face_of(level, k) != sdv_face_of(level, closing)) break;
-        if (joins && before < k) return level->face_edges[before];
-        if (sdv_joins(level, k, a, b)) return level->face_edges[k];
-        if (joins) closing = before;
-    }
-    return closing < 0 ? -1 : level->face_edges[closing];
-}
 
 typedef struct sdv_checker {
     const subdiv_mesh *mesh;
