@@ -3700,34 +3700,32 @@ static void sdv_find_seams(sdv_seams *seams)
     }
 }
 
-// Faces with a value at each vertex; own_face [faces of the cage] are their numbers here, or -1.
+// Takes the faces with a value at each vertex; own_face [faces of the cage] are their numbers here,
+// or -1.
 static void sdv_seam_faces(sdv_context *context, sdv_arena *keep, sdv_seams *seams, int *own_face)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
-    for (int f = 0; f < cage->face_count; f++) {
-        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f), has = 1;
-        for (int h = start; h < end; h++) has &= seams->values[h] >= 0;
-        own_face[f] = has ? level->face_count++ : -1;
-        for (int h = start; h < end; h++) {
-            seams->own[h] = has ? level->face_vertex_count : -1;
-            if (has) seams->home[level->face_vertex_count++] = h;
-        }
-    }
+    int most = cage->face_vertex_count, mixed = !cage->face_size, h = 0;
     level->face_size = cage->face_size;
-    level->face_vertices = SDV_NEW(context, keep, int, level->face_vertex_count);
-    level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
-    if (level->face_size) return;
-    level->face_starts = SDV_NEW(context, keep, int, (size_t)level->face_count + 1);
-    level->face_of = SDV_NEW(context, keep, int, level->face_vertex_count);
-    if (!context->result) level->face_starts[0] = 0;
-    for (int f = 0, h = 0; f < cage->face_count && !context->result; f++) {
-        if (own_face[f] < 0) continue;
-        level->face_starts[own_face[f]] = h;
-        int end = h + sdv_face_end(cage, f) - sdv_face_start(cage, f);
-        while (h < end) level->face_of[h++] = own_face[f];
-        level->face_starts[own_face[f] + 1] = h;
+    level->face_vertices = SDV_NEW(context, keep, int, most);
+    level->face_edges = SDV_NEW(context, keep, int, most);
+    if (mixed) level->face_starts = SDV_NEW(context, keep, int, (size_t)cage->face_count + 1);
+    if (mixed) level->face_of = SDV_NEW(context, keep, int, most);
+    for (int f = 0; f < cage->face_count && !context->result; f++) {
+        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f), has = 1, first = h;
+        for (int k = start; k < end; k++) has &= seams->values[k] >= 0;
+        own_face[f] = has ? level->face_count++ : -1;
+        for (int k = start; k < end; k++) {
+            seams->own[k] = has ? h : -1;
+            if (!has) continue;
+            if (mixed) level->face_of[h] = own_face[f];
+            seams->home[h++] = k;
+        }
+        if (has && mixed) level->face_starts[own_face[f]] = first;
     }
+    if (!context->result && mixed) level->face_starts[level->face_count] = h;
+    level->face_vertex_count = h;
 }
 
 // The first vertex with a value has the value's number; others that share it come after all.
@@ -3770,16 +3768,15 @@ static void sdv_seam_edges(sdv_seams *seams)
         int at = seams->home[h], seam = seams->seam[cage->face_edges[at]];
         level->across[h] = seam ? h : seams->own[cage->across[at]];
         level->sharpness[h] = seam ? SDV_IMPLIED : cage->sharpness[at];
+        if (level->sharpness[h] > 0)
+            level->creased[level->face_vertices[h]] =
+                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
         if (level->face_edges[h] >= 0) continue;
         int e = level->edge_count++, k = at;
         level->edge_first[e] = h;
         do level->face_edges[seams->own[k]] = e;
         while (!seam && (k = cage->across[k]) != at);
     }
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (level->sharpness[h] > 0)
-            level->creased[level->face_vertices[h]] =
-                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // What the rule looks at, around a vertex of the cage.
@@ -3788,17 +3785,21 @@ typedef struct sdv_surroundings {
     int faces, all;                     // those with values, and all
     int seam, boundary, nonmanifold;    // is it on one?
     int own[2];                         // the first two vertices of this topology
+    float semi_sharp;                   // the largest sharpness of the semi-sharp seams
 } sdv_surroundings;
 
 static sdv_surroundings sdv_look_around(const sdv_seams *seams, int v)
 {
     const sdv_level *cage = &seams->cage->level, *level = &seams->level;
-    sdv_surroundings around = { 0, 0, 0, 0, 0, 0, { -1, -1 } };
+    sdv_surroundings around = { 0, 0, 0, 0, 0, 0, { -1, -1 }, 0 };
     around.all = cage->vertex_faces[v];
     around.nonmanifold = seams->cage->vertex_nonmanifold[v];
     for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
         int before = sdv_previous(cage, h), own = seams->own[h];
-        around.seam |= seams->seam[cage->face_edges[h]] | seams->seam[cage->face_edges[before]];
+        int seam = seams->seam[cage->face_edges[h]];
+        float s = cage->sharpness[h];
+        around.seam |= seam | seams->seam[cage->face_edges[before]];
+        if (seam && sdv_is_semi_sharp(s) && s > around.semi_sharp) around.semi_sharp = s;
         around.boundary |= sdv_is_boundary(cage, h) | sdv_is_boundary(cage, before);
         if (own < 0) continue;
         around.faces++;
@@ -3853,18 +3854,6 @@ static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_surroundings *arou
     return both && sdv_is_shared_corner(seams, around);
 }
 
-// The largest sharpness of the semi-sharp seams at a vertex of the cage.
-static float sdv_semi_sharp_seam(const sdv_seams *seams, int v)
-{
-    const sdv_level *cage = &seams->cage->level;
-    float largest = 0;
-    for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
-        float s = cage->sharpness[h];
-        if (seams->seam[cage->face_edges[h]] && s < SUBDIV_INFINITE && s > largest) largest = s;
-    }
-    return largest;
-}
-
 static void sdv_seam_sharpness(sdv_seams *seams)
 {
     const sdv_level *cage = &seams->cage->level;
@@ -3887,17 +3876,26 @@ static void sdv_seam_sharpness(sdv_seams *seams)
         int without = of_a ? b : a;
         if (of_a == of_b || level->vertex_sharpness[without] > 0) continue;
         level->partner[without] = of_a ? a : b;
-        level->seam[without] = sdv_semi_sharp_seam(seams, v);
+        level->seam[without] = around.semi_sharp;
     }
 }
 
-// Chaikin's averages reach across seams: the sums of sdv_fade_halves at the vertices of the cage,
-// on each level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
-static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv_level *cage,
-                             int levels, float *sums)
+// Chaikin's averages reach across seams: so they take the sums at the vertices of the cage, on each
+// level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
+static void sdv_chaikin_sums(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                             sdv_seams *seams, int levels)
 {
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    size_t count = 2 * (size_t)cage->vertex_count;
+    float *sums = level->sums = SDV_NEW(context, keep, float, count * (size_t)levels);
     float *s = SDV_NEW(context, scratch, float, cage->face_vertex_count);
+    level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->origin_count = cage->vertex_count;
     if (context->result) return;
+    for (int i = 0; i < level->vertex_count; i++) level->origin[i] = -1;
+    for (int h = 0; h < level->face_vertex_count; h++)
+        level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
     sdv_copy(s, cage->sharpness, (size_t)cage->face_vertex_count, sizeof(float));
     for (int i = 0; i < levels; i++) {
         for (int v = 0; v < cage->vertex_count; v++, sums += 2) {
@@ -3906,21 +3904,6 @@ static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv
                 s[h] = sdv_fade_chaikin(s[h], sums[0], (int)sums[1]);
         }
     }
-}
-
-static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
-                             sdv_seams *seams, int levels)
-{
-    const sdv_level *cage = &seams->cage->level;
-    sdv_level *level = &seams->level;
-    level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
-    level->origin_count = cage->vertex_count;
-    level->sums = SDV_NEW(context, keep, float, 2 * (size_t)cage->vertex_count * (size_t)levels);
-    if (context->result) return;
-    for (int i = 0; i < level->vertex_count; i++) level->origin[i] = -1;
-    for (int h = 0; h < level->face_vertex_count; h++)
-        level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
-    sdv_chaikin_sums(context, scratch, cage, levels, level->sums);
 }
 
 // Level 0 of the values. Arenas as for sdv_cage_build: to keep goes source, too.
@@ -3943,7 +3926,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
     level->seam = SDV_NEW(context, scratch, float, level->vertex_count);
-    if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
+    if (chaikin) sdv_chaikin_sums(context, keep, scratch, seams, levels);
     if (context->result) return;
     for (int i = 0; i < level->vertex_count; i++) level->partner[i] = -1;
     sdv_level_count(level);
