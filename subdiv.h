@@ -10653,8 +10653,8 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
 
 typedef struct sdv_inside {
     int columns, rows;                  // of the grid
-    int left, right, bottom, top;       // the part of it that is made of grid pieces
-    int strips;                         // are there strips?
+    int margin;                         // pieces that strips replace at column 0 and row 0,
+    int last;                           // and at the last column and row
 } sdv_inside;
 
 typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
@@ -10729,10 +10729,8 @@ static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
     int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
     if (grid->columns < least) grid->columns = least;
     if (grid->rows < least) grid->rows = least;
-    grid->strips = !sdv_is_regular(&tile);
-    grid->left = grid->bottom = grid->strips;
-    grid->right = grid->columns - (tile.ngon ? 0 : grid->strips << tile.loop);
-    grid->top = grid->rows - (tile.ngon ? 0 : grid->strips << tile.loop);
+    grid->margin = !sdv_is_regular(&tile);
+    grid->last = tile.ngon ? 0 : grid->margin << tile.loop;
 }
 
 // How many points are inside a face.
@@ -10813,13 +10811,13 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
     const sdv_inside *in = tile->grid;
     int grids = tile->ngon ? tile->sides : 1, cut = out->triangles && !tile->loop;
-    size_t size = out->triangles ? 3 : 4, wide = (size_t)in->right - (size_t)in->left;
-    size_t pieces = (size_t)grids * wide * ((size_t)in->top - (size_t)in->bottom);
-    int *faces = out->vertices + out->face_vertices;
-    for (int i = 0; i < grids && pieces && out->vertices; i++) {
+    int margin = in->margin, right = in->columns - in->last, top = in->rows - in->last;
+    size_t size = out->triangles ? 3 : 4;
+    size_t pieces = (size_t)grids * (size_t)(right - margin) * (size_t)(top - margin);
+    int *faces = out->vertices ? out->vertices + out->face_vertices : NULL;
+    for (int i = 0; i < grids && pieces && faces; i++) {
         sdv_grid grid = sdv_tile_grid(tile, i);
-        int right = in->right + tile->loop * in->bottom;        // as it is in row 0
-        int *end = sdv_grid_faces(&grid, in->bottom, in->top, in->left, right, faces);
+        int *end = sdv_grid_faces(&grid, margin, top, margin, right + tile->loop * margin, faces);
         faces = cut ? sdv_cut_quads(faces, end) : end;
     }
     if (cut) pieces *= 2;
@@ -10841,8 +10839,8 @@ static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2
         return sdv_grid_index(&grids[1], 2 * in->columns - 1 - j, 1);
     if (tile->ngon) return sdv_grid_index(grids, 1, j + 1);
     const int (*at)[2] = sdv_corners[tile->loop] + side;
-    int row = (at[0][0] ? in->top : in->bottom) + j * (at[1][0] - at[0][0]);
-    int column = (at[0][1] ? in->right : in->left) + j * (at[1][1] - at[0][1]);
+    int row = (at[0][0] ? in->rows - in->last : in->margin) + j * (at[1][0] - at[0][0]);
+    int column = (at[0][1] ? in->columns - in->last : in->margin) + j * (at[1][1] - at[0][1]);
     return sdv_grid_index(grids, row, column);
 }
 
@@ -10880,7 +10878,7 @@ static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
     sdv_tile tile = sdv_tile_at(tiling, f);
     sdv_grid grids[2];
     sdv_put_inside(&tile, out);
-    for (int i = 0; i < tile.sides && tile.grid->strips; i++) {
+    for (int i = 0; i < tile.sides && tile.grid->margin; i++) {
         if (tile.ngon || i == 0) grids[0] = sdv_tile_grid(&tile, i);
         if (tile.ngon) grids[1] = sdv_tile_grid(&tile, (i + 1) % tile.sides);
         sdv_put_strip(&tile, i, grids, out);
