@@ -2272,7 +2272,7 @@ static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
     return edges;
 }
 
-// How a vertex of some sharpness, of which so much is left one level down, fades with its edges.
+// How a vertex fades, of whose sharpness so much is left one level down, with its edges.
 static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
 {
     int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
@@ -2293,6 +2293,7 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
+// How a vertex fades by its own sharpness and that of its edges.
 static sdv_fading sdv_own_fading(const sdv_level *level, int v)
 {
     sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
@@ -10968,7 +10969,7 @@ typedef struct sdv_leaf_points {
     int      jobs;
     unsigned char *failed;              // [jobs]
     sdv_window out;                     // the first points of the tiling
-    sdv_tangents tangents;              // or, without normals, nothing
+    sdv_tangents tangents;              // of these
     // The leaf at hand, or a part of it:
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
@@ -11051,6 +11052,7 @@ typedef struct sdv_line_points {
     int     index, step;                // of point first, and from point to point
 } sdv_line_points;
 
+// Puts points of a line: a row at v = t or, turned, a column at u = t.
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
@@ -11093,9 +11095,9 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 
 typedef struct sdv_ticks { int64_t first, last; } sdv_ticks;
 
-// Points k / rate of a side stand at its ticks k. Returns how many ticks, from 1 on, belong to the
-// areas before x, a place in units, where the middle is at so many sixths of the grid. half: the
-// side is a half of the edge that has the rate.
+// The ticks of a side are its points k / rate, k = 1, 2, ... Counts those that belong to the areas
+// before x, a place in units; the middle is at so many sixths of the grid. half: the side is a half
+// of the edge that has the rate.
 static int64_t sdv_ticks_before(const sdv_area *area, int64_t x, int sixths, int64_t rate, int half)
 {
     int behind = 6 * x <= sixths * sdv_units(area);             // a tick at x belongs there
@@ -11218,8 +11220,8 @@ static void sdv_put_patch_points(sdv_leaf_points *l, sdv_patch_at at)
     }
 }
 
-// The area of a face of a nest after so many levels, and where its vertex is; or that of its child
-// on the next level.
+// The area of a face of a nest after so many levels, as seen from the vertex of the nest (child 0);
+// or of one of its other children on the next level.
 static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
 {
     const int (*at)[2] = sdv_corners[tile->loop];
@@ -11238,9 +11240,9 @@ static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, i
                        2 * (y - up) + step * (middle ? 1 : at[i][0]), middle ? -step : step);
 }
 
-// After how many levels what is left of a face of a nest has no points but its vertex: it is
-// smaller than all pieces, or as large as the smallest one and in a corner of the grid, where other
-// points belong to areas that are nearer to the middle.
+// Counts the levels after which a face of a nest has no points but its vertex: it is smaller than
+// all pieces, or as large as the smallest one and in a corner of the grid, where other points
+// belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
     int most = tile->grid->columns > tile->grid->rows ? tile->grid->columns : tile->grid->rows;
@@ -11543,8 +11545,7 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     sdv_set_edge_rates(context, t);
     if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
     if (context->result) return;
-    for (int f = 0; f < faces; f++)
-        sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
+    for (int f = 0; f < faces; f++) sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
     *mesh = surface->fine;
     mesh->crease_count = mesh->corner_count = 0;
     mesh->vertex_count = sdv_place_points(context, &t->points);
