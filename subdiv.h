@@ -1648,6 +1648,8 @@ typedef struct sdv_level {
     int *vertex_faces;                  // [vertex_count]       how many there are
     int *face_edges;                    // [face_vertex_count]  numbers of edges: level 0 alone
     int *edge_first;                    // [edge_count]         their first face-vertices
+    int *edge_at;                       // [vertex_count]       the last edge listed there, or -1
+    struct sdv_listed_edge *edges;      // [edge_count]         (both for level 0 of positions)
     int  edge_count;
 
     // How sharp it is.
@@ -1814,129 +1816,80 @@ static int sdv_smaller_end(const sdv_level *level, int a, int b)
 typedef struct sdv_listed_edge {        // at its smaller end
     int other;                          // the other end
     int next;                           // the next edge there, or -1
+    int last;                           // the last face-vertex of its ring
 } sdv_listed_edge;
 
-// An edge begins with face-vertex h.
-static inline int sdv_new_edge(sdv_level *level, int h)
+// The edge at a vertex whose smaller end that is, or -1.
+static inline int sdv_listed(const sdv_level *level, int v, int other)
+{
+    int e = level->edge_at[v];
+    while (e >= 0 && level->edges[e].other != other) e = level->edges[e].next;
+    return e;
+}
+
+// The edge between two vertices, the first one if there are several, or -1.
+static int sdv_find_edge(const sdv_level *level, int a, int b)
+{
+    int v = sdv_smaller_end(level, a, b);
+    return sdv_listed(level, v, v == a ? b : a);
+}
+
+// The edges between many pairs of vertices.
+static inline void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
+                                  int count, int *found)
+{
+    for (int i = 0; i < count && !context->result; i++)
+        found[i] = sdv_find_edge(level, pairs[2 * i], pairs[2 * i + 1]);
+}
+
+// Takes face-vertex h as the first of a new edge, at v, its smaller end.
+static inline int sdv_new_edge(sdv_level *level, int h, int v, int other)
 {
     int e = level->edge_count++;
+    sdv_listed_edge edge = { other, level->edge_at[v], h };
     level->face_edges[h] = e;
-    level->edge_first[e] = h;
-    level->across[h] = h;
+    level->edge_first[e] = level->across[h] = h;
+    level->edges[e] = edge;
     return e;
 }
 
 // Takes h as the last one of the ring of edge e.
 static inline void sdv_join_edge(sdv_level *level, int e, int h)
 {
-    int first = level->edge_first[e];
+    int *last = &level->edges[e].last;
     level->face_edges[h] = e;
-    level->across[h] = level->across[first];
-    level->across[first] = h;
-}
-
-// Takes h into the ring of edge e as a further face or one wound the same way. If its own face has
-// the edge already, makes a new edge of h instead.
-static void sdv_join_nonmanifold(sdv_cage *cage, int e, int h, int start)
-{
-    sdv_level *level = &cage->level;
-    cage->edge_nonmanifold[e] = 1;
-    if (level->across[level->edge_first[e]] < start) sdv_join_edge(level, e, h);
-    else cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
-}
-
-// Turns the ring of an edge round.
-static void sdv_reverse_ring(int *across, int first)
-{
-    int before = first, k = across[first];
-    while (k != first) {
-        int next = across[k];
-        across[k] = before;
-        before = k;
-        k = next;
-    }
-    across[first] = before;
+    level->across[h] = level->edge_first[e];
+    level->across[*last] = h;
+    *last = h;
 }
 
 // Numbers the edges in the order in which the faces meet them. An edge is non-manifold when
 // three or more faces share it, when two faces run along it in the same direction, when both its
 // ends are the same vertex, or when one face has it twice: then each later time is an edge of its
-// own. Until all are there, rings fall, so that the last of each stands across from its first.
-static void sdv_cage_edges(sdv_context *context, sdv_cage *cage)
+// own.
+static void sdv_cage_edges(sdv_cage *cage)
 {
     sdv_level *level = &cage->level;
     const int *vertices = level->face_vertices;
-    sdv_arena scratch = sdv_scratch();
-    int *listed = SDV_NEW(context, &scratch, int, level->vertex_count);
-    sdv_listed_edge *edges = SDV_NEW(context, &scratch, sdv_listed_edge, level->face_vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++) listed[v] = -1;
-    for (int f = 0; f < level->face_count && !context->result; f++) {
+    for (int v = 0; v < level->vertex_count; v++) level->edge_at[v] = -1;
+    for (int f = 0; f < level->face_count; f++) {
         int start = sdv_face_start(level, f), end = sdv_face_end(level, f), b = vertices[start];
         for (int h = start; h < end; h++) {
             int a = b;
             b = vertices[h + 1 < end ? h + 1 : start];
-            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a, e = listed[v];
-            while (e >= 0 && edges[e].other != other) e = edges[e].next;
-            int first = e < 0 ? -1 : level->edge_first[e];
-            if (a == b) {
-                cage->edge_nonmanifold[sdv_new_edge(level, h)] = 1;
-            } else if (first < 0) {
-                e = sdv_new_edge(level, h);
-                edges[e].other = other;
-                edges[e].next = listed[v];
-                listed[v] = e;
-            } else if (first < start && level->across[first] == first && vertices[first] != a) {
-                sdv_join_edge(level, e, h);
-            } else {
-                sdv_join_nonmanifold(cage, e, h, start);
-            }
+            int v = sdv_smaller_end(level, a, b), other = v == a ? b : a;
+            int e = sdv_listed(level, v, other), first = e < 0 ? -1 : level->edge_first[e];
+            int joins = e >= 0 && a != b && level->edges[e].last < start;
+            int manifold = joins ? level->across[first] == first && vertices[first] != a
+                                 : e < 0 && a != b;
+            if (joins) sdv_join_edge(level, e, h);
+            else if (e < 0) level->edge_at[v] = sdv_new_edge(level, h, v, other);
+            else sdv_new_edge(level, h, v, other);
+            if (manifold) continue;
+            if (e >= 0) cage->edge_nonmanifold[e] = 1;
+            cage->edge_nonmanifold[level->face_edges[h]] = 1;
         }
     }
-    sdv_arena_free(&scratch);
-    if (context->result) return;
-    const unsigned char *odd = cage->edge_nonmanifold, *behind = odd + level->edge_count;
-    for (; (odd = (const unsigned char *)memchr(odd, 1, (size_t)(behind - odd))) != NULL; odd++)
-        sdv_reverse_ring(level->across, level->edge_first[odd - cage->edge_nonmanifold]);
-}
-
-// Notes the edges at v by their other ends: the first one if there are several; or forgets them.
-static void sdv_note_edges(const sdv_level *level, int v, int *edge_to, int forget)
-{
-    for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
-        int two[2] = { k, sdv_previous(level, k) };
-        for (int i = 0; i < 2; i++) {
-            int *edge = &edge_to[level->face_vertices[i ? two[i] : sdv_next(level, k)]];
-            int e = level->face_edges[two[i]];
-            if (forget) *edge = -1;
-            else if (*edge < 0 || e < *edge) *edge = e;
-        }
-    }
-}
-
-// The edges between many pairs of vertices, as sdv_find_edge finds them, but vertex by vertex: in
-// linear time however many pairs there are at a vertex with however many faces.
-static void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
-                           int count, int *found)
-{
-    sdv_arena scratch = sdv_scratch();
-    if (count == 0) return;
-    int *first = SDV_NEW(context, &scratch, int, level->vertex_count);
-    int *next = SDV_NEW(context, &scratch, int, count);
-    int *edge_to = SDV_NEW(context, &scratch, int, level->vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++) first[v] = edge_to[v] = -1;
-    for (int i = 0; i < count && !context->result; i++) {
-        int v = sdv_smaller_end(level, pairs[2 * i], pairs[2 * i + 1]);
-        next[i] = first[v];
-        first[v] = i;
-    }
-    for (int v = 0; v < level->vertex_count && !context->result; v++) {
-        if (first[v] < 0) continue;
-        sdv_note_edges(level, v, edge_to, 0);
-        for (int i = first[v]; i >= 0; i = next[i])
-            found[i] = edge_to[pairs[2 * i] == v ? pairs[2 * i + 1] : pairs[2 * i]];
-        sdv_note_edges(level, v, edge_to, 1);
-    }
-    sdv_arena_free(&scratch);
 }
 
 // Do the faces at v, whose edges are all manifold, form one fan? From face to face around v, to
@@ -1945,12 +1898,11 @@ static int sdv_is_fan(const sdv_level *level, int v)
 {
     int first = level->vertex_first[v], h = first, met = 1;
     if (first < 0) return 0;
-    for (;;) {
+    for (;; met++) {
         int before = sdv_previous(level, h), left = level->across[before];
         if (left == first) return met == level->vertex_faces[v];
         if (left == before) break;
         h = left;
-        met++;
     }
     for (h = first; level->across[h] != h; met++) h = sdv_next(level, level->across[h]);
     return met == level->vertex_faces[v];
@@ -1969,24 +1921,16 @@ static float sdv_clamp_sharpness(float s)
 }
 
 // The user's creases and corners. A crease that is no edge is skipped.
-static void sdv_user_sharpness(sdv_context *context, sdv_arena *scratch, sdv_cage *cage,
-                               const subdiv_mesh *mesh)
+static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const subdiv_mesh *mesh)
 {
-    sdv_level *level = &cage->level;
-    int *edges = SDV_NEW(context, scratch, int, mesh->crease_count);
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, edges);
-    if (context->result) return;
     memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
     memset(level->vertex_sharpness, 0, (size_t)level->vertex_count * sizeof(float));
     for (int i = 0; i < mesh->crease_count; i++) {
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
-        int e = edges[i];
+        int e = sdv_find_edge(level, a, b);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
     }
-    for (int i = 0; i < 2 * mesh->crease_count; i++)
-        if (edges[i / 2] >= 0 && level->sharpness[level->edge_first[edges[i / 2]]] > 0)
-            level->creased[mesh->crease_vertices[i]] = 1;
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
             sdv_clamp_sharpness(mesh->corner_sharpness[i]);
@@ -2041,8 +1985,9 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
            cage->level.vertex_faces[v] > edges.count;
 }
 
-// What is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
+// Adds what is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
 // vertices with one face; non-manifold vertices, but for a non-manifold edge that runs through.
+// Marks the ends of all sharp edges.
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
@@ -2050,10 +1995,11 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
-        if (!odd && !sdv_is_boundary(level, h)) continue;
+        if ((odd || sdv_is_boundary(level, h)) && level->sharpness[h] < SUBDIV_INFINITE)
+            sdv_sharpen_edge(level, e, SDV_IMPLIED);
+        if (level->sharpness[h] <= 0) continue;
         int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
         if (odd) nonmanifold[a] = nonmanifold[b] = 1;
-        if (level->sharpness[h] < SUBDIV_INFINITE) sdv_sharpen_edge(level, e, SDV_IMPLIED);
         level->creased[a] = level->creased[b] = 1;
     }
     for (int v = 0; v < level->vertex_count; v++) {
@@ -2107,18 +2053,18 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    level->edge_at = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->edges = SDV_NEW(context, scratch, sdv_listed_edge, level->face_vertex_count);
     cage->edge_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->face_vertex_count);
     cage->vertex_nonmanifold = SDV_NEW(context, scratch, unsigned char, level->vertex_count);
     if (context->result) return;
 
     memset(cage->edge_nonmanifold, 0, (size_t)level->face_vertex_count);
     sdv_level_count(level);
-    sdv_cage_edges(context, cage);
-    if (context->result) return;
+    sdv_cage_edges(cage);
     memset(cage->hole, 0, (size_t)level->face_count);
     for (int i = 0; i < mesh->hole_count; i++) cage->hole[mesh->holes[i]] = 1;
-    sdv_user_sharpness(context, scratch, cage, mesh);
-    if (context->result) return;
+    sdv_user_sharpness(context, level, mesh);
     if (mesh->boundary == SUBDIV_BOUNDARY_NONE && mesh->scheme != SUBDIV_BILINEAR)
         sdv_open_boundary(cage);
     sdv_implied_sharpness(cage, mesh->boundary);
@@ -2246,7 +2192,7 @@ static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
     return edges;
 }
 
-// How a vertex of some sharpness, of which so much is left one level down, fades with its edges.
+// How a vertex fades, of whose sharpness so much is left one level down, with its edges.
 static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
 {
     int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
@@ -2267,14 +2213,22 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
+// How a vertex fades by its own sharpness and that of its edges.
+static sdv_fading sdv_own_fading(const sdv_level *level, int v)
+{
+    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    float sharpness = level->vertex_sharpness[v];
+    if (!level->creased[v] && sharpness <= 0) return smooth;
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, v);
+    return sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+}
+
 // A vertex of UVs with a partner fades as that does, but, while its seam stays semi-sharp, a level
 // later [OSD].
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    int partner = level->partner ? level->partner[v] : -1, from = partner >= 0 ? partner : v;
-    float sharpness = level->vertex_sharpness[from];
-    sdv_sharp_edges edges = sdv_count_sharp_edges(level, from);
-    sdv_fading fading = sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
+    int partner = level->partner ? level->partner[v] : -1;
+    sdv_fading fading = sdv_own_fading(level, partner >= 0 ? partner : v);
     if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
@@ -3811,34 +3765,32 @@ static void sdv_find_seams(sdv_seams *seams)
     }
 }
 
-// Faces with a value at each vertex; own_face [faces of the cage] are their numbers here, or -1.
+// Takes the faces with a value at each vertex; own_face [faces of the cage] are their numbers here,
+// or -1.
 static void sdv_seam_faces(sdv_context *context, sdv_arena *keep, sdv_seams *seams, int *own_face)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
-    for (int f = 0; f < cage->face_count; f++) {
-        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f), has = 1;
-        for (int h = start; h < end; h++) has &= seams->values[h] >= 0;
-        own_face[f] = has ? level->face_count++ : -1;
-        for (int h = start; h < end; h++) {
-            seams->own[h] = has ? level->face_vertex_count : -1;
-            if (has) seams->home[level->face_vertex_count++] = h;
-        }
-    }
+    int most = cage->face_vertex_count, mixed = !cage->face_size, h = 0;
     level->face_size = cage->face_size;
-    level->face_vertices = SDV_NEW(context, keep, int, level->face_vertex_count);
-    level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
-    if (level->face_size) return;
-    level->face_starts = SDV_NEW(context, keep, int, (size_t)level->face_count + 1);
-    level->face_of = SDV_NEW(context, keep, int, level->face_vertex_count);
-    if (!context->result) level->face_starts[0] = 0;
-    for (int f = 0, h = 0; f < cage->face_count && !context->result; f++) {
-        if (own_face[f] < 0) continue;
-        level->face_starts[own_face[f]] = h;
-        int end = h + sdv_face_end(cage, f) - sdv_face_start(cage, f);
-        while (h < end) level->face_of[h++] = own_face[f];
-        level->face_starts[own_face[f] + 1] = h;
+    level->face_vertices = SDV_NEW(context, keep, int, most);
+    level->face_edges = SDV_NEW(context, keep, int, most);
+    if (mixed) level->face_starts = SDV_NEW(context, keep, int, (size_t)cage->face_count + 1);
+    if (mixed) level->face_of = SDV_NEW(context, keep, int, most);
+    for (int f = 0; f < cage->face_count && !context->result; f++) {
+        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f), has = 1, first = h;
+        for (int k = start; k < end; k++) has &= seams->values[k] >= 0;
+        own_face[f] = has ? level->face_count++ : -1;
+        for (int k = start; k < end; k++) {
+            seams->own[k] = has ? h : -1;
+            if (!has) continue;
+            if (mixed) level->face_of[h] = own_face[f];
+            seams->home[h++] = k;
+        }
+        if (has && mixed) level->face_starts[own_face[f]] = first;
     }
+    if (!context->result && mixed) level->face_starts[level->face_count] = h;
+    level->face_vertex_count = h;
 }
 
 // The first vertex with a value has the value's number; others that share it come after all.
@@ -3881,16 +3833,15 @@ static void sdv_seam_edges(sdv_seams *seams)
         int at = seams->home[h], seam = seams->seam[cage->face_edges[at]];
         level->across[h] = seam ? h : seams->own[cage->across[at]];
         level->sharpness[h] = seam ? SDV_IMPLIED : cage->sharpness[at];
+        if (level->sharpness[h] > 0)
+            level->creased[level->face_vertices[h]] =
+                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
         if (level->face_edges[h] >= 0) continue;
         int e = level->edge_count++, k = at;
         level->edge_first[e] = h;
         do level->face_edges[seams->own[k]] = e;
         while (!seam && (k = cage->across[k]) != at);
     }
-    for (int h = 0; h < level->face_vertex_count; h++)
-        if (level->sharpness[h] > 0)
-            level->creased[level->face_vertices[h]] =
-                level->creased[level->face_vertices[sdv_next(level, h)]] = 1;
 }
 
 // What the rule looks at, around a vertex of the cage.
@@ -3899,17 +3850,21 @@ typedef struct sdv_surroundings {
     int faces, all;                     // those with values, and all
     int seam, boundary, nonmanifold;    // is it on one?
     int own[2];                         // the first two vertices of this topology
+    float semi_sharp;                   // the largest sharpness of the semi-sharp seams
 } sdv_surroundings;
 
 static sdv_surroundings sdv_look_around(const sdv_seams *seams, int v)
 {
     const sdv_level *cage = &seams->cage->level, *level = &seams->level;
-    sdv_surroundings around = { 0, 0, 0, 0, 0, 0, { -1, -1 } };
+    sdv_surroundings around = { 0, 0, 0, 0, 0, 0, { -1, -1 }, 0 };
     around.all = cage->vertex_faces[v];
     around.nonmanifold = seams->cage->vertex_nonmanifold[v];
     for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
         int before = sdv_previous(cage, h), own = seams->own[h];
-        around.seam |= seams->seam[cage->face_edges[h]] | seams->seam[cage->face_edges[before]];
+        int seam = seams->seam[cage->face_edges[h]];
+        float s = cage->sharpness[h];
+        around.seam |= seam | seams->seam[cage->face_edges[before]];
+        if (seam && sdv_is_semi_sharp(s) && s > around.semi_sharp) around.semi_sharp = s;
         around.boundary |= sdv_is_boundary(cage, h) | sdv_is_boundary(cage, before);
         if (own < 0) continue;
         around.faces++;
@@ -3964,18 +3919,6 @@ static int sdv_is_uv_corner(const sdv_seams *seams, const sdv_surroundings *arou
     return both && sdv_is_shared_corner(seams, around);
 }
 
-// The largest sharpness of the semi-sharp seams at a vertex of the cage.
-static float sdv_semi_sharp_seam(const sdv_seams *seams, int v)
-{
-    const sdv_level *cage = &seams->cage->level;
-    float largest = 0;
-    for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h]) {
-        float s = cage->sharpness[h];
-        if (seams->seam[cage->face_edges[h]] && s < SUBDIV_INFINITE && s > largest) largest = s;
-    }
-    return largest;
-}
-
 static void sdv_seam_sharpness(sdv_seams *seams)
 {
     const sdv_level *cage = &seams->cage->level;
@@ -3998,17 +3941,26 @@ static void sdv_seam_sharpness(sdv_seams *seams)
         int without = of_a ? b : a;
         if (of_a == of_b || level->vertex_sharpness[without] > 0) continue;
         level->partner[without] = of_a ? a : b;
-        level->seam[without] = sdv_semi_sharp_seam(seams, v);
+        level->seam[without] = around.semi_sharp;
     }
 }
 
-// Chaikin's averages reach across seams: the sums of sdv_fade_halves at the vertices of the cage,
-// on each level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
-static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv_level *cage,
-                             int levels, float *sums)
+// Chaikin's averages reach across seams: so they take the sums at the vertices of the cage, on each
+// level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
+static void sdv_chaikin_sums(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
+                             sdv_seams *seams, int levels)
 {
+    const sdv_level *cage = &seams->cage->level;
+    sdv_level *level = &seams->level;
+    size_t count = 2 * (size_t)cage->vertex_count;
+    float *sums = level->sums = SDV_NEW(context, keep, float, count * (size_t)levels);
     float *s = SDV_NEW(context, scratch, float, cage->face_vertex_count);
+    level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
+    level->origin_count = cage->vertex_count;
     if (context->result) return;
+    for (int i = 0; i < level->vertex_count; i++) level->origin[i] = -1;
+    for (int h = 0; h < level->face_vertex_count; h++)
+        level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
     sdv_copy(s, cage->sharpness, (size_t)cage->face_vertex_count, sizeof(float));
     for (int i = 0; i < levels; i++) {
         for (int v = 0; v < cage->vertex_count; v++, sums += 2) {
@@ -4017,21 +3969,6 @@ static void sdv_chaikin_sums(sdv_context *context, sdv_arena *scratch, const sdv
                 s[h] = sdv_fade_chaikin(s[h], sums[0], (int)sums[1]);
         }
     }
-}
-
-static void sdv_seam_origins(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
-                             sdv_seams *seams, int levels)
-{
-    const sdv_level *cage = &seams->cage->level;
-    sdv_level *level = &seams->level;
-    level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
-    level->origin_count = cage->vertex_count;
-    level->sums = SDV_NEW(context, keep, float, 2 * (size_t)cage->vertex_count * (size_t)levels);
-    if (context->result) return;
-    for (int i = 0; i < level->vertex_count; i++) level->origin[i] = -1;
-    for (int h = 0; h < level->face_vertex_count; h++)
-        level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
-    sdv_chaikin_sums(context, scratch, cage, levels, level->sums);
 }
 
 // Level 0 of the values. Arenas as for sdv_cage_build: to keep goes source, too.
@@ -4054,7 +3991,7 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
     level->seam = SDV_NEW(context, scratch, float, level->vertex_count);
-    if (chaikin) sdv_seam_origins(context, keep, scratch, seams, levels);
+    if (chaikin) sdv_chaikin_sums(context, keep, scratch, seams, levels);
     if (context->result) return;
     for (int i = 0; i < level->vertex_count; i++) level->partner[i] = -1;
     sdv_level_count(level);
@@ -10883,8 +10820,8 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
 
 typedef struct sdv_inside {
     int columns, rows;                  // of the grid
-    int left, right, bottom, top;       // the part of it that is made of grid pieces
-    int strips;                         // are there strips?
+    int margin;                         // pieces that strips replace at column 0 and row 0,
+    int last;                           // and at the last column and row
 } sdv_inside;
 
 typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
@@ -10959,10 +10896,8 @@ static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
     int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
     if (grid->columns < least) grid->columns = least;
     if (grid->rows < least) grid->rows = least;
-    grid->strips = !sdv_is_regular(&tile);
-    grid->left = grid->bottom = grid->strips;
-    grid->right = grid->columns - (tile.ngon ? 0 : grid->strips << tile.loop);
-    grid->top = grid->rows - (tile.ngon ? 0 : grid->strips << tile.loop);
+    grid->margin = !sdv_is_regular(&tile);
+    grid->last = tile.ngon ? 0 : grid->margin << tile.loop;
 }
 
 // How many points are inside a face.
@@ -11043,13 +10978,13 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
     const sdv_inside *in = tile->grid;
     int grids = tile->ngon ? tile->sides : 1, cut = out->triangles && !tile->loop;
-    size_t size = out->triangles ? 3 : 4, wide = (size_t)in->right - (size_t)in->left;
-    size_t pieces = (size_t)grids * wide * ((size_t)in->top - (size_t)in->bottom);
-    int *faces = out->vertices + out->face_vertices;
-    for (int i = 0; i < grids && pieces && out->vertices; i++) {
+    int margin = in->margin, right = in->columns - in->last, top = in->rows - in->last;
+    size_t size = out->triangles ? 3 : 4;
+    size_t pieces = (size_t)grids * (size_t)(right - margin) * (size_t)(top - margin);
+    int *faces = out->vertices ? out->vertices + out->face_vertices : NULL;
+    for (int i = 0; i < grids && pieces && faces; i++) {
         sdv_grid grid = sdv_tile_grid(tile, i);
-        int right = in->right + tile->loop * in->bottom;        // as it is in row 0
-        int *end = sdv_grid_faces(&grid, in->bottom, in->top, in->left, right, faces);
+        int *end = sdv_grid_faces(&grid, margin, top, margin, right + tile->loop * margin, faces);
         faces = cut ? sdv_cut_quads(faces, end) : end;
     }
     if (cut) pieces *= 2;
@@ -11071,8 +11006,8 @@ static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2
         return sdv_grid_index(&grids[1], 2 * in->columns - 1 - j, 1);
     if (tile->ngon) return sdv_grid_index(grids, 1, j + 1);
     const int (*at)[2] = sdv_corners[tile->loop] + side;
-    int row = (at[0][0] ? in->top : in->bottom) + j * (at[1][0] - at[0][0]);
-    int column = (at[0][1] ? in->right : in->left) + j * (at[1][1] - at[0][1]);
+    int row = (at[0][0] ? in->rows - in->last : in->margin) + j * (at[1][0] - at[0][0]);
+    int column = (at[0][1] ? in->columns - in->last : in->margin) + j * (at[1][1] - at[0][1]);
     return sdv_grid_index(grids, row, column);
 }
 
@@ -11110,7 +11045,7 @@ static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
     sdv_tile tile = sdv_tile_at(tiling, f);
     sdv_grid grids[2];
     sdv_put_inside(&tile, out);
-    for (int i = 0; i < tile.sides && tile.grid->strips; i++) {
+    for (int i = 0; i < tile.sides && tile.grid->margin; i++) {
         if (tile.ngon || i == 0) grids[0] = sdv_tile_grid(&tile, i);
         if (tile.ngon) grids[1] = sdv_tile_grid(&tile, (i + 1) % tile.sides);
         sdv_put_strip(&tile, i, grids, out);
@@ -11200,7 +11135,7 @@ typedef struct sdv_leaf_points {
     int      jobs;
     unsigned char *failed;              // [jobs]
     sdv_window out;                     // the first points of the tiling
-    sdv_tangents tangents;              // or, without normals, nothing
+    sdv_tangents tangents;              // of these
     // The leaf at hand, or a part of it:
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
@@ -11283,6 +11218,7 @@ typedef struct sdv_line_points {
     int     index, step;                // of point first, and from point to point
 } sdv_line_points;
 
+// Puts points of a line: a row at v = t or, turned, a column at u = t.
 SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned, int tangents,
                                   const sdv_line_points *points, float t, double from, double by)
 {
@@ -11325,9 +11261,9 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
 
 typedef struct sdv_ticks { int64_t first, last; } sdv_ticks;
 
-// Points k / rate of a side stand at its ticks k. Returns how many ticks, from 1 on, belong to the
-// areas before x, a place in units, where the middle is at so many sixths of the grid. half: the
-// side is a half of the edge that has the rate.
+// The ticks of a side are its points k / rate, k = 1, 2, ... Counts those that belong to the areas
+// before x, a place in units; the middle is at so many sixths of the grid. half: the side is a half
+// of the edge that has the rate.
 static int64_t sdv_ticks_before(const sdv_area *area, int64_t x, int sixths, int64_t rate, int half)
 {
     int behind = 6 * x <= sixths * sdv_units(area);             // a tick at x belongs there
@@ -11450,8 +11386,8 @@ static void sdv_put_patch_points(sdv_leaf_points *l, sdv_patch_at at)
     }
 }
 
-// The area of a face of a nest after so many levels, and where its vertex is; or that of its child
-// on the next level.
+// The area of a face of a nest after so many levels, as seen from the vertex of the nest (child 0);
+// or of one of its other children on the next level.
 static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
 {
     const int (*at)[2] = sdv_corners[tile->loop];
@@ -11470,9 +11406,9 @@ static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, i
                        2 * (y - up) + step * (middle ? 1 : at[i][0]), middle ? -step : step);
 }
 
-// After how many levels what is left of a face of a nest has no points but its vertex: it is
-// smaller than all pieces, or as large as the smallest one and in a corner of the grid, where other
-// points belong to areas that are nearer to the middle.
+// Counts the levels after which a face of a nest has no points but its vertex: it is smaller than
+// all pieces, or as large as the smallest one and in a corner of the grid, where other points
+// belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
     int most = tile->grid->columns > tile->grid->rows ? tile->grid->columns : tile->grid->rows;
@@ -11775,8 +11711,7 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     sdv_set_edge_rates(context, t);
     if (t->how->edge_rate && !context->result) sdv_ask_edge_rates(context, t, factor);
     if (context->result) return;
-    for (int f = 0; f < faces; f++)
-        sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
+    for (int f = 0; f < faces; f++) sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
     *mesh = surface->fine;
     mesh->crease_count = mesh->corner_count = 0;
     mesh->vertex_count = sdv_place_points(context, &t->points);
