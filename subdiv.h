@@ -1152,16 +1152,22 @@ static void sdv_huge_pages(void *memory, size_t size)
 }
 #endif
 
+// The bytes of so many items; if there is no such number, more than sdv_allocate can get.
+static size_t sdv_bytes(size_t count, size_t item)
+{
+    return count <= (size_t)PTRDIFF_MAX / item ? count * item : (size_t)PTRDIFF_MAX;
+}
+
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
     if (size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
         block = (sdv_block *)SUBDIV_MALLOC(size + sizeof(sdv_block), context->user);
-    if (block) sdv_huge_pages(block, size);
     if (!block) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
         return NULL;
     }
+    sdv_huge_pages(block, size);
     block->next = NULL;
     block->user = context->user;
     return block;
@@ -1189,12 +1195,9 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 // Room for count items, not cleared. Never NULL while context->result is SUBDIV_OK.
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
+    size_t size = sdv_bytes(count, item);
     if (context->result) return NULL;
-    if (count > (size_t)PTRDIFF_MAX / item - 16) {
-        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-        return NULL;
-    }
-    size_t size = SDV_SEPARATE ? count * item : (count * item + 16) / 16 * 16;
+    if (!SDV_SEPARATE) size = (size + 16) / 16 * 16;
     if (SDV_SEPARATE) sdv_add_block(context, arena, size);
     else sdv_reserve(context, arena, size);
     if (context->result) return NULL;
@@ -1220,32 +1223,6 @@ typedef struct sdv_array {              // grows
     size_t count, capacity;             // in items
 } sdv_array;
 
-// Room for so many items in all; those that are there are kept.
-static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
-{
-    if (context->result) return;
-    if (capacity > (size_t)PTRDIFF_MAX / item) {
-        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-        return;
-    }
-    sdv_block *block = sdv_allocate(context, capacity * item);
-    if (!block) return;
-    if (array->block) {
-        memcpy(block + 1, array->block + 1, array->count * item);
-        SUBDIV_FREE(array->block, array->block->user);
-    }
-    array->block = block;
-    array->capacity = capacity;
-}
-
-// A place behind the items, with room for so many more. NULL when out of memory.
-static void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
-{
-    if (!array->block || array->capacity - array->count < more)
-        sdv_grow(context, array, 2 * (array->count + more), item);
-    return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
-}
-
 static void sdv_copy(void *to, const void *from, size_t count, size_t item)
 {
     if (count) memcpy(to, from, count * item);
@@ -1260,6 +1237,26 @@ static void sdv_array_free(sdv_array *array)
 {
     if (array->block) SUBDIV_FREE(array->block, array->block->user);
     array->block = NULL;
+}
+
+// Moves the items to where there is room for so many in all.
+static int sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
+{
+    sdv_block *block = context->result ? NULL : sdv_allocate(context, sdv_bytes(capacity, item));
+    if (!block) return 0;
+    sdv_copy(block + 1, sdv_items(array), array->count, item);
+    sdv_array_free(array);
+    array->block = block;
+    array->capacity = capacity;
+    return 1;
+}
+
+// A place behind the items, with room for so many more. NULL when out of memory.
+SDV_INLINE void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
+{
+    if (array->capacity - array->count <= more &&
+        !sdv_grow(context, array, 2 * (array->count + more), item)) return NULL;
+    return (char *)(array->block + 1) + array->count * item;
 }
 
 // Appends count cleared items.
