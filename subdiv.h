@@ -13917,13 +13917,16 @@ typedef struct sdv_output {
     sdv_context *context;
     subdiv_write write;
     void        *user;
+    const subdiv_options *opt;
     const sdv_figures *figures;
     char        *buffer;                // [SDV_OUTPUT_SIZE]
     size_t       used;
 } sdv_output;
 
-#define SDV_OUTPUT_SIZE 16384           // stays in the nearest cache
-#define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
+enum {
+    SDV_OUTPUT_SIZE = 16384,            // stays in the nearest cache
+    SDV_PIECE_SIZE = 256                // more than any line but those of faces and statements
+};
 
 static void sdv_flush(sdv_output *out)
 {
@@ -13950,69 +13953,58 @@ static void sdv_write_text(sdv_output *out, const char *text)
 {
     for (size_t left = strlen(text), size; left; left -= size, text += size) {
         char *p = sdv_room(out);
-        size = left < SDV_PIECE_SIZE ? left : SDV_PIECE_SIZE;
+        size = left < SDV_PIECE_SIZE ? left : (size_t)SDV_PIECE_SIZE;
         memcpy(p, text, size);
         sdv_end(out, p + size);
     }
-}
-
-// A tag with one or two indices and, unless it is negative, a sharpness.
-static void sdv_write_tag(sdv_output *out, const char *tag, const int *indices, int count,
-                          const float *sharpness)
-{
-    sdv_write_text(out, tag);
-    char *p = sdv_room(out);
-    for (int i = 0; i < count; i++) {
-        *p++ = ' ';
-        p = sdv_write_index(out->figures, p, indices[i]);
-    }
-    if (sharpness) {
-        float s = *sharpness > SUBDIV_INFINITE ? SUBDIV_INFINITE : *sharpness;
-        *p++ = ' ';
-        p = sdv_write_exactly(p, s > 0 ? s : 0);
-    }
-    *p++ = '\n';
-    sdv_end(out, p);
-}
-
-static void sdv_write_rules(sdv_output *out, const subdiv_mesh *mesh)
-{
-    static const char *const boundaries[] = { "2\n", "1\n", "0\n" };
-    static const char *const uv_rules[] = { "1\n", "2\n", "3\n", "4\n", "5\n", "0\n" };
-    sdv_write_text(out, "t interpolateboundary 1/0/0 ");
-    sdv_write_text(out, boundaries[mesh->boundary]);
-    if (mesh->uv_rule != SUBDIV_UV_CORNERS_ONLY) {
-        sdv_write_text(out, "t facevaryinginterpolateboundary 1/0/0 ");
-        sdv_write_text(out, uv_rules[mesh->uv_rule]);
-    }
-    if (mesh->creasing == SUBDIV_CREASING_CHAIKIN)
-        sdv_write_text(out, "t creasemethod 0/0/1 chaikin\n");
-    if (mesh->triangles == SUBDIV_TRIANGLES_SMOOTH)
-        sdv_write_text(out, "t smoothtriangles 0/0/1 smooth\n");
-}
-
-// One entry per tag, the form that every reader of these tags understands.
-static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
-{
-    if (!mesh->crease_count && !mesh->corner_count && !mesh->hole_count &&
-        mesh->boundary == SUBDIV_BOUNDARY_EDGE && mesh->uv_rule == SUBDIV_UV_CORNERS_ONLY &&
-        mesh->creasing == SUBDIV_CREASING_UNIFORM &&
-        mesh->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK) return;
-    sdv_write_rules(out, mesh);
-    for (int i = 0; i < mesh->crease_count; i++)
-        sdv_write_tag(out, "t crease 2/1/0", mesh->crease_vertices + 2 * (size_t)i, 2,
-                      &mesh->crease_sharpness[i]);
-    for (int i = 0; i < mesh->corner_count; i++)
-        sdv_write_tag(out, "t corner 1/1/0", &mesh->corner_vertices[i], 1,
-                      &mesh->corner_sharpness[i]);
-    for (int i = 0; i < mesh->hole_count; i++)
-        sdv_write_tag(out, "t hole 1/0/0", &mesh->holes[i], 1, NULL);
 }
 
 static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
 {
     for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, &numbers[i]);
     return p;
+}
+
+// Creases, corners or holes, each a tag of its own: the form that every reader of tags understands.
+static void sdv_write_list(sdv_output *out, int kind, int count, const int *indices,
+                           const float *sharpness)
+{
+    for (int i = 0; i < count && !out->context->result; i++) {
+        sdv_write_text(out, sdv_list_tags[kind]);
+        char *p = sdv_room(out);
+        for (int k = kind == SDV_CREASES ? 2 : 1; k > 0; k--) {
+            *p++ = ' ';
+            p = sdv_write_index(out->figures, p, *indices++);
+        }
+        if (sharpness) {
+            float s = sharpness[i] > SUBDIV_INFINITE ? SUBDIV_INFINITE : sharpness[i];
+            *p++ = ' ';
+            p = sdv_write_exactly(p, s > 0 ? s : 0);
+        }
+        *p++ = '\n';
+        sdv_end(out, p);
+    }
+}
+
+// Nothing if all is as usual; otherwise always the boundary, as readers differ in their defaults.
+static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
+{
+    const int rules[SDV_RULES] = { (int)mesh->boundary, (int)mesh->uv_rule, (int)mesh->creasing,
+                                   (int)mesh->triangles };
+    int any = mesh->crease_count || mesh->corner_count || mesh->hole_count;
+    for (int i = 0; i < SDV_RULES; i++) any |= rules[i];
+    if (!any || (out->opt && out->opt->no_tags)) return;
+    for (int i = 0; i < SDV_RULES; i++) {
+        if (i > 0 && rules[i] == 0) continue;
+        sdv_write_text(out, sdv_rule_tags[i].text);
+        sdv_write_text(out, sdv_rule_tags[i].values[rules[i]]);
+        sdv_write_text(out, "\n");
+    }
+    sdv_write_list(out, SDV_CREASES, mesh->crease_count, mesh->crease_vertices,
+                   mesh->crease_sharpness);
+    sdv_write_list(out, SDV_CORNERS, mesh->corner_count, mesh->corner_vertices,
+                   mesh->corner_sharpness);
+    sdv_write_list(out, SDV_HOLES, mesh->hole_count, mesh->holes, NULL);
 }
 
 // Lines of so many numbers, and behind each 3 of more unless that is NULL: v x y z r g b.
@@ -14096,56 +14088,22 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
         if (uvs) uvs += (size_t)(next - f) * (size_t)size;
     }
     sdv_write_statements(out, mesh, statement, mesh->face_count);
+    sdv_write_tags(out, mesh);
 }
 
-static sdv_output sdv_open_output(sdv_context *context, sdv_arena *arena, subdiv_write write,
-                                  void *user)
-{
-    sdv_output out = { context, write, user, NULL, NULL, 0 };
-    sdv_figures *figures = SDV_NEW(context, arena, sdv_figures, 1);
-    out.buffer = SDV_NEW(context, arena, char, SDV_OUTPUT_SIZE);
-    if (context->result) return out;
-    sdv_make_figures(figures);
-    out.figures = figures;
-    return out;
-}
-
-static subdiv_result sdv_save(sdv_context *context, const subdiv_mesh *mesh, subdiv_write write,
-                              void *user, const subdiv_options *opt)
-{
-    sdv_arena arena = sdv_scratch();
-    sdv_output out = sdv_open_output(context, &arena, write, user);
-    if (!context->result) {
-        sdv_write_mesh(&out, mesh);
-        if (!opt || !opt->no_tags) sdv_write_tags(&out, mesh);
-        sdv_flush(&out);
-    }
-    sdv_arena_free(&arena);
-    return context->result;
-}
-
-SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
-                                                  void *user, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_all(&context, mesh);
-    return sdv_save(&context, mesh, write, user, opt);
-}
-
-#define SDV_STREAM_POINTS (1 << 20)
+enum { SDV_STREAM_POINTS = 1 << 20 };
 
 // The points of a surface, width numbers each, a window at a time. The first windows hold the
 // points of vertices and edges, which any face may make; the others those inside a few faces, or a
 // part of one. The first three numbers are positions, to be multiplied by factor.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
-                              const char *keyword, int width, const float *values, float factor,
-                              const subdiv_options *opt)
+                              const char *keyword, int width, const float *values, float factor)
 {
+    const subdiv_options *opt = out->opt;
     int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
     size_t stride = (size_t)width;
-    size_t most = total < SDV_STREAM_POINTS ? (size_t)total : SDV_STREAM_POINTS;
-    float *window = SDV_NEW(out->context, arena, float, stride * most);
+    int most = total < SDV_STREAM_POINTS ? total : (int)SDV_STREAM_POINTS;
+    float *window = SDV_NEW(out->context, arena, float, stride * (size_t)most);
     char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
     if (out->context->result) return;
     subdiv_result result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
@@ -14208,43 +14166,63 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     sdv_write_statements(out, &surface->fine, statement, surface->fine.face_count);
 }
 
-// Level 0 is a copy, no larger than the cage.
-static subdiv_result sdv_stream_copy(sdv_context *context, const subdiv_surface *surface,
-                                     const float *positions, subdiv_write write, void *user,
-                                     const subdiv_options *opt)
+static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
+                               const float *positions)
+{
+    sdv_context *context = out->context;
+    subdiv_mesh fine = surface->fine;
+    float factor = sdv_tame(context, arena, surface, &positions);
+    int *row = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
+    int *uvs = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
+    fine.holes = SDV_NEW(context, arena, int, fine.hole_count);
+    const float *values = sdv_join_colors(context, arena, surface, positions);
+    if (context->result) return;
+    sdv_fill_holes(surface, fine.holes);
+    sdv_stream_points(out, arena, surface, "v", surface->colors ? 6 : 3, values, factor);
+    if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1);
+    sdv_stream_faces(out, surface, row, uvs);
+    sdv_write_tags(out, &fine);
+}
+
+typedef struct sdv_content {            // what is written: a mesh, or a surface being refined
+    const subdiv_mesh *mesh;
+    const subdiv_surface *surface;
+    const float *positions;             // of the surface
+} sdv_content;
+
+static subdiv_result sdv_write_obj(sdv_context *context, sdv_content from, subdiv_write write,
+                                   void *user, const subdiv_options *opt)
 {
     subdiv_mesh copy;
-    context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
-    if (!context->result) sdv_save(context, &copy, write, user, opt);
+    memset(&copy, 0, sizeof copy);
+    if (context->result) return context->result;
+    if (from.surface && from.surface->levels == 0) {            // no larger than the cage
+        context->result = subdiv_surface_mesh(&copy, from.surface, from.positions, opt);
+        from.mesh = &copy;
+    }
+    sdv_arena arena = sdv_scratch();
+    sdv_figures *figures = SDV_NEW(context, &arena, sdv_figures, 1);
+    sdv_output out = { context, write, user, opt, figures, NULL, 0 };
+    out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
+    if (!context->result) {
+        sdv_make_figures(figures);
+        if (from.mesh) sdv_write_mesh(&out, from.mesh);
+        else sdv_stream_surface(&out, &arena, from.surface, from.positions);
+        sdv_flush(&out);
+    }
+    sdv_arena_free(&arena);
     subdiv_mesh_free(&copy);
     return context->result;
 }
 
-static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surface,
-                                const float *positions, subdiv_write write, void *user,
-                                const subdiv_options *opt)
+SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
+                                                  void *user, const subdiv_options *opt)
 {
-    if (surface->levels == 0)
-        return sdv_stream_copy(context, surface, positions, write, user, opt);
-    sdv_arena arena = sdv_scratch();
-    sdv_output out = sdv_open_output(context, &arena, write, user);
-    subdiv_mesh fine = surface->fine;
-    float factor = sdv_tame(context, &arena, surface, &positions);
-    int *row = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
-    int *uvs = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
-    fine.holes = SDV_NEW(context, &arena, int, fine.hole_count);
-    const float *values = sdv_join_colors(context, &arena, surface, positions);
-    if (!context->result) {
-        sdv_fill_holes(surface, fine.holes);
-        sdv_stream_points(&out, &arena, surface, "v", surface->colors ? 6 : 3, values, factor, opt);
-        if (surface->uv)
-            sdv_stream_points(&out, &arena, surface->uv, "vt", 2, surface->uvs, 1, opt);
-        sdv_stream_faces(&out, surface, row, uvs);
-        if (!opt || !opt->no_tags) sdv_write_tags(&out, &fine);
-        sdv_flush(&out);
-    }
-    sdv_arena_free(&arena);
-    return context->result;
+    sdv_context context = sdv_begin(opt);
+    sdv_content from = { mesh, NULL, NULL };
+    if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_all(&context, mesh);
+    return sdv_write_obj(&context, from, write, user, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
@@ -14252,9 +14230,9 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, write != NULL);
-    if (context.result) return context.result;
-    return sdv_stream(&context, surface, positions, write, user, opt);
+    return sdv_write_obj(&context, from, write, user, opt);
 }
 
 typedef struct sdv_kept {
@@ -14279,11 +14257,12 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
 {
     sdv_context context = sdv_begin(opt);
     sdv_kept store = { (char *)text, 0, capacity };
+    sdv_content from = { mesh, NULL, NULL };
     if (size) *size = 0;
     if (!size || (capacity && !text))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_all(&context, mesh);
-    if (!sdv_save(&context, mesh, sdv_write_memory, &store, opt)) *size = store.size;
+    if (!sdv_write_obj(&context, from, sdv_write_memory, &store, opt)) *size = store.size;
     if (!context.result && capacity && capacity < store.size)
         sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
     return context.result;
@@ -14359,34 +14338,36 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
     return context.result;
 }
 
+static subdiv_result sdv_write_path(sdv_context *context, sdv_content from, const char *path,
+                                    const subdiv_options *opt)
+{
+    if (context->result) return context->result;            // the file is not overwritten
+    context->name = path;
+    FILE *file = sdv_open(context, path, "wb");
+    if (!file) return context->result;
+    sdv_write_obj(context, from, sdv_write_file, file, opt);
+    if (fclose(file)) sdv_fail_io(context, "writing failed");
+    return context->result;
+}
+
 SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_content from = { mesh, NULL, NULL };
     if (!path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "path is NULL");
-    else sdv_check_all(&context, mesh);            // before the file is overwritten
-    if (context.result) return context.result;
-    context.name = path;
-    FILE *file = sdv_open(&context, path, "wb");
-    if (!file) return context.result;
-    sdv_save(&context, mesh, sdv_write_file, file, opt);
-    if (fclose(file)) sdv_fail_io(&context, "writing failed");
-    return context.result;
+    else sdv_check_all(&context, mesh);
+    return sdv_write_path(&context, from, path, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, path != NULL);
     if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
-    if (context.result) return context.result;
-    context.name = path;
-    FILE *file = sdv_open(&context, path, "wb");
-    if (!file) return context.result;
-    sdv_stream(&context, surface, positions, sdv_write_file, file, opt);
-    if (fclose(file)) sdv_fail_io(&context, "writing failed");
-    return context.result;
+    return sdv_write_path(&context, from, path, opt);
 }
 
 #endif // SUBDIV_NO_STDIO
@@ -14983,9 +14964,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_LOOKUP
 #undef SDV_NEST_STACK
 #undef SDV_CACHE_LINE
-#undef SDV_OUTPUT_SIZE
-#undef SDV_PIECE_SIZE
-#undef SDV_STREAM_POINTS
 
 #if defined(__GNUC__) && defined(__cplusplus)
 #pragma GCC diagnostic pop
