@@ -996,33 +996,16 @@ SDV_INLINE void sdv_transpose(sdv_four *a)
 #ifndef SDV_SIMD
 typedef struct sdv_four { float x[4]; } sdv_four;
 
-SDV_INLINE sdv_four sdv_load(const float *p)
-{
-    sdv_four a = { { p[0], p[1], p[2], p[3] } };
-    return a;
-}
-
-SDV_INLINE void sdv_store(float *p, sdv_four a)
-{
-    for (int i = 0; i < 4; i++) p[i] = a.x[i];
-}
-
-SDV_INLINE void sdv_store_three(float *p, sdv_four a)
-{
-    for (int i = 0; i < 3; i++) p[i] = a.x[i];
-}
-
-SDV_INLINE sdv_four sdv_all(float x)
-{
-    sdv_four a = { { x, x, x, x } };
-    return a;
-}
-
 SDV_INLINE sdv_four sdv_of(float a, float b, float c, float d)
 {
     sdv_four four = { { a, b, c, d } };
     return four;
 }
+
+SDV_INLINE sdv_four sdv_load(const float *p)             { return sdv_of(p[0], p[1], p[2], p[3]); }
+SDV_INLINE sdv_four sdv_all(float x)                     { return sdv_of(x, x, x, x); }
+SDV_INLINE void sdv_store(float *p, sdv_four a)          { memcpy(p, a.x, 4 * sizeof *p); }
+SDV_INLINE void sdv_store_three(float *p, sdv_four a)    { memcpy(p, a.x, 3 * sizeof *p); }
 
 SDV_INLINE sdv_four sdv_plus(sdv_four a, sdv_four b)
 {
@@ -12691,9 +12674,15 @@ typedef struct sdv_decimal {
 } sdv_decimal;
 
 typedef struct sdv_big {                // an unsigned integer of up to 1536 bits
-    uint32_t words[48];                 // lowest first
+    uint32_t words[48];                 // lowest first, 0 from size on
     int size;
 } sdv_big;
+
+static sdv_big sdv_big_of(uint64_t number)
+{
+    sdv_big big = { { (uint32_t)number, (uint32_t)(number >> 32) }, 2 };
+    return big;
+}
 
 static void sdv_big_step(sdv_big *big, uint32_t factor, uint32_t add)  // big = big * factor + add
 {
@@ -12714,8 +12703,7 @@ static void sdv_big_power(sdv_big *big, uint32_t base, int64_t power)  // big = 
 
 static int sdv_big_compare(const sdv_big *a, const sdv_big *b)
 {
-    if (a->size != b->size) return a->size < b->size ? -1 : 1;
-    for (int i = a->size - 1; i >= 0; i--)
+    for (int i = 47; i >= 0; i--)
         if (a->words[i] != b->words[i]) return a->words[i] < b->words[i] ? -1 : 1;
     return 0;
 }
@@ -12724,14 +12712,8 @@ static int sdv_big_compare(const sdv_big *a, const sdv_big *b)
 // has at most 113 digits, so behind the first 120 it only matters whether there is a nonzero one.
 static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
 {
-    sdv_big left = { {0}, 0 }, right = { {0}, 0 };
-    int count = 0, binary = 0, rest = 0;
-    if (!decimal->more) {
-        sdv_big_step(&left, 1, (uint32_t)(decimal->head >> 32));
-        sdv_big_step(&left, 1u << 31, 0);
-        sdv_big_step(&left, 2, (uint32_t)decimal->head);
-        count = decimal->head_count;
-    }
+    int count = decimal->more ? 0 : decimal->head_count, binary = 0, rest = 0;
+    sdv_big left = sdv_big_of(decimal->more ? 0 : decimal->head);
     for (const char *p = decimal->digits; decimal->more && p < decimal->end; p++) {
         if (*p == '.' || (count == 0 && *p == '0')) continue;
         if (count == 120) {
@@ -12741,10 +12723,8 @@ static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
             count++;
         }
     }
-    uint64_t half = (uint64_t)ldexp(frexp(middle, &binary), 53);    // middle = half * 2^(binary-53)
-    sdv_big_step(&right, 1, (uint32_t)(half >> 32));
-    sdv_big_step(&right, 1u << 31, 0);
-    sdv_big_step(&right, 2, (uint32_t)half);
+    // middle = right * 2^(binary-53)
+    sdv_big right = sdv_big_of((uint64_t)ldexp(frexp(middle, &binary), 53));
     int64_t ten = decimal->head_count + decimal->exponent - count;
     sdv_big_power(ten > 0 ? &left : &right, 10, ten > 0 ? ten : -ten);
     sdv_big_power(binary > 53 ? &right : &left, 2, binary > 53 ? binary - 53 : 53 - binary);
@@ -12934,27 +12914,15 @@ SDV_INLINE uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number
 }
 
 // The first and the last of 8 digits that is not 0; one of them is.
-SDV_INLINE int sdv_first_digit(uint64_t text)
+SDV_INLINE void sdv_find_digits(uint64_t text, int *first, int *last)
 {
     uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
-    return __builtin_ctzll(others) / 8;
+    *first = __builtin_ctzll(others) / 8;
+    *last = (63 - __builtin_clzll(others)) / 8;
 #else
-    int i = 0;
-    while (!(others >> 8 * i & 255)) i++;
-    return i;
-#endif
-}
-
-SDV_INLINE int sdv_last_digit(uint64_t text)
-{
-    uint64_t others = text ^ 0x3030303030303030u;
-#if defined(__GNUC__)
-    return (63 - __builtin_clzll(others)) / 8;
-#else
-    int i = 7;
-    while (!(others >> 8 * i)) i--;
-    return i;
+    for (*first = 0; !(others >> 8 * *first & 255);) ++*first;
+    for (*last = 7; !(others >> 8 * *last);) --*last;
 #endif
 }
 
@@ -12994,8 +12962,9 @@ SDV_INLINE char *sdv_write_float(const sdv_figures *figures, char *p, const floa
     p += bits >> 31;
     if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
     uint64_t text = sdv_eight_digits(figures, digits);
-    int zeros = sdv_first_digit(text), count = sdv_last_digit(text) + 1 - zeros;
-    int point = 8 - zeros + ten;
+    int zeros, last;
+    sdv_find_digits(text, &zeros, &last);
+    int count = last + 1 - zeros, point = 8 - zeros + ten;
     text >>= 8 * zeros;
     if (point >= 0 && ten < 0) {
         *p = '0';
@@ -13023,7 +12992,8 @@ SDV_INLINE char *sdv_write_index(const sdv_figures *figures, char *p, int number
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = number ? sdv_first_digit(text) : 7;
+    int zeros = 7, last = 7;
+    if (number) sdv_find_digits(text, &zeros, &last);
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
 }
