@@ -12832,10 +12832,36 @@ SDV_INLINE const char *sdv_read_integer(const char *p, int64_t *out)
     return p > first ? p : NULL;
 }
 
+// Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
+// little above the double. NULL for others.
+SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
+{
+    static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
+                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18 };
+    static const double signs[] = { 1, -1 };
+    const double error = 2e-15;
+    size_t negative = *p == '-', count = 0, decimals = 0;
+    uint64_t head = 0, digit;
+    for (p += negative; (digit = (unsigned char)p[count] - (uint64_t)'0') < 10; count++)
+        head = head * 10 + digit;
+    p += count;
+    if (*p == '.') {
+        for (p++; (digit = (unsigned char)p[decimals] - (uint64_t)'0') < 10; decimals++)
+            head = head * 10 + digit;
+        p += decimals;
+    }
+    if (count + decimals - 1 > 17) return NULL;
+    double d = (double)(int64_t)head * units[decimals] * signs[negative];
+    *out = (float)(d * (1 - error));
+    return *out == (float)(d * (1 + error)) ? p : NULL;
+}
+
 // [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it is
 // anything else.
-static const char *sdv_read_any_number(const char *p, float *out)
+static const char *sdv_read_number(const char *p, float *out)
 {
+    const char *end = sdv_read_short_number(p, out);
+    if (end && *end != 'e' && *end != 'E') return end;
     int negative = *p == '-', point = 0, count = 0;
     int64_t power = 0;
     if (*p == '-' || *p == '+') p++;
@@ -12859,30 +12885,6 @@ static const char *sdv_read_any_number(const char *p, float *out)
     *out = sdv_nearest_float(&decimal);
     if (negative) *out = -*out;
     return p;
-}
-
-// Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
-// little above the double. NULL for others.
-SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
-{
-    static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
-                                    1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18 };
-    static const double signs[] = { 1, -1 };
-    const double error = 2e-15;
-    size_t negative = *p == '-', count = 0, decimals = 0;
-    uint64_t head = 0, digit;
-    for (p += negative; (digit = (unsigned char)p[count] - (uint64_t)'0') < 10; count++)
-        head = head * 10 + digit;
-    p += count;
-    if (*p == '.') {
-        for (p++; (digit = (unsigned char)p[decimals] - (uint64_t)'0') < 10; decimals++)
-            head = head * 10 + digit;
-        p += decimals;
-    }
-    if (count + decimals - 1 > 17) return NULL;
-    double d = (double)(int64_t)head * units[decimals] * signs[negative];
-    *out = (float)(d * (1 - error));
-    return *out == (float)(d * (1 + error)) ? p : NULL;
 }
 
 typedef struct sdv_figures {            // what writing many numbers needs
@@ -13044,7 +13046,7 @@ SDV_INLINE void sdv_push(sdv_context *context, sdv_array *array, const void *ite
     memcpy((char *)(array->block + 1) + array->count++ * size, item, size);
 }
 
-// Appends the same item, 4 bytes, until there are count of them.
+// Appends the same item, of 4 bytes, until the array has count items.
 static void sdv_fill(sdv_context *context, sdv_array *array, size_t count, const void *item)
 {
     while (array->count < count && !context->result) sdv_push(context, array, item, 4);
@@ -13117,7 +13119,7 @@ static void sdv_series_take(sdv_series *series, void *to)
 
 typedef struct sdv_tag {                // one crease, corner or hole
     int kind, line;
-    int at[2];                          // the vertices of a crease; twice the vertex or the face
+    int at[2];                          // two vertices, or twice the same vertex or face
     float sharpness;
 } sdv_tag;
 
@@ -13210,7 +13212,7 @@ SDV_INLINE int sdv_is_newline(char c)
     return c == '\n' || c == '\r';
 }
 
-// Nothing more in this statement: a line end or a comment.
+// Whether the statement ends here, with a line end or a comment.
 SDV_INLINE int sdv_at_end(const char *p)
 {
     return sdv_is_newline(*p) || *p == '#';
@@ -13238,7 +13240,7 @@ static const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
     return p;
 }
 
-// Goes to the next token of a statement; 0 if there is none. Mostly there is one blank before it.
+// Goes to the next token of a statement; returns 0 if there is none. Mostly one blank is before it.
 SDV_INLINE int sdv_find_token(sdv_obj *obj, const char **at)
 {
     const char *p = *at;
@@ -13251,7 +13253,7 @@ SDV_INLINE int sdv_find_token(sdv_obj *obj, const char **at)
     return !sdv_at_end(p);
 }
 
-// Behind a token: it is over. "-1.#IND" is one token, and not a number.
+// Whether a token ends before p. "-1.#IND" is one token, and not a number.
 static int sdv_ends_token(const char *p)
 {
     if ((unsigned char)*p > '#') return sdv_continues(p);
@@ -13300,7 +13302,7 @@ static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const ch
         sdv_fail_line(obj, code, message, p, sdv_length(p, token.end));
 }
 
-// Behind the rest of the statement, whatever it is. NULL after an error.
+// Skips the rest of a statement, whatever it is. Returns NULL after an error.
 static const char *sdv_skip_statement(sdv_obj *obj, const char *p)
 {
     for (int comment = 0;; p++) {
@@ -13318,11 +13320,10 @@ static const char *sdv_skip_statement(sdv_obj *obj, const char *p)
 
 // -------- vertices and faces. Each of these functions returns where it stopped reading.
 
+// Reads a number in any form, or refuses the token and returns NULL.
 static const char *sdv_read_odd_number(sdv_obj *obj, const char *p, float *number)
 {
-    const char *end = sdv_read_short_number(p, number);
-    if (end && sdv_ends_token(end)) return end;
-    end = sdv_read_any_number(p, number);
+    const char *end = sdv_read_number(p, number);
     if (!end || !sdv_ends_token(end))
         sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a number");
     else if (fabs((double)*number) > (double)FLT_MAX)
@@ -13383,7 +13384,7 @@ static const char *sdv_read_uv(sdv_obj *obj, const char *p)
     return p;
 }
 
-// Behind a number, if there is one.
+// Skips an integer, if there is one.
 SDV_INLINE const char *sdv_skip_integer(const char *p)
 {
     if ((*p == '-' || *p == '+') && sdv_is_digit(p[1])) p++;
@@ -13391,8 +13392,8 @@ SDV_INLINE const char *sdv_skip_integer(const char *p)
     return p;
 }
 
-// An index that may stand ahead of what it names. Of all such indices only the largest so far need
-// be remembered, as the first that is too large is one of them.
+// Notes an index whose vertex or vt is yet to come. Only an index that is larger than all before it
+// need be noted, as the first one that is too large in the end is one of these.
 static void sdv_note_ahead(sdv_obj *obj, int uv, int index)
 {
     sdv_array *ahead = &obj->ahead[uv];
@@ -13433,7 +13434,7 @@ SDV_INLINE const char *sdv_read_index(sdv_obj *obj, const char *p, int uv, int *
     return p - first < 10 && number - 1 < count ? p : sdv_read_any_index(obj, first, uv, out);
 }
 
-// A face whose vertices are there, and UVs if it has some: at so many of its vertices.
+// Counts a face whose vertices are kept already; uvs: how many of them have a vt.
 static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 {
     subdiv_mesh *mesh = &obj->mesh;
@@ -13453,7 +13454,7 @@ static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
     mesh->face_count++;
 }
 
-// Faces that have no UVs get -1 at their vertices, up to the last face-vertices, so many.
+// Gives -1 to the face-vertices so far that have no UVs, except the last ones.
 static void sdv_fill_uvs(sdv_obj *obj, size_t last)
 {
     const int none = -1;
@@ -13568,7 +13569,7 @@ static int sdv_read_values(sdv_obj *obj, const char **at)
     for (int64_t i = 0; i < counts[1] && !obj->context->result; i++) {
         sdv_token token = sdv_next_token(obj, at);
         float number = SUBDIV_INFINITE;
-        if (!sdv_token_is(token, "inf") && sdv_read_any_number(token.begin, &number) != token.end)
+        if (!sdv_token_is(token, "inf") && sdv_read_number(token.begin, &number) != token.end)
             return 0;
         sdv_push(obj->context, &obj->floats, &number, sizeof number);
     }
@@ -13616,23 +13617,20 @@ static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 
 static sdv_statement sdv_statement_kind(sdv_token keyword)
 {
-    static const struct { const char *word; sdv_statement kind; } words[] = {
-        { "v", SDV_VERTEX }, { "f", SDV_FACE }, { "vt", SDV_UV }, { "vn", SDV_PASSED },
-        { "fo", SDV_FACE }, { "t", SDV_TAG }, { "g", SDV_KEPT }, { "o", SDV_KEPT },
-        { "s", SDV_KEPT }, { "usemtl", SDV_KEPT }, { "mtllib", SDV_KEPT }, { "p", SDV_ELEMENT },
-        { "l", SDV_ELEMENT }, { "vp", SDV_FREE_FORM }, { "cstype", SDV_FREE_FORM },
-        { "deg", SDV_FREE_FORM }, { "bmat", SDV_FREE_FORM }, { "step", SDV_FREE_FORM },
-        { "curv", SDV_FREE_FORM }, { "curv2", SDV_FREE_FORM }, { "surf", SDV_FREE_FORM },
-        { "parm", SDV_FREE_FORM }, { "trim", SDV_FREE_FORM }, { "hole", SDV_FREE_FORM },
-        { "scrv", SDV_FREE_FORM }, { "sp", SDV_FREE_FORM }, { "end", SDV_FREE_FORM },
-        { "con", SDV_FREE_FORM }, { "ctech", SDV_FREE_FORM }, { "stech", SDV_FREE_FORM },
-        { "", SDV_PASSED } };
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (sdv_token_is(keyword, words[i].word)) return words[i].kind;
-    return *keyword.begin == 26 ? SDV_PASSED : SDV_UNKNOWN;     // ^Z ends the text of old editors
+    static const char *const words[] = { "v", "vt", "f fo", "t", "g o s usemtl mtllib", "vn", "p l",
+        "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con ctech stech" };
+    const char ctrl_z = 26;                         // ends the text of old editors
+    if (keyword.begin == keyword.end || *keyword.begin == ctrl_z) return SDV_PASSED;
+    for (int kind = SDV_VERTEX; kind < SDV_UNKNOWN; kind++) {
+        for (const char *p = words[kind]; *p;) {
+            if (sdv_token_is(keyword, p)) return (sdv_statement)kind;
+            while (*p && *p++ != ' ') {}
+        }
+    }
+    return SDV_UNKNOWN;
 }
 
-// The statements that make up most of a file, at once.
+// Recognizes the statements that make up most of a file, at once.
 SDV_INLINE sdv_statement sdv_usual_kind(const char *p)
 {
     if (*p == 'v' && p[1] == ' ') return SDV_VERTEX;
@@ -13741,7 +13739,7 @@ static int sdv_mesh_face(const sdv_obj *obj, int face)
     return face - (int)low < obj->mesh.face_count ? face - (int)low : -1;
 }
 
-// Makes the lists of the mesh from the tags, without those that name what does not exist.
+// Makes the lists of the mesh from the tags, except those that name what does not exist.
 static void sdv_sort_tags(sdv_obj *obj)
 {
     const sdv_tag *tags = (const sdv_tag *)sdv_items(&obj->tags);
