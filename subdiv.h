@@ -13030,12 +13030,9 @@ static void sdv_forget_errno(void)
 static void sdv_fail_io(sdv_context *context, const char *what)
 {
 #ifndef SUBDIV_NO_STDIO
-    if (errno) {
-        sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
-        return;
-    }
+    if (errno) sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
 #endif
-    sdv_fail(context, SUBDIV_ERROR_IO, what);
+    sdv_fail(context, SUBDIV_ERROR_IO, what);       // unless it has failed already
 }
 
 // Appends an item.
@@ -14267,9 +14264,11 @@ static FILE *sdv_open_path(sdv_context *context, const char *path, const char *m
 }
 #endif
 
-// Without a buffer of its own: we read and write in large blocks.
+// Opens a file, without a buffer of its own: the library reads and writes in large blocks. Messages
+// name the file from now on.
 static FILE *sdv_open(sdv_context *context, const char *path, const char *mode)
 {
+    context->name = path;
     sdv_forget_errno();
     FILE *file = sdv_open_path(context, path, mode);
     if (file) setvbuf(file, NULL, _IONBF, 0);
@@ -14293,26 +14292,17 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    if (mesh) memset(mesh, 0, sizeof *mesh);
-    if (!path || !mesh) {
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-        return context.result;
-    }
-    context.name = path;
-    FILE *file = sdv_open(&context, path, "rb");
-    if (!file) return context.result;
-    sdv_load_text(&context, mesh, sdv_read_file, file);
-    fclose(file);
+    FILE *file = path && mesh ? sdv_open(&context, path, "rb") : NULL;
+    sdv_load_text(&context, mesh, file ? sdv_read_file : NULL, file);
+    if (file) fclose(file);
     return context.result;
 }
 
 static subdiv_result sdv_write_path(sdv_context *context, sdv_content from, const char *path,
                                     const subdiv_options *opt)
 {
-    if (context->result) return context->result;            // the file is not overwritten
-    context->name = path;
-    FILE *file = sdv_open(context, path, "wb");
-    if (!file) return context->result;
+    FILE *file = context->result ? NULL : sdv_open(context, path, "wb");
+    if (!file) return context->result;                      // bad arguments leave a file as it is
     sdv_write_obj(context, from, sdv_write_file, file, opt);
     if (fclose(file)) sdv_fail_io(context, "writing failed");
     return context->result;
