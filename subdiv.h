@@ -931,33 +931,16 @@ SDV_INLINE void sdv_transpose(sdv_four *a)
 #ifndef SDV_SIMD
 typedef struct sdv_four { float x[4]; } sdv_four;
 
-SDV_INLINE sdv_four sdv_load(const float *p)
-{
-    sdv_four a = { { p[0], p[1], p[2], p[3] } };
-    return a;
-}
-
-SDV_INLINE void sdv_store(float *p, sdv_four a)
-{
-    for (int i = 0; i < 4; i++) p[i] = a.x[i];
-}
-
-SDV_INLINE void sdv_store_three(float *p, sdv_four a)
-{
-    for (int i = 0; i < 3; i++) p[i] = a.x[i];
-}
-
-SDV_INLINE sdv_four sdv_all(float x)
-{
-    sdv_four a = { { x, x, x, x } };
-    return a;
-}
-
 SDV_INLINE sdv_four sdv_of(float a, float b, float c, float d)
 {
     sdv_four four = { { a, b, c, d } };
     return four;
 }
+
+SDV_INLINE sdv_four sdv_load(const float *p)             { return sdv_of(p[0], p[1], p[2], p[3]); }
+SDV_INLINE sdv_four sdv_all(float x)                     { return sdv_of(x, x, x, x); }
+SDV_INLINE void sdv_store(float *p, sdv_four a)          { memcpy(p, a.x, 4 * sizeof *p); }
+SDV_INLINE void sdv_store_three(float *p, sdv_four a)    { memcpy(p, a.x, 3 * sizeof *p); }
 
 SDV_INLINE sdv_four sdv_plus(sdv_four a, sdv_four b)
 {
@@ -1087,16 +1070,22 @@ static void sdv_huge_pages(void *memory, size_t size)
 }
 #endif
 
+// The bytes of so many items; if there is no such number, more than sdv_allocate can get.
+static size_t sdv_bytes(size_t count, size_t item)
+{
+    return count <= (size_t)PTRDIFF_MAX / item ? count * item : (size_t)PTRDIFF_MAX;
+}
+
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
     if (size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
         block = (sdv_block *)SUBDIV_MALLOC(size + sizeof(sdv_block), context->user);
-    if (block) sdv_huge_pages(block, size);
     if (!block) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
         return NULL;
     }
+    sdv_huge_pages(block, size);
     block->next = NULL;
     block->user = context->user;
     return block;
@@ -1124,12 +1113,9 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 // Room for count items, not cleared. Never NULL while context->result is SUBDIV_OK.
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
+    size_t size = sdv_bytes(count, item);
     if (context->result) return NULL;
-    if (count > (size_t)PTRDIFF_MAX / item - 16) {
-        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-        return NULL;
-    }
-    size_t size = SDV_SEPARATE ? count * item : (count * item + 16) / 16 * 16;
+    if (!SDV_SEPARATE) size = (size + 16) / 16 * 16;
     if (SDV_SEPARATE) sdv_add_block(context, arena, size);
     else sdv_reserve(context, arena, size);
     if (context->result) return NULL;
@@ -1155,32 +1141,6 @@ typedef struct sdv_array {              // grows
     size_t count, capacity;             // in items
 } sdv_array;
 
-// Room for so many items in all; those that are there are kept.
-static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
-{
-    if (context->result) return;
-    if (capacity > (size_t)PTRDIFF_MAX / item) {
-        sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
-        return;
-    }
-    sdv_block *block = sdv_allocate(context, capacity * item);
-    if (!block) return;
-    if (array->block) {
-        memcpy(block + 1, array->block + 1, array->count * item);
-        SUBDIV_FREE(array->block, array->block->user);
-    }
-    array->block = block;
-    array->capacity = capacity;
-}
-
-// A place behind the items, with room for so many more. NULL when out of memory.
-static void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
-{
-    if (!array->block || array->capacity - array->count < more)
-        sdv_grow(context, array, 2 * (array->count + more), item);
-    return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
-}
-
 static void sdv_copy(void *to, const void *from, size_t count, size_t item)
 {
     if (count) memcpy(to, from, count * item);
@@ -1195,6 +1155,26 @@ static void sdv_array_free(sdv_array *array)
 {
     if (array->block) SUBDIV_FREE(array->block, array->block->user);
     array->block = NULL;
+}
+
+// Moves the items to where there is room for so many in all.
+static int sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
+{
+    sdv_block *block = context->result ? NULL : sdv_allocate(context, sdv_bytes(capacity, item));
+    if (!block) return 0;
+    sdv_copy(block + 1, sdv_items(array), array->count, item);
+    sdv_array_free(array);
+    array->block = block;
+    array->capacity = capacity;
+    return 1;
+}
+
+// A place behind the items, with room for so many more. NULL when out of memory.
+SDV_INLINE void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
+{
+    if (array->capacity - array->count <= more &&
+        !sdv_grow(context, array, 2 * (array->count + more), item)) return NULL;
+    return (char *)(array->block + 1) + array->count * item;
 }
 
 // Appends count cleared items.
@@ -12518,9 +12498,15 @@ typedef struct sdv_decimal {
 } sdv_decimal;
 
 typedef struct sdv_big {                // an unsigned integer of up to 1536 bits
-    uint32_t words[48];                 // lowest first
+    uint32_t words[48];                 // lowest first, 0 from size on
     int size;
 } sdv_big;
+
+static sdv_big sdv_big_of(uint64_t number)
+{
+    sdv_big big = { { (uint32_t)number, (uint32_t)(number >> 32) }, 2 };
+    return big;
+}
 
 static void sdv_big_step(sdv_big *big, uint32_t factor, uint32_t add)  // big = big * factor + add
 {
@@ -12541,8 +12527,7 @@ static void sdv_big_power(sdv_big *big, uint32_t base, int64_t power)  // big = 
 
 static int sdv_big_compare(const sdv_big *a, const sdv_big *b)
 {
-    if (a->size != b->size) return a->size < b->size ? -1 : 1;
-    for (int i = a->size - 1; i >= 0; i--)
+    for (int i = 47; i >= 0; i--)
         if (a->words[i] != b->words[i]) return a->words[i] < b->words[i] ? -1 : 1;
     return 0;
 }
@@ -12551,14 +12536,8 @@ static int sdv_big_compare(const sdv_big *a, const sdv_big *b)
 // has at most 113 digits, so behind the first 120 it only matters whether there is a nonzero one.
 static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
 {
-    sdv_big left = { {0}, 0 }, right = { {0}, 0 };
-    int count = 0, binary = 0, rest = 0;
-    if (!decimal->more) {
-        sdv_big_step(&left, 1, (uint32_t)(decimal->head >> 32));
-        sdv_big_step(&left, 1u << 31, 0);
-        sdv_big_step(&left, 2, (uint32_t)decimal->head);
-        count = decimal->head_count;
-    }
+    int count = decimal->more ? 0 : decimal->head_count, binary = 0, rest = 0;
+    sdv_big left = sdv_big_of(decimal->more ? 0 : decimal->head);
     for (const char *p = decimal->digits; decimal->more && p < decimal->end; p++) {
         if (*p == '.' || (count == 0 && *p == '0')) continue;
         if (count == 120) {
@@ -12568,10 +12547,8 @@ static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
             count++;
         }
     }
-    uint64_t half = (uint64_t)ldexp(frexp(middle, &binary), 53);    // middle = half * 2^(binary-53)
-    sdv_big_step(&right, 1, (uint32_t)(half >> 32));
-    sdv_big_step(&right, 1u << 31, 0);
-    sdv_big_step(&right, 2, (uint32_t)half);
+    // middle = right * 2^(binary-53)
+    sdv_big right = sdv_big_of((uint64_t)ldexp(frexp(middle, &binary), 53));
     int64_t ten = decimal->head_count + decimal->exponent - count;
     sdv_big_power(ten > 0 ? &left : &right, 10, ten > 0 ? ten : -ten);
     sdv_big_power(binary > 53 ? &right : &left, 2, binary > 53 ? binary - 53 : 53 - binary);
@@ -12661,61 +12638,22 @@ static char *sdv_write_exactly(char *p, float number)
 #endif // numbers
 
 #ifndef SUBDIV_NO_OBJ
-// The digits and the point from p to end, times 10^power: any number of digits, any power.
-static float sdv_read_exactly(const char *p, const char *end, int64_t power)
-{
-    sdv_decimal decimal = { 0, 0, power, 0, p, end };
-    int point = 0;
-    for (; p < end; p++) {
-        if (*p == '.') {
-            point = 1;
-        } else if (decimal.head_count < 19) {
-            decimal.head = decimal.head * 10 + (uint64_t)(*p - '0');
-            decimal.head_count += decimal.head != 0;
-            decimal.exponent -= point;
-        } else {
-            decimal.more = 1;
-            decimal.exponent += !point;
-        }
-    }
-    return sdv_nearest_float(&decimal);
-}
-
 static int sdv_is_digit(char c)
 {
     return c >= '0' && c <= '9';
 }
 
 // [+-]digits, saturating far outside of every range. Returns where it ends, NULL without digits.
-static const char *sdv_read_integer(const char *p, int64_t *out)
+SDV_INLINE const char *sdv_read_integer(const char *p, int64_t *out)
 {
-    int negative = *p == '-';
-    int64_t number = 0;
-    if (*p == '-' || *p == '+') p++;
-    const char *first = p;
-    for (; sdv_is_digit(*p); p++)
-        if (number < INT64_MAX / 100) number = number * 10 + (*p - '0');
-    *out = negative ? -number : number;
+    const char sign = *p, *first = p += sign == '-' || sign == '+';
+    uint64_t number = 0, digit;
+    for (; (digit = (unsigned char)*p - (uint64_t)'0') < 10; p++) number = number * 10 + digit;
+    if (p - first > 18)
+        for (number = 0, p = first; sdv_is_digit(*p); p++)
+            if (number < INT64_MAX / 100) number = number * 10 + (uint64_t)(*p - '0');
+    *out = sign == '-' ? -(int64_t)number : (int64_t)number;
     return p > first ? p : NULL;
-}
-
-// Reads [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it
-// is anything else.
-static const char *sdv_read_any_number(const char *p, float *out)
-{
-    int negative = *p == '-', digits = 0;
-    int64_t power = 0;
-    if (*p == '-' || *p == '+') p++;
-    const char *first = p, *end;
-    for (; sdv_is_digit(*p); p++) digits = 1;
-    if (*p == '.')
-        for (p++; sdv_is_digit(*p); p++) digits = 1;
-    end = p;
-    if (*p == 'e' || *p == 'E') p = sdv_read_integer(p + 1, &power);
-    if (!digits || !p) return NULL;
-    *out = sdv_read_exactly(first, end, power);
-    if (negative) *out = -*out;
-    return p;
 }
 
 // Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
@@ -12742,10 +12680,35 @@ SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
     return *out == (float)(d * (1 + error)) ? p : NULL;
 }
 
+// [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it is
+// anything else.
 static const char *sdv_read_number(const char *p, float *out)
 {
     const char *end = sdv_read_short_number(p, out);
-    return end && *end != 'e' && *end != 'E' ? end : sdv_read_any_number(p, out);
+    if (end && *end != 'e' && *end != 'E') return end;
+    int negative = *p == '-', point = 0, count = 0;
+    int64_t power = 0;
+    if (*p == '-' || *p == '+') p++;
+    sdv_decimal decimal = { 0, 0, 0, 0, p, p };
+    for (; sdv_is_digit(*p) || (*p == '.' && !point); p++) {
+        if (*p == '.') {
+            point = 1;
+        } else if (count++, decimal.head_count < 19) {
+            decimal.head = decimal.head * 10 + (uint64_t)(*p - '0');
+            decimal.head_count += decimal.head != 0;
+            decimal.exponent -= point;
+        } else {
+            decimal.more = 1;
+            decimal.exponent += !point;
+        }
+    }
+    decimal.end = p;
+    if (*p == 'e' || *p == 'E') p = sdv_read_integer(p + 1, &power);
+    if (count == 0 || !p) return NULL;
+    decimal.exponent += power;
+    *out = sdv_nearest_float(&decimal);
+    if (negative) *out = -*out;
+    return p;
 }
 
 typedef struct sdv_figures {            // what writing many numbers needs
@@ -12777,27 +12740,15 @@ SDV_INLINE uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number
 }
 
 // The first and the last of 8 digits that is not 0; one of them is.
-SDV_INLINE int sdv_first_digit(uint64_t text)
+SDV_INLINE void sdv_find_digits(uint64_t text, int *first, int *last)
 {
     uint64_t others = text ^ 0x3030303030303030u;
 #if defined(__GNUC__)
-    return __builtin_ctzll(others) / 8;
+    *first = __builtin_ctzll(others) / 8;
+    *last = (63 - __builtin_clzll(others)) / 8;
 #else
-    int i = 0;
-    while (!(others >> 8 * i & 255)) i++;
-    return i;
-#endif
-}
-
-SDV_INLINE int sdv_last_digit(uint64_t text)
-{
-    uint64_t others = text ^ 0x3030303030303030u;
-#if defined(__GNUC__)
-    return (63 - __builtin_clzll(others)) / 8;
-#else
-    int i = 7;
-    while (!(others >> 8 * i)) i--;
-    return i;
+    for (*first = 0; !(others >> 8 * *first & 255);) ++*first;
+    for (*last = 7; !(others >> 8 * *last);) --*last;
 #endif
 }
 
@@ -12837,8 +12788,9 @@ SDV_INLINE char *sdv_write_float(const sdv_figures *figures, char *p, const floa
     p += bits >> 31;
     if (digits >= 100000000) return sdv_write_decimal(p, digits, ten);
     uint64_t text = sdv_eight_digits(figures, digits);
-    int zeros = sdv_first_digit(text), count = sdv_last_digit(text) + 1 - zeros;
-    int point = 8 - zeros + ten;
+    int zeros, last;
+    sdv_find_digits(text, &zeros, &last);
+    int count = last + 1 - zeros, point = 8 - zeros + ten;
     text >>= 8 * zeros;
     if (point >= 0 && ten < 0) {
         *p = '0';
@@ -12866,7 +12818,8 @@ SDV_INLINE char *sdv_write_index(const sdv_figures *figures, char *p, int number
         return p;
     }
     uint64_t text = sdv_eight_digits(figures, (uint32_t)number);
-    int zeros = number ? sdv_first_digit(text) : 7;
+    int zeros = 7, last = 7;
+    if (number) sdv_find_digits(text, &zeros, &last);
     sdv_store_eight(p, text >> 8 * zeros);
     return p + 8 - zeros;
 }
@@ -12876,16 +12829,20 @@ SDV_INLINE char *sdv_write_index(const sdv_figures *figures, char *p, int number
 // lines are there; what is left of a block moves to the front before the next one is read. Behind
 // the text there are always line ends, so nothing has to look whether the text is over.
 
-static void sdv_fail_line(sdv_context *context, subdiv_result code, int line,
-                          const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    sdv_fail_at(context, code, line, -1, -1, format, args);
-    va_end(args);
-}
+// -------- OpenSubdiv's tags, as the reader finds and the writer writes them
 
-// Reading or writing failed; often the system knows why.
+enum { SDV_CREASES, SDV_CORNERS, SDV_HOLES, SDV_LISTS, SDV_RULES = 4 };
+
+static const char *const sdv_list_tags[SDV_LISTS] = { "t crease 2/1/0", "t corner 1/1/0",
+                                                      "t hole 1/0/0" };
+
+// Of the rules of a mesh: boundary, uv_rule, creasing, triangles. values: in the order of the enum.
+static const struct { const char *text, *values[7]; } sdv_rule_tags[SDV_RULES] = {
+    { "t interpolateboundary 1/0/0 ", { "2", "1", "0" } },
+    { "t facevaryinginterpolateboundary 1/0/0 ", { "1", "2", "3", "4", "5", "0" } },
+    { "t creasemethod 0/0/1 ", { "normal", "chaikin" } },
+    { "t smoothtriangles 0/0/1 ", { "catmark", "smooth" } } };
+
 static void sdv_forget_errno(void)
 {
 #ifndef SUBDIV_NO_STDIO
@@ -12893,106 +12850,97 @@ static void sdv_forget_errno(void)
 #endif
 }
 
+// Reading or writing failed; often the system knows why.
 static void sdv_fail_io(sdv_context *context, const char *what)
 {
 #ifndef SUBDIV_NO_STDIO
-    if (errno) {
-        sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
-        return;
-    }
+    if (errno) sdv_fail(context, SUBDIV_ERROR_IO, "%s: %s", what, strerror(errno));
 #endif
-    sdv_fail(context, SUBDIV_ERROR_IO, what);
+    sdv_fail(context, SUBDIV_ERROR_IO, what);       // unless it has failed already
 }
 
-// So many more items, not cleared; NULL when out of memory.
-SDV_INLINE void *sdv_push(sdv_context *context, sdv_array *array, size_t count, size_t item)
+// Appends an item.
+SDV_INLINE void sdv_push(sdv_context *context, sdv_array *array, const void *item, size_t size)
 {
-    if (count > array->capacity - array->count) {
-        size_t most = array->capacity > count ? array->capacity : count;
-        sdv_grow(context, array, most < 32 ? 64 : 2 * most, item);
-        if (context->result) return NULL;
-    }
-    array->count += count;
-    return (char *)(array->block + 1) + (array->count - count) * item;
+    if (array->count == array->capacity &&
+        !sdv_grow(context, array, 2 * array->count + 16, size)) return;
+    memcpy((char *)(array->block + 1) + array->count++ * size, item, size);
 }
 
-static void sdv_push_int(sdv_context *context, sdv_array *array, int value)
+// Appends the same item, of 4 bytes, until the array has count items.
+static void sdv_fill(sdv_context *context, sdv_array *array, size_t count, const void *item)
 {
-    int *item = (int *)sdv_push(context, array, 1, sizeof(int));
-    if (item) *item = value;
+    while (array->count < count && !context->result) sdv_push(context, array, item, 4);
 }
 
-static void sdv_push_float(sdv_context *context, sdv_array *array, float value)
-{
-    float *item = (float *)sdv_push(context, array, 1, sizeof(float));
-    if (item) *item = value;
-}
-
-// Ints or floats, many of them: they stay where they were written until all are there.
-typedef struct sdv_link {
-    sdv_block block;
-    size_t count;                       // of the items behind this head
-} sdv_link;
-
+// A large list stays where it is written: to move it would touch more memory. Each of its blocks is
+// linked to the one before and as large as all of those; the first has SDV_FIRST bytes.
 typedef struct sdv_series {
-    sdv_link *last;                     // linked to those before it
-    size_t    count, room;              // items in all; how many more fit behind the last one
+    sdv_block *last;
+    char      *at, *end;                // where the next item goes; where the block ends
+    size_t     before;                  // bytes in the other blocks
 } sdv_series;
 
-static void sdv_series_grow(sdv_context *context, sdv_series *series, size_t count)
+enum { SDV_FIRST = 12288 };             // a multiple of all items
+
+static size_t sdv_series_size(const sdv_series *series)
 {
-    size_t room = series->count > 1024 ? series->count : 1024, most = (size_t)PTRDIFF_MAX / 8;
-    if (room < count) room = count;
-    if (context->result) return;
-    sdv_block *block = sdv_allocate(context, room < most ? sizeof(sdv_link) + 4 * room : SIZE_MAX);
-    if (!block) return;
-    block->next = (sdv_block *)series->last;
-    series->last = (sdv_link *)block;
-    series->last->count = 0;
-    series->room = room;
+    return series->last ? series->before + (size_t)(series->at - (char *)(series->last + 1)) : 0;
 }
 
-// Where so many more items can be written; then sdv_series_add counts them. NULL: out of memory.
-SDV_INLINE void *sdv_series_room(sdv_context *context, sdv_series *series, size_t count)
+static int sdv_series_grow(sdv_context *context, sdv_series *series)
 {
-    if (count > series->room) sdv_series_grow(context, series, count);
-    if (context->result) return NULL;
-    return (int *)(series->last + 1) + series->last->count;
+    size_t size = sdv_series_size(series), room = size ? size : (size_t)SDV_FIRST;
+    sdv_block *block = context->result ? NULL : sdv_allocate(context, room);
+    if (!block) return 0;
+    block->next = series->last;
+    series->last = block;
+    series->at = (char *)(block + 1);
+    series->end = series->at + room;
+    series->before = size;
+    return 1;
 }
 
-SDV_INLINE void sdv_series_add(sdv_series *series, size_t count)
+SDV_INLINE void sdv_series_add(sdv_context *context, sdv_series *series, const void *item,
+                               size_t size)
 {
-    series->last->count += count;
-    series->count += count;
-    series->room -= count;
+    if (series->at == series->end && !sdv_series_grow(context, series)) return;
+    memcpy(series->at, item, size);
+    series->at += size;
 }
 
-// The items that are missing up to count become value.
-static void sdv_series_fill(sdv_context *context, sdv_series *series, size_t count, int value)
+static void sdv_series_free_last(sdv_series *series)
 {
-    while (series->count < count) {
-        int *item = (int *)sdv_series_room(context, series, 1);
-        if (!item) return;
-        *item = value;
-        sdv_series_add(series, 1);
+    sdv_block *last = series->last;
+    size_t room = series->before > SDV_FIRST ? series->before / 2 : series->before;
+    series->last = last->next;
+    series->at = series->end = room ? (char *)(series->last + 1) + room : NULL;
+    series->before -= room;
+    SUBDIV_FREE(last, last->user);
+}
+
+// Drops the last bytes.
+static void sdv_series_drop(sdv_series *series, size_t size)
+{
+    size_t in_last;
+    while (size > (in_last = sdv_series_size(series) - series->before)) {
+        sdv_series_free_last(series);
+        size -= in_last;
     }
+    if (size) series->at -= size;
 }
 
 // Moves all items to an array, or nowhere.
-static void sdv_series_take(sdv_series *series, void *array)
+static void sdv_series_take(sdv_series *series, void *to)
 {
-    int *end = (int *)array;
-    if (array) end += series->count;
-    while (series->last) {
-        sdv_link *link = series->last;
-        if (array) memcpy(end -= link->count, link + 1, 4 * link->count);
-        series->last = (sdv_link *)link->block.next;
-        SUBDIV_FREE(link, link->block.user);
-    }
+    for (; series->last; sdv_series_free_last(series))
+        if (to) sdv_copy((char *)to + series->before, series->last + 1,
+                         sdv_series_size(series) - series->before, 1);
 }
 
-typedef struct sdv_tag {                // an entry of a tag: kind 'c' crease, 'v' corner, 'h' hole
-    int kind, a, b, line;
+typedef struct sdv_tag {                // one crease, corner or hole
+    int kind, line;
+    int at[2];                          // two vertices, or twice the same vertex or face
     float sharpness;
 } sdv_tag;
 
@@ -13000,8 +12948,9 @@ typedef struct sdv_ahead {              // a face that names a vertex or vt whic
     int line, index;
 } sdv_ahead;
 
-typedef enum sdv_statement {            // what becomes of a statement
-    SDV_KEPT, SDV_PASSED, SDV_ELEMENT, SDV_FREE_FORM, SDV_UNKNOWN, SDV_STATEMENT_KINDS
+typedef enum sdv_statement {
+    SDV_VERTEX, SDV_UV, SDV_FACE, SDV_TAG, SDV_KEPT, SDV_PASSED, SDV_ELEMENT, SDV_FREE_FORM,
+    SDV_UNKNOWN, SDV_STATEMENT_KINDS
 } sdv_statement;
 
 typedef struct sdv_obj {
@@ -13012,19 +12961,28 @@ typedef struct sdv_obj {
     size_t       begin, complete;       // begin to complete are whole statements
     int          ended;                 // nothing more to read
     int          line, next_line;       // of the statement, and of what follows
-    subdiv_mesh  mesh;                  // rules and counts
+    subdiv_mesh  mesh;                  // its counts, then all of it
+    int          rules[SDV_RULES];
     sdv_series   positions, uvs, face_vertices, face_uvs;
-    sdv_array    colors, face_sizes, statement_faces, statement_text, statements;
-    sdv_array    vs, ts;                // of one face
+    sdv_array    colors, face_sizes;
     sdv_array    ahead[2];              // of vertices, of uvs
-    int          most_faces;            // with those that are skipped
-    int          uv_faces;              // faces with UVs
-    int          mixed_faces;           // with a vt at some of their vertices only
-    int          bare_line, mixed_line; // of the first face that has none, and of the first such
-    int          skipped_counts[SDV_STATEMENT_KINDS], skipped_lines[SDV_STATEMENT_KINDS];
-    sdv_array    tags, skipped;         // skipped: numbers of the file's faces not in the mesh
+    sdv_array    skipped;               // numbers of the file's faces that are not in the mesh
+    int          uv_faces, mixed_faces; // with a vt at all of their vertices, at some of them
+    int          bare_line, mixed_line; // of the first face without vt, and of the first such
+    int          counts[SDV_STATEMENT_KINDS], lines[SDV_STATEMENT_KINDS];   // of what is skipped
+    sdv_array    statement_faces, statement_text, statements;
     sdv_array    ints, floats;          // of one tag
+    sdv_array    tags;                  // all creases, corners and holes, in the file's order; and
+    sdv_array    lists[SDV_LISTS], sharpness[SDV_LISTS];    // as the mesh has them
 } sdv_obj;
+
+static void sdv_fail_line(const sdv_obj *obj, subdiv_result code, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    sdv_fail_at(obj->context, code, obj->line, -1, -1, format, args);
+    va_end(args);
+}
 
 // Where the last whole statement in the text ends, looking at what is behind first: behind a line
 // end without a backslash. Whether a CR at the very end is one, or half of one, is yet to be seen.
@@ -13052,24 +13010,18 @@ static void sdv_read_more(sdv_obj *obj)
     size_t old = text->count, room = text->capacity - old - 2;
     sdv_forget_errno();
     size_t size = obj->read(obj->user, data + old, room);
-    if (size == 0) {
-        obj->ended = 1;
-        memset(data + old, '\n', 2);            // two: the last line may end in a backslash
-        obj->complete = old ? old + 2 : 0;
-    } else if (size > room) {
+    if (size > room) {
         sdv_fail_io(obj->context, "reading failed");
-    } else {
-        text->count += size;
-        obj->complete = sdv_find_complete(data, old ? old - 1 : 0, text->count);
+        return;
     }
+    text->count += size;
+    memset(data + text->count, '\n', 2);
+    if (size) obj->complete = sdv_find_complete(data, old ? old - 1 : 0, text->count);
+    else if (old) obj->complete = old + 2;      // 2 line ends: the last line may end in a backslash
+    obj->ended = size == 0;
 }
 
 // -------- tokens
-
-static void sdv_count_line(sdv_obj *obj)
-{
-    if (obj->next_line < INT_MAX) obj->next_line++;
-}
 
 SDV_INLINE int sdv_is_blank(char c)
 {
@@ -13081,7 +13033,7 @@ SDV_INLINE int sdv_is_newline(char c)
     return c == '\n' || c == '\r';
 }
 
-// Nothing more in this statement: a line end or a comment.
+// Whether the statement ends here, with a line end or a comment.
 SDV_INLINE int sdv_at_end(const char *p)
 {
     return sdv_is_newline(*p) || *p == '#';
@@ -13092,29 +13044,41 @@ SDV_INLINE int sdv_continues(const char *p)          // the statement, on the ne
     return *p == '\\' && sdv_is_newline(p[1]);
 }
 
-static const char *sdv_skip_newline(const char *p)
+SDV_INLINE const char *sdv_skip_newline(const char *p)
 {
     return p + (p[0] == '\r' && p[1] == '\n' ? 2 : 1);
 }
 
-SDV_INLINE const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
+SDV_INLINE const char *sdv_next_line(sdv_obj *obj, const char *p)
 {
-    while (sdv_is_blank(*p) || sdv_continues(p)) {
-        if (*p == '\\') {
-            sdv_count_line(obj);
-            p = sdv_skip_newline(p + 1);
-        } else {
-            p++;
-        }
-    }
+    if (obj->next_line < INT_MAX) obj->next_line++;
+    return sdv_skip_newline(p);
+}
+
+static const char *sdv_skip_blanks(sdv_obj *obj, const char *p)
+{
+    while (sdv_is_blank(*p) || sdv_continues(p)) p = *p == '\\' ? sdv_next_line(obj, p + 1) : p + 1;
     return p;
 }
 
-// Behind a token: it is over. "-1.#IND" is one token, and not a number.
-SDV_INLINE int sdv_ends_token(const char *p)
+// Goes to the next token of a statement; returns 0 if there is none. Mostly one blank is before it.
+SDV_INLINE int sdv_find_token(sdv_obj *obj, const char **at)
 {
-    return sdv_is_blank(*p) || sdv_is_newline(*p) || (*p == '#' && p[-1] != '.') ||
-           sdv_continues(p) || *p == 0;
+    const char *p = *at;
+    if (*p == ' ' && (unsigned char)(p[1] - '-') <= '9' - '-') {
+        *at = p + 1;
+        return 1;
+    }
+    if (*p != '\n') p = sdv_skip_blanks(obj, p);
+    *at = p;
+    return !sdv_at_end(p);
+}
+
+// Whether a token ends before p. "-1.#IND" is one token, and not a number.
+static int sdv_ends_token(const char *p)
+{
+    if ((unsigned char)*p > '#') return sdv_continues(p);
+    return sdv_is_newline(*p) || sdv_is_blank(*p) || (*p == '#' && p[-1] != '.') || *p == 0;
 }
 
 typedef struct sdv_token {
@@ -13137,10 +13101,11 @@ static sdv_token sdv_next_token(sdv_obj *obj, const char **at)
     return token;
 }
 
+// Whether the text begins with the same token.
 static int sdv_token_is(sdv_token token, const char *text)
 {
-    size_t size = strlen(text);
-    return (size_t)(token.end - token.begin) == size && memcmp(token.begin, text, size) == 0;
+    while (token.begin < token.end && *token.begin == *text) token.begin++, text++;
+    return token.begin == token.end && (*text == 0 || *text == ' ');
 }
 
 static int sdv_length(const char *begin, const char *end)
@@ -13153,78 +13118,75 @@ static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const ch
 {
     sdv_token token = sdv_token_at(p);
     if (*token.end == 0)
-        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line, "binary data: not an OBJ file");
+        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "binary data: not an OBJ file");
     else
-        sdv_fail_line(obj->context, code, obj->line, message, p, sdv_length(p, token.end));
+        sdv_fail_line(obj, code, message, p, sdv_length(p, token.end));
 }
 
-// Behind the rest of the statement, whatever it is.
+// Skips the rest of a statement, whatever it is. Returns NULL after an error.
 static const char *sdv_skip_statement(sdv_obj *obj, const char *p)
 {
-    int comment = 0;
-    for (;; p++) {
-        while ((unsigned char)*p > '\r' && *p != '#' && *p != '\\') p++;
+    for (int comment = 0;; p++) {
+        while ((unsigned char)(*p - '$') < '\\' - '$' || *p == ' ') p++;
         if (*p == '#') comment = 1;
-        if (*p == 0) {
-            sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "");
-            return p;
-        }
+        if (sdv_is_newline(*p)) return sdv_next_line(obj, p);
         if (!comment && sdv_continues(p)) {
-            sdv_count_line(obj);
-            p = sdv_skip_newline(p + 1) - 1;
-        } else if (sdv_is_newline(*p)) {
-            sdv_count_line(obj);
-            return sdv_skip_newline(p);
+            p = sdv_next_line(obj, p + 1) - 1;
+        } else if (*p == 0) {
+            sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "");
+            return NULL;
         }
     }
 }
 
 // -------- vertices and faces. Each of these functions returns where it stopped reading.
 
+// Reads a number in any form, or refuses the token and returns NULL.
+static const char *sdv_read_odd_number(sdv_obj *obj, const char *p, float *number)
+{
+    const char *end = sdv_read_number(p, number);
+    if (!end || !sdv_ends_token(end))
+        sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a number");
+    else if (fabs((double)*number) > (double)FLT_MAX)
+        sdv_refuse(obj, SUBDIV_ERROR_NOT_FINITE, p, "\"%t\" is too large for a float");
+    return obj->context->result ? NULL : end;
+}
+
 // At most so many numbers; counts those that are there.
-static const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numbers, int most,
+SDV_INLINE const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numbers, int most,
                                     int *count)
 {
-    for (*count = 0; *count < most; ++*count) {
-        p = sdv_skip_blanks(obj, p);
-        if (sdv_at_end(p)) break;
-        const char *end = sdv_read_number(p, &numbers[*count]);
-        if (!end || !sdv_ends_token(end)) {
-            sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a number");
-            break;
-        }
-        if (fabs((double)numbers[*count]) > (double)FLT_MAX) {
-            sdv_refuse(obj, SUBDIV_ERROR_NOT_FINITE, p, "\"%t\" is too large for a float");
-            break;
-        }
-        p = end;
+    int n = 0;
+    for (const char *end; n < most; p = end, n++) {
+        end = *p == ' ' ? sdv_read_short_number(p + 1, &numbers[n]) : NULL;
+        if (end && (*end == ' ' || *end == '\n')) continue;
+        if (!sdv_find_token(obj, &p)) break;
+        end = sdv_read_odd_number(obj, p, &numbers[n]);
+        if (!end) break;
     }
+    *count = n;
     return p;
 }
 
 // x y z, then nothing, or w, or r g b, or r g b and alpha.
 static const char *sdv_read_vertex(sdv_obj *obj, const char *p)
 {
+    static const float white = 1;
     float numbers[8];
     int count;
-    size_t colored = 3 * (size_t)obj->mesh.vertex_count;
     p = sdv_read_numbers(obj, p, numbers, 8, &count);
     if (obj->context->result) return p;
     if (count < 3)
-        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line,
-                      "a vertex needs 3 coordinates, here are %d", count);
+        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a vertex needs 3 coordinates, here are %d", count);
     if (obj->mesh.vertex_count == INT_MAX)
-        sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many vertices");
-    float *position = (float *)sdv_series_room(obj->context, &obj->positions, 3);
-    if (obj->context->result) return p;
-    memcpy(position, numbers, 3 * sizeof(float));
-    sdv_series_add(&obj->positions, 3);
-    obj->mesh.vertex_count++;
+        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many vertices");
+    sdv_series_add(obj->context, &obj->positions, numbers, 3 * sizeof(float));
     if (count == 6 || count == 7) {
-        while (obj->colors.count < colored && !obj->context->result)
-            sdv_push_float(obj->context, &obj->colors, 1);      // the vertices before have none
-        for (int i = 3; i < 6; i++) sdv_push_float(obj->context, &obj->colors, numbers[i]);
+        sdv_fill(obj->context, &obj->colors, 3 * (size_t)obj->mesh.vertex_count, &white);
+        for (int i = 3; i < 6; i++)
+            sdv_push(obj->context, &obj->colors, &numbers[i], sizeof(float));
     }
+    obj->mesh.vertex_count++;
     return p;
 }
 
@@ -13235,124 +13197,125 @@ static const char *sdv_read_uv(sdv_obj *obj, const char *p)
     int count;
     p = sdv_read_numbers(obj, p, numbers, 3, &count);
     if (obj->context->result) return p;
-    if (count == 0)
-        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, obj->line, "a vt needs 1 to 3 numbers");
+    if (count == 0) sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a vt needs 1 to 3 numbers");
     if (obj->mesh.uv_count == INT_MAX)
-        sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many vt");
-    float *uv = (float *)sdv_series_room(obj->context, &obj->uvs, 2);
-    if (obj->context->result) return p;
-    memcpy(uv, numbers, 2 * sizeof(float));
-    sdv_series_add(&obj->uvs, 2);
+        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many vt");
+    sdv_series_add(obj->context, &obj->uvs, numbers, 2 * sizeof(float));
     obj->mesh.uv_count++;
     return p;
 }
 
-// Counted from 1, or from the end if negative. What is named may follow: only the largest index so
-// far need be remembered, as the first that is too large is one of them.
-SDV_INLINE int sdv_resolve(sdv_obj *obj, int uv, int64_t number, const char *p)
+// Skips an integer, if there is one.
+SDV_INLINE const char *sdv_skip_integer(const char *p)
 {
-    int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
-    int64_t index = number < 0 ? number + count : number - 1;
-    if (index >= 0 && index < count) return (int)index;
-    if (index < 0 || index >= INT_MAX) {
-        int64_t unused;
-        int length = sdv_length(p, sdv_read_integer(p, &unused));
-        sdv_fail_line(obj->context, SUBDIV_ERROR_INDEX, obj->line,
-                      number == 0 ? "%s %t does not exist (the first is 1)"
-                                  : "%s %t does not exist (the file has %d so far)",
-                      uv ? "vt" : "vertex", p, length, count);
-        return 0;
-    }
+    if ((*p == '-' || *p == '+') && sdv_is_digit(p[1])) p++;
+    while (sdv_is_digit(*p)) p++;
+    return p;
+}
+
+// Notes an index whose vertex or vt is yet to come. Only an index that is larger than all before it
+// need be noted, as the first one that is too large in the end is one of these.
+static void sdv_note_ahead(sdv_obj *obj, int uv, int index)
+{
     sdv_array *ahead = &obj->ahead[uv];
     const sdv_ahead *entries = (const sdv_ahead *)sdv_items(ahead);
-    if (ahead->count && entries[ahead->count - 1].index >= index) return (int)index;
-    sdv_ahead *entry = (sdv_ahead *)sdv_push(obj->context, ahead, 1, sizeof(sdv_ahead));
-    if (!entry) return 0;
-    entry->line = obj->line;
-    entry->index = (int)index;
-    return (int)index;
+    sdv_ahead entry = { obj->line, index };
+    if (ahead->count == 0 || entries[ahead->count - 1].index < index)
+        sdv_push(obj->context, ahead, &entry, sizeof entry);
 }
 
-// v, v/t, v//n, v/t/n, and any of these with numbers left out behind a slash. *uv: where t is, or
-// NULL. Normals do not matter. NULL if it is anything else.
-static const char *sdv_read_face_vertex(const char *p, int64_t *v, int64_t *t, const char **uv)
+// The index of a vertex or vt in a face, counted from 1, or from the last so far if negative.
+// Returns where it ends, NULL if there is none.
+static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
-    int64_t n;
-    p = sdv_read_integer(p, v);
-    *uv = NULL;
-    if (!p || *p != '/') return p;
-    const char *end = sdv_read_integer(++p, t);
-    if (end) {
-        *uv = p;
-        p = end;
-    }
-    if (*p != '/') return p;
-    end = sdv_read_integer(++p, &n);
-    return end ? end : p;
+    int64_t number;
+    int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+    const char *end = sdv_read_integer(p, &number), *behind = end;
+    if (!end) return NULL;
+    int64_t index = number + (number < 0 ? count : -1);
+    *out = (int)index;
+    if (index >= count && index < INT_MAX) sdv_note_ahead(obj, uv, *out);
+    if (index >= 0 && index < INT_MAX) return end;
+    for (int i = uv; i < 2 && *behind == '/'; i++) behind = sdv_skip_integer(behind + 1);
+    if (sdv_ends_token(behind))                     // otherwise the caller refuses the face-vertex
+        sdv_fail_line(obj, SUBDIV_ERROR_INDEX,
+                      number == 0 ? "%s %t does not exist (the first is 1)"
+                                  : "%s %t does not exist (the file has %d so far)",
+                      uv ? "vt" : "vertex", p, sdv_length(p, end), count);
+    return end;
 }
 
-// A face whose vertices, and UVs if it has some, stand where there was room for them.
-SDV_INLINE void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
+SDV_INLINE const char *sdv_read_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
-    if (size > INT_MAX || obj->mesh.face_count == obj->most_faces) {
-        sdv_fail_line(obj->context, SUBDIV_ERROR_TOO_LARGE, obj->line, "too many faces");
-        return;
-    }
-    sdv_series_add(&obj->face_vertices, size);
+    unsigned count = (unsigned)(uv ? obj->mesh.uv_count : obj->mesh.vertex_count);
+    unsigned number = 0, digit;
+    const char *first = p;
+    for (; (digit = (unsigned char)*p - (unsigned)'0') < 10; p++) number = number * 10 + digit;
+    *out = (int)(number - 1);
+    return p - first < 10 && number - 1 < count ? p : sdv_read_any_index(obj, first, uv, out);
+}
+
+// Counts a face whose vertices are kept already; uvs: how many of them have a vt.
+static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
+{
+    subdiv_mesh *mesh = &obj->mesh;
     if (uvs == size) {
-        sdv_series_add(&obj->face_uvs, size);
         obj->uv_faces++;
     } else {
         int *line = uvs ? &obj->mixed_line : &obj->bare_line;
         if (*line == 0) *line = obj->line;
         obj->mixed_faces += uvs > 0;
     }
-    if (obj->mesh.face_count == 0) obj->mesh.face_size = (int)size;
-    if (obj->face_sizes.count || obj->mesh.face_size != (int)size) {
-        while (obj->face_sizes.count < (size_t)obj->mesh.face_count && !obj->context->result)
-            sdv_push_int(obj->context, &obj->face_sizes, obj->mesh.face_size);
-        sdv_push_int(obj->context, &obj->face_sizes, (int)size);
+    if (mesh->face_count == 0) mesh->face_size = (int)size;
+    if (obj->face_sizes.count || mesh->face_size != (int)size) {
+        int face_size = (int)size;
+        sdv_fill(obj->context, &obj->face_sizes, (size_t)mesh->face_count, &mesh->face_size);
+        sdv_push(obj->context, &obj->face_sizes, &face_size, sizeof face_size);
     }
-    obj->mesh.face_count++;
+    mesh->face_count++;
 }
 
-// Where the vertices and UVs of a face can be written. Faces without UVs get their -1 later.
-SDV_INLINE int sdv_face_room(sdv_obj *obj, size_t size, int with_uvs, int **v, int **t)
+// Gives -1 to the face-vertices so far that have no UVs, except the last ones.
+static void sdv_fill_uvs(sdv_obj *obj, size_t last)
 {
-    *v = (int *)sdv_series_room(obj->context, &obj->face_vertices, size);
-    *t = NULL;
-    if (with_uvs) {
-        sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
-        *t = (int *)sdv_series_room(obj->context, &obj->face_uvs, size);
-    }
-    return !obj->context->result;
+    const int none = -1;
+    size_t size = sdv_series_size(&obj->face_vertices) - last * sizeof(int);
+    while (sdv_series_size(&obj->face_uvs) < size && !obj->context->result)
+        sdv_series_add(obj->context, &obj->face_uvs, &none, sizeof none);
 }
 
 static const char *sdv_read_face(sdv_obj *obj, const char *p)
 {
     size_t size = 0, uvs = 0;
-    int *face_v, *face_t;
-    obj->vs.count = obj->ts.count = 0;
-    for (p = sdv_skip_blanks(obj, p); !sdv_at_end(p); p = sdv_skip_blanks(obj, p), size++) {
-        int64_t v, t;
-        const char *uv, *end = sdv_read_face_vertex(p, &v, &t, &uv);
-        if (!end || !sdv_ends_token(end)) {
+    for (; sdv_find_token(obj, &p); size++) {
+        int v, t;
+        const char *end = sdv_read_index(obj, p, 0, &v), *uv = NULL;
+        if (end && *end == '/') {
+            if (*++end != '/') uv = sdv_read_index(obj, end, 1, &t);
+            if (uv) end = uv;
+            if (*end == '/') end = sdv_skip_integer(end + 1);   // normals do not matter
+        }
+        if (!end || (*end != ' ' && *end != '\n' && !sdv_ends_token(end))) {
             sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a face-vertex");
             return p;
         }
-        sdv_push_int(obj->context, &obj->vs, sdv_resolve(obj, 0, v, p));
-        if (uv) sdv_push_int(obj->context, &obj->ts, sdv_resolve(obj, 1, t, uv));
-        if (obj->context->result) return p;
-        uvs += uv != NULL;
+        sdv_series_add(obj->context, &obj->face_vertices, &v, sizeof v);
+        if (uv) {
+            if (uvs++ == 0 && obj->uv_faces < obj->mesh.face_count) sdv_fill_uvs(obj, size + 1);
+            sdv_series_add(obj->context, &obj->face_uvs, &t, sizeof t);
+        }
         p = end;
     }
-    if (size < 3) {
+    if (obj->context->result) return p;
+    int number = obj->mesh.face_count + (int)obj->skipped.count;
+    if (uvs && (uvs < size || size < 3)) sdv_series_drop(&obj->face_uvs, uvs * sizeof(int));
+    if (size > INT_MAX || number == INT_MAX) {
+        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many faces");
+    } else if (size < 3) {
         sdv_warn(obj->context, obj->line, "a face with %d vertices is skipped", (int)size);
-        sdv_push_int(obj->context, &obj->skipped, obj->mesh.face_count + (int)obj->skipped.count);
-        obj->most_faces--;
-    } else if (sdv_face_room(obj, size, uvs == size, &face_v, &face_t)) {
-        memcpy(face_v, sdv_items(&obj->vs), size * sizeof(int));
-        if (face_t) memcpy(face_t, sdv_items(&obj->ts), size * sizeof(int));
+        sdv_push(obj->context, &obj->skipped, &number, sizeof number);
+        sdv_series_drop(&obj->face_vertices, size * sizeof(int));
+    } else {
         sdv_add_face(obj, size, uvs);
     }
     return p;
@@ -13360,74 +13323,42 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
 
 // -------- tags
 
-static void sdv_add_tag(sdv_obj *obj, int kind, int a, int b, float sharpness)
+// Creases, corners or holes: so many indices each with one sharpness, or one each; or a chain of
+// creases with one for each link. Returns 0 if it is anything else.
+static int sdv_use_list(sdv_obj *obj, int kind)
 {
-    sdv_tag *tag = (sdv_tag *)sdv_push(obj->context, &obj->tags, 1, sizeof(sdv_tag));
-    if (!tag) return;
-    tag->kind = kind;
-    tag->a = a;
-    tag->b = b;
-    tag->line = obj->line;
-    tag->sharpness = sharpness > 0 ? sharpness : 0;
-}
-
-// Creases: pairs of vertices with one sharpness, or one each; or a chain with one for each link.
-static int sdv_tag_creases(sdv_obj *obj, const int *v, int count, const float *s, int sharpnesses)
-{
-    int pairs = count >= 2 && count % 2 == 0 && (sharpnesses == 1 || sharpnesses == count / 2);
-    int chain = count > 2 && sharpnesses == count - 1;
-    if (!pairs && !chain) return 0;
-    for (int i = 0; i + 1 < count; i += pairs ? 2 : 1)
-        sdv_add_tag(obj, 'c', v[i], v[i + 1], s[sharpnesses == 1 ? 0 : pairs ? i / 2 : i]);
-    return 1;
-}
-
-static int sdv_tag_corners(sdv_obj *obj, const int *v, int count, const float *s, int sharpnesses)
-{
-    if (count < 1 || (sharpnesses != 1 && sharpnesses != count)) return 0;
-    for (int i = 0; i < count; i++)
-        sdv_add_tag(obj, 'v', v[i], v[i], s[sharpnesses == 1 ? 0 : i]);
+    const int *at = (const int *)sdv_items(&obj->ints);
+    const float *s = (const float *)sdv_items(&obj->floats);
+    int width = kind == SDV_CREASES ? 2 : 1, ints = (int)obj->ints.count;
+    int floats = (int)obj->floats.count;
+    int chain = width == 2 && ints > 2 && floats == ints - 1, count = chain ? floats : ints / width;
+    if (count == 0 || (ints % width && !chain)) return 0;
+    if (kind != SDV_HOLES && floats != 1 && floats != count) return 0;
+    for (int i = 0; i < count; i++, at += chain ? 1 : width) {
+        sdv_tag tag = { kind, obj->line, { at[0], at[width - 1] }, 0 };
+        if (kind != SDV_HOLES) tag.sharpness = s[floats == 1 ? 0 : i];
+        if (!(tag.sharpness > 0)) tag.sharpness = 0;
+        sdv_push(obj->context, &obj->tags, &tag, sizeof tag);
+    }
     return 1;
 }
 
 // A tag by its name; word: its first string. Returns 0 if it makes no sense.
 static int sdv_use_tag(sdv_obj *obj, sdv_token name, sdv_token word)
 {
-    const int *ints = (const int *)sdv_items(&obj->ints);
-    const float *floats = (const float *)sdv_items(&obj->floats);
-    int int_count = (int)obj->ints.count, float_count = (int)obj->floats.count;
-    int value = int_count == 1 ? ints[0] : -1;
-    static const subdiv_boundary boundaries[] = { SUBDIV_BOUNDARY_NONE,
-        SUBDIV_BOUNDARY_EDGE_AND_CORNER, SUBDIV_BOUNDARY_EDGE };
-    static const subdiv_uv_rule uv_rules[] = { SUBDIV_UV_NONE, SUBDIV_UV_CORNERS_ONLY,
-        SUBDIV_UV_CORNERS_PLUS1, SUBDIV_UV_CORNERS_PLUS2, SUBDIV_UV_BOUNDARIES, SUBDIV_UV_ALL };
-
-    if (sdv_token_is(name, "crease"))
-        return sdv_tag_creases(obj, ints, int_count, floats, float_count);
-    if (sdv_token_is(name, "corner"))
-        return sdv_tag_corners(obj, ints, int_count, floats, float_count);
-    if (sdv_token_is(name, "hole")) {
-        for (int i = 0; i < int_count; i++) sdv_add_tag(obj, 'h', ints[i], 0, 0);
-        return int_count > 0;
+    int value = obj->ints.count == 1 ? *(const int *)sdv_items(&obj->ints) : -1;
+    for (int kind = 0; kind < SDV_LISTS; kind++)
+        if (sdv_token_is(name, sdv_list_tags[kind] + 2)) return sdv_use_list(obj, kind);
+    for (int i = 0; i < SDV_RULES; i++) {
+        if (!sdv_token_is(name, sdv_rule_tags[i].text + 2)) continue;
+        for (int k = 0; sdv_rule_tags[i].values[k]; k++) {
+            const char *text = sdv_rule_tags[i].values[k];
+            if (sdv_is_digit(*text) ? value != *text - '0' : !sdv_token_is(word, text)) continue;
+            obj->rules[i] = k;
+            return 1;
+        }
     }
-    if (sdv_token_is(name, "interpolateboundary")) {
-        if (value < 0 || value > 2) return 0;
-        obj->mesh.boundary = boundaries[value];
-    } else if (sdv_token_is(name, "facevaryinginterpolateboundary")) {
-        if (value < 0 || value > 5) return 0;
-        obj->mesh.uv_rule = uv_rules[value];
-    } else if (sdv_token_is(name, "creasemethod")) {
-        if (!sdv_token_is(word, "normal") && !sdv_token_is(word, "chaikin")) return 0;
-        obj->mesh.creasing = sdv_token_is(word, "chaikin") ? SUBDIV_CREASING_CHAIKIN
-                                                           : SUBDIV_CREASING_UNIFORM;
-    } else if (sdv_token_is(name, "smoothtriangles")) {
-        if (!sdv_token_is(word, "catmark") && !sdv_token_is(word, "smooth")) return 0;
-        obj->mesh.triangles = sdv_token_is(word, "smooth") ? SUBDIV_TRIANGLES_SMOOTH
-                                                           : SUBDIV_TRIANGLES_CATMULL_CLARK;
-    } else {
-        return 0;
-    }
-    return 1;
+    return 0;
 }
 
 // The counts of a tag, "ints/floats/strings".
@@ -13442,9 +13373,9 @@ static int sdv_read_tag_counts(sdv_token token, int64_t counts[3])
     return p == token.end;
 }
 
-// t name ints/floats/strings ... Takes the values that are really there, whatever the counts say.
+// name ints/floats/strings ... Takes the values that are really there, whatever the counts say.
 // Returns 0 if it makes no sense.
-static int sdv_read_tag(sdv_obj *obj, const char **at)
+static int sdv_read_values(sdv_obj *obj, const char **at)
 {
     int64_t counts[3], value;
     sdv_token name = sdv_next_token(obj, at), word = { *at, *at };
@@ -13453,115 +13384,112 @@ static int sdv_read_tag(sdv_obj *obj, const char **at)
     for (int64_t i = 0; i < counts[0] && !obj->context->result; i++) {
         sdv_token token = sdv_next_token(obj, at);
         if (sdv_read_integer(token.begin, &value) != token.end || value < 0) return 0;
-        if (value > INT_MAX) value = INT_MAX;       // found to be missing at the end
-        sdv_push_int(obj->context, &obj->ints, (int)value);
+        int index = value < INT_MAX ? (int)value : INT_MAX;     // found to be missing at the end
+        sdv_push(obj->context, &obj->ints, &index, sizeof index);
     }
     for (int64_t i = 0; i < counts[1] && !obj->context->result; i++) {
         sdv_token token = sdv_next_token(obj, at);
         float number = SUBDIV_INFINITE;
         if (!sdv_token_is(token, "inf") && sdv_read_number(token.begin, &number) != token.end)
             return 0;
-        sdv_push_float(obj->context, &obj->floats, number);
+        sdv_push(obj->context, &obj->floats, &number, sizeof number);
     }
     if (counts[2] > 0) word = sdv_next_token(obj, at);
     return obj->context->result || sdv_use_tag(obj, name, word);
 }
 
-// -------- statements
-
-// Where the comment behind a name begins: at a # between blanks, as some names are "Material #25".
-// Smoothing groups have no names, so there any # will do.
-static const char *sdv_find_comment(sdv_token keyword, const char *end)
+static const char *sdv_read_tag(sdv_obj *obj, sdv_token keyword)
 {
-    int any = *keyword.begin == 's';
-    for (const char *p = keyword.end; p < end; p++) {
-        if (*p != '#') continue;
-        int behind = any || p == keyword.end || sdv_is_blank(p[-1]) || sdv_is_newline(p[-1]);
-        if (behind && (any || p == keyword.end || sdv_ends_token(p + 1))) return p;
-    }
-    return end;
+    const char *p = keyword.end, *end = keyword.end;
+    if (sdv_read_values(obj, &p)) return p;
+    while (!sdv_at_end(end)) end++;
+    sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin,
+             sdv_length(keyword.begin, end));
+    return p;
 }
 
+// -------- statements
+
 // Keeps "usemtl stone" as it stands in the file, names with blanks and all, joined where it goes on
-// in the next line. Returns what is behind.
+// in the next line. A # begins a comment if blanks are around it, as some names are "Material #25";
+// smoothing groups have no names, so there any # will do. Returns what is behind, or NULL.
 static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 {
-    const char *next = sdv_skip_statement(obj, keyword.end), *p = keyword.end;
-    const char *end = obj->context->result ? p : sdv_find_comment(keyword, next);
-    if (obj->context->result) return next;
-    while (end > p && (sdv_is_blank(end[-1]) || sdv_is_newline(end[-1]) || sdv_continues(end - 1)))
-        end--;
-    while (p < end && (sdv_is_blank(*p) || sdv_is_newline(*p) || sdv_continues(p))) p++;
-    size_t size = (size_t)(keyword.end - keyword.begin), most = size + (size_t)(end - p) + 2;
-    char *text = (char *)sdv_push(obj->context, &obj->statement_text, most, 1), *start = text;
-    if (!text) return next;
-    memcpy(text, keyword.begin, size);
-    text += size;
-    if (p < end) *text++ = ' ';
-    for (; p < end; p++) {
-        *text++ = sdv_continues(p) ? ' ' : *p;
+    const char *next = sdv_skip_statement(obj, keyword.end), *p = keyword.begin;
+    int any = *p == 's', blank = 0;
+    if (!next) return NULL;
+    char *text = (char *)sdv_array_room(obj->context, &obj->statement_text,
+                                        (size_t)(next - p) + 2, 1), *end = text;
+    if (!text) return NULL;
+    while (p < keyword.end) *end++ = *p++;
+    *end++ = ' ';
+    for (const char *name = end; p < next; p++) {
+        if (*p == '#' && (any || p == keyword.end || (blank && sdv_ends_token(p + 1)))) break;
+        blank = sdv_is_blank(*p) || sdv_is_newline(*p) || sdv_continues(p);
         if (sdv_continues(p)) p = sdv_skip_newline(p + 1) - 1;
+        if (!blank || end > name) *end++ = sdv_is_newline(*p) ? ' ' : *p;
     }
-    *text++ = 0;
-    obj->statement_text.count -= most - (size_t)(text - start);
-    sdv_push_int(obj->context, &obj->statement_faces, obj->mesh.face_count);
+    while (sdv_is_blank(end[-1])) end--;
+    *end++ = 0;
+    obj->statement_text.count += (size_t)(end - text);
+    sdv_push(obj->context, &obj->statement_faces, &obj->mesh.face_count, sizeof(int));
     return next;
 }
 
 static sdv_statement sdv_statement_kind(sdv_token keyword)
 {
-    static const struct { const char *word; sdv_statement kind; } words[] = {
-        { "vn", SDV_PASSED }, { "g", SDV_KEPT }, { "o", SDV_KEPT }, { "s", SDV_KEPT },
-        { "usemtl", SDV_KEPT }, { "mtllib", SDV_KEPT }, { "p", SDV_ELEMENT }, { "l", SDV_ELEMENT },
-        { "vp", SDV_FREE_FORM }, { "cstype", SDV_FREE_FORM }, { "deg", SDV_FREE_FORM },
-        { "bmat", SDV_FREE_FORM }, { "step", SDV_FREE_FORM }, { "curv", SDV_FREE_FORM },
-        { "curv2", SDV_FREE_FORM }, { "surf", SDV_FREE_FORM }, { "parm", SDV_FREE_FORM },
-        { "trim", SDV_FREE_FORM }, { "hole", SDV_FREE_FORM }, { "scrv", SDV_FREE_FORM },
-        { "sp", SDV_FREE_FORM }, { "end", SDV_FREE_FORM }, { "con", SDV_FREE_FORM },
-        { "ctech", SDV_FREE_FORM }, { "stech", SDV_FREE_FORM } };
-    if (*keyword.begin == 26) return SDV_PASSED;    // ^Z: how some old editors end a text
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (sdv_token_is(keyword, words[i].word)) return words[i].kind;
+    static const char *const words[] = { "v", "vt", "f fo", "t", "g o s usemtl mtllib", "vn", "p l",
+        "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con ctech stech" };
+    const char ctrl_z = 26;                         // ends the text of old editors
+    if (keyword.begin == keyword.end || *keyword.begin == ctrl_z) return SDV_PASSED;
+    for (int kind = SDV_VERTEX; kind < SDV_UNKNOWN; kind++) {
+        for (const char *p = words[kind]; *p;) {
+            if (sdv_token_is(keyword, p)) return (sdv_statement)kind;
+            while (*p && *p++ != ' ') {}
+        }
+    }
     return SDV_UNKNOWN;
 }
 
-// What is neither v, vt, f nor t. Returns what is behind.
-static const char *sdv_read_other(sdv_obj *obj, sdv_token keyword)
+// Recognizes the statements that make up most of a file, at once.
+SDV_INLINE sdv_statement sdv_usual_kind(const char *p)
 {
-    sdv_statement kind = sdv_statement_kind(keyword);
-    if (kind == SDV_KEPT) return sdv_keep_statement(obj, keyword);
-    if (obj->skipped_counts[kind] == 0) obj->skipped_lines[kind] = obj->line;
-    if (obj->skipped_counts[kind] < INT_MAX) obj->skipped_counts[kind]++;
-    if (obj->line == 1 && strncmp(keyword.begin, "version https://git-lfs", 23) == 0)
-        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, 1,
-                      "a Git LFS pointer, not the file itself");
-    return sdv_skip_statement(obj, keyword.end);
+    if (*p == 'v' && p[1] == ' ') return SDV_VERTEX;
+    if (*p == 'f' && p[1] == ' ') return SDV_FACE;
+    if (*p == 'v' && p[1] == 't' && p[2] == ' ') return SDV_UV;
+    if (*p == 'v' && p[1] == 'n' && p[2] == ' ') return SDV_PASSED;
+    return SDV_UNKNOWN;
 }
 
-// Returns what is behind.
+// Returns what is behind, or NULL after an error.
 static const char *sdv_read_statement(sdv_obj *obj, const char *p)
 {
+    sdv_statement kind = sdv_usual_kind(p);
+    sdv_token keyword = { p, kind == SDV_UV || kind == SDV_PASSED ? p + 2 : p + 1 };
     obj->line = obj->next_line;
-    p = sdv_skip_blanks(obj, p);
-    sdv_token keyword = sdv_token_at(p);
-    p = keyword.end;
-    if (sdv_token_is(keyword, "v")) {
-        p = sdv_read_vertex(obj, p);
-    } else if (sdv_token_is(keyword, "f") || sdv_token_is(keyword, "fo")) {
-        p = sdv_read_face(obj, p);
-    } else if (sdv_token_is(keyword, "vt")) {
-        p = sdv_read_uv(obj, p);
-    } else if (sdv_token_is(keyword, "t")) {
-        const char *end = p;
-        if (!sdv_read_tag(obj, &p)) {
-            while (!sdv_at_end(end)) end++;
-            sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin,
-                     sdv_length(keyword.begin, end));
-        }
-    } else if (keyword.begin < keyword.end) {
-        return sdv_read_other(obj, keyword);
+    if (kind == SDV_UNKNOWN) {
+        keyword = sdv_token_at(sdv_skip_blanks(obj, p));
+        kind = sdv_statement_kind(keyword);
     }
-    return obj->context->result ? p : sdv_skip_statement(obj, p);
+    p = keyword.end;
+    if (kind == SDV_VERTEX) {
+        p = sdv_read_vertex(obj, p);
+    } else if (kind == SDV_FACE) {
+        p = sdv_read_face(obj, p);
+    } else if (kind == SDV_UV) {
+        p = sdv_read_uv(obj, p);
+    } else if (kind == SDV_KEPT) {
+        return sdv_keep_statement(obj, keyword);
+    } else if (kind == SDV_TAG) {
+        p = sdv_read_tag(obj, keyword);
+    } else {
+        if (obj->counts[kind] == 0) obj->lines[kind] = obj->line;
+        if (obj->counts[kind] < INT_MAX) obj->counts[kind]++;
+        if (obj->line == 1 && strncmp(keyword.begin, "version https://git-lfs", 23) == 0)
+            sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a Git LFS pointer, not the file itself");
+    }
+    if (obj->context->result) return NULL;
+    return *p == '\n' ? sdv_next_line(obj, p) : sdv_skip_statement(obj, p);
 }
 
 // -------- the whole file
@@ -13573,102 +13501,18 @@ static void sdv_skip_byte_order_mark(sdv_obj *obj)
     const unsigned char *text = (const unsigned char *)sdv_items(&obj->text);
     if (obj->text.count >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) obj->begin = 3;
     if ((text[0] == 0xFF && text[1] == 0xFE) || (text[0] == 0xFE && text[1] == 0xFF))
-        sdv_fail_line(obj->context, SUBDIV_ERROR_SYNTAX, 1, "UTF-16 text: not an OBJ file");
-}
-
-// -------- lines as most programs write them, in short. For others, NULL, and nothing happened.
-
-SDV_INLINE const char *sdv_plain_end(sdv_obj *obj, const char *p)
-{
-    while (*p == ' ') p++;
-    if (*p == '\r' && p[1] == '\n') p++;
-    if (*p != '\n') return NULL;
-    sdv_count_line(obj);
-    return p + 1;
-}
-
-SDV_INLINE const char *sdv_plain_numbers(sdv_obj *obj, const char *p, sdv_series *series,
-                                            int count)
-{
-    float *numbers = (float *)sdv_series_room(obj->context, series, 3);
-    if (!numbers) return NULL;
-    while (*p == ' ' && p[1] == ' ') p++;
-    for (int i = 0; i < count; i++) {
-        if (*p != ' ') return NULL;
-        p = sdv_read_short_number(p + 1, &numbers[i]);
-        if (!p) return NULL;
-    }
-    p = sdv_plain_end(obj, p);
-    if (p) sdv_series_add(series, (size_t)count);
-    return p;
-}
-
-// An index from 1 to count.
-SDV_INLINE const char *sdv_plain_index(const char *p, int count, int *out)
-{
-    const char *first = p;
-    unsigned number = 0, digit;
-    for (; (digit = (unsigned char)*p - (unsigned)'0') < 10; p++) number = number * 10 + digit;
-    *out = (int)(number - 1);
-    return p - first < 10 && number - 1 < (unsigned)count ? p : NULL;
-}
-
-static const char *sdv_plain_face(sdv_obj *obj, const char *p)
-{
-    enum { MOST = 64 };
-    size_t size = 0, uvs = 0;
-    int *v, *t;
-    if (!sdv_face_room(obj, MOST, obj->mesh.uv_count > 0, &v, &t)) return NULL;
-    while (*p == ' ') {
-        while (*p == ' ') p++;
-        if (!sdv_is_digit(*p)) break;
-        if (size == MOST) return NULL;
-        p = sdv_plain_index(p, obj->mesh.vertex_count, &v[size++]);
-        if (p && *p == '/' && sdv_is_digit(p[1]) && t)
-            p = sdv_plain_index(p + 1, obj->mesh.uv_count, &t[uvs++]);
-        else if (p && *p == '/')
-            p++;
-        if (!p) return NULL;
-        if (*p == '/')
-            for (p++; sdv_is_digit(*p);) p++;
-    }
-    if (size < 3) return NULL;
-    obj->line = obj->next_line;
-    p = sdv_plain_end(obj, p);
-    if (p) sdv_add_face(obj, size, uvs);
-    return p;
-}
-
-static const char *sdv_plain_line(sdv_obj *obj, const char *p)
-{
-    if (p[0] == 'f') return sdv_plain_face(obj, p + 1);
-    if (p[0] != 'v') return NULL;
-    if (p[1] == ' ') {
-        p = sdv_plain_numbers(obj, p + 1, &obj->positions, 3);
-        if (p) obj->mesh.vertex_count++;
-        return p;
-    }
-    if (p[1] == 't') {
-        p = sdv_plain_numbers(obj, p + 2, &obj->uvs, 2);
-        if (p) obj->mesh.uv_count++;
-        return p;
-    }
-    if (p[1] != 'n' || p[2] != ' ') return NULL;
-    while ((unsigned char)*p >= ' ' && *p != '\\') p++;     // normals do not matter
-    return sdv_plain_end(obj, p);
+        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "UTF-16 text: not an OBJ file");
 }
 
 static void sdv_read_statements(sdv_obj *obj)
 {
     while (!obj->context->result) {
         const char *text = (const char *)sdv_items(&obj->text), *p = text + obj->begin;
-        while (p < text + obj->complete && !obj->context->result) {
-            const char *next = sdv_plain_line(obj, p);
-            p = next ? next : sdv_read_statement(obj, p);
-        }
+        const char *end = text + obj->complete;
+        while (p && p < end) p = sdv_read_statement(obj, p);
+        if (!p || obj->ended) return;
         obj->begin = (size_t)(p - text);
-        if (obj->ended) return;
-        if (!obj->context->result) sdv_read_more(obj);
+        sdv_read_more(obj);
     }
 }
 
@@ -13680,24 +13524,26 @@ static void sdv_check_obj(sdv_obj *obj)
     for (int uv = 0; uv < 2; uv++) {
         const sdv_ahead *ahead = (const sdv_ahead *)sdv_items(&obj->ahead[uv]);
         int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
-        for (size_t i = 0; i < obj->ahead[uv].count; i++)
+        for (size_t i = 0; i < obj->ahead[uv].count; i++) {
+            obj->line = ahead[i].line;
             if (ahead[i].index >= count)
-                sdv_fail_line(obj->context, SUBDIV_ERROR_INDEX, ahead[i].line,
-                              "%s %d does not exist (the file has %d)", uv ? "vt" : "vertex",
-                              ahead[i].index + 1, count);
+                sdv_fail_line(obj, SUBDIV_ERROR_INDEX, "%s %d does not exist (the file has %d)",
+                              uv ? "vt" : "vertex", ahead[i].index + 1, count);
+        }
     }
     if (obj->statement_faces.count > INT_MAX)
         sdv_fail(obj->context, SUBDIV_ERROR_TOO_LARGE, "too many statements");
+    if (obj->tags.count > INT_MAX) sdv_fail(obj->context, SUBDIV_ERROR_TOO_LARGE, "too many tags");
 }
 
 static void sdv_warn_skipped(sdv_obj *obj)
 {
-    static const char *const texts[] = { "", "", "points and lines (p, l)",
+    static const char *const texts[] = { "points and lines (p, l)",
         "free-form statements (curves and surfaces)", "statements with unknown keywords" };
-    for (int kind = SDV_ELEMENT; kind < SDV_STATEMENT_KINDS; kind++)
-        if (obj->skipped_counts[kind])
-            sdv_warn(obj->context, obj->skipped_lines[kind], "%d %s are skipped",
-                     obj->skipped_counts[kind], texts[kind]);
+    for (int kind = SDV_ELEMENT; kind <= SDV_UNKNOWN; kind++)
+        if (obj->counts[kind])
+            sdv_warn(obj->context, obj->lines[kind], "%d %s are skipped", obj->counts[kind],
+                     texts[kind - SDV_ELEMENT]);
 }
 
 // A face of the file is a face of the mesh, but for those that were skipped: -1.
@@ -13714,79 +13560,52 @@ static int sdv_mesh_face(const sdv_obj *obj, int face)
     return face - (int)low < obj->mesh.face_count ? face - (int)low : -1;
 }
 
-// Drops the tags whose vertices or faces do not exist and counts the rest.
-static void sdv_check_tags(sdv_obj *obj)
-{
-    sdv_tag *tags = (sdv_tag *)(obj->tags.block + 1);
-    size_t kept = 0;
-    subdiv_mesh *mesh = &obj->mesh;
-    for (size_t i = 0; i < obj->tags.count; i++) {
-        sdv_tag tag = tags[i];
-        int vertex = tag.a > tag.b ? tag.a : tag.b;
-        if (tag.kind == 'h') {
-            tag.a = sdv_mesh_face(obj, tags[i].a);
-            if (tag.a < 0)
-                sdv_warn(obj->context, tag.line, "hole: face %d does not exist", tags[i].a);
-        } else if (vertex >= mesh->vertex_count) {
-            sdv_warn(obj->context, tag.line, "tag: vertex %d does not exist (counted from 0)",
-                     vertex);
-            tag.a = -1;
-        }
-        if (tag.a < 0) continue;
-        tags[kept++] = tag;
-        if (tag.kind == 'c') mesh->crease_count++;
-        else if (tag.kind == 'v') mesh->corner_count++;
-        else mesh->hole_count++;
-    }
-    obj->tags.count = kept;
-    if (kept > INT_MAX) sdv_fail(obj->context, SUBDIV_ERROR_TOO_LARGE, "too many tags");
-}
-
-static void sdv_fill_tags(const sdv_obj *obj, subdiv_mesh *mesh)
+// Makes the lists of the mesh from the tags, except those that name what does not exist.
+static void sdv_sort_tags(sdv_obj *obj)
 {
     const sdv_tag *tags = (const sdv_tag *)sdv_items(&obj->tags);
-    int creases = 0, corners = 0, holes = 0;
     for (size_t i = 0; i < obj->tags.count; i++) {
-        const sdv_tag *tag = &tags[i];
-        if (tag->kind == 'c') {
-            mesh->crease_vertices[2 * creases] = tag->a;
-            mesh->crease_vertices[2 * creases + 1] = tag->b;
-            mesh->crease_sharpness[creases++] = tag->sharpness;
-        } else if (tag->kind == 'v') {
-            mesh->corner_vertices[corners] = tag->a;
-            mesh->corner_sharpness[corners++] = tag->sharpness;
-        } else {
-            mesh->holes[holes++] = tag->a;
+        int kind = tags[i].kind, a = tags[i].at[0], b = tags[i].at[1], most = a > b ? a : b;
+        if (kind == SDV_HOLES) a = sdv_mesh_face(obj, a);
+        if (kind == SDV_HOLES ? a < 0 : most >= obj->mesh.vertex_count) {
+            sdv_warn(obj->context, tags[i].line,
+                     kind == SDV_HOLES ? "hole: face %d does not exist"
+                                       : "tag: vertex %d does not exist (counted from 0)", most);
+            continue;
         }
+        sdv_push(obj->context, &obj->lists[kind], &a, sizeof a);
+        if (kind == SDV_CREASES) sdv_push(obj->context, &obj->lists[kind], &b, sizeof b);
+        sdv_push(obj->context, &obj->sharpness[kind], &tags[i].sharpness, sizeof(float));
     }
+    subdiv_mesh *mesh = &obj->mesh;
+    mesh->crease_count = (int)obj->sharpness[SDV_CREASES].count;
+    mesh->crease_vertices = (int *)sdv_items(&obj->lists[SDV_CREASES]);
+    mesh->crease_sharpness = (float *)sdv_items(&obj->sharpness[SDV_CREASES]);
+    mesh->corner_count = (int)obj->sharpness[SDV_CORNERS].count;
+    mesh->corner_vertices = (int *)sdv_items(&obj->lists[SDV_CORNERS]);
+    mesh->corner_sharpness = (float *)sdv_items(&obj->sharpness[SDV_CORNERS]);
+    mesh->hole_count = (int)obj->lists[SDV_HOLES].count;
 }
 
 // A mesh has UVs if any of its faces has.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
-    int bare = obj->mesh.face_count - obj->uv_faces - obj->mixed_faces;
+    int faces = obj->mesh.face_count, bare = faces - obj->uv_faces - obj->mixed_faces;
     if (obj->mixed_faces)
         sdv_warn(obj->context, obj->mixed_line,
                  "%d of %d faces have a vt at some of their vertices only: they get no UVs",
-                 obj->mixed_faces, obj->mesh.face_count);
-    if (obj->uv_faces == 0) {
-        obj->mesh.uv_count = 0;
-        return;
-    }
-    sdv_series_fill(obj->context, &obj->face_uvs, obj->face_vertices.count, -1);
-    if (bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare,
-                 obj->mesh.face_count);
+                 obj->mixed_faces, faces);
+    if (obj->uv_faces == 0) obj->mesh.uv_count = 0;
+    else sdv_fill_uvs(obj, 0);
+    if (obj->uv_faces && bare)
+        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare, faces);
 }
 
 static void sdv_finish_statements(sdv_obj *obj)
 {
     char *text = (char *)sdv_items(&obj->statement_text);
-    for (size_t i = 0; i < obj->statement_faces.count; i++, text += strlen(text) + 1) {
-        char **statement = (char **)sdv_push(obj->context, &obj->statements, 1, sizeof(char *));
-        if (!statement) return;
-        *statement = text;
-    }
+    for (size_t i = 0; i < obj->statement_faces.count; i++, text += strlen(text) + 1)
+        sdv_push(obj->context, &obj->statements, &text, sizeof text);
     obj->mesh.statement_count = (int)obj->statement_faces.count;
     obj->mesh.statement_faces = (int *)sdv_items(&obj->statement_faces);
     obj->mesh.statements = (char **)sdv_items(&obj->statements);
@@ -13795,17 +13614,21 @@ static void sdv_finish_statements(sdv_obj *obj)
 // Everything that was read, in one block.
 static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
 {
+    static const float white = 1;
     subdiv_mesh *mesh = &obj->mesh;
     if (!obj->context->result) sdv_check_obj(obj);
     if (obj->context->result) return;
-    if (obj->tags.count) sdv_check_tags(obj);
+    mesh->boundary = (subdiv_boundary)obj->rules[0];
+    mesh->uv_rule = (subdiv_uv_rule)obj->rules[1];
+    mesh->creasing = (subdiv_creasing)obj->rules[2];
+    mesh->triangles = (subdiv_triangles)obj->rules[3];
+    sdv_sort_tags(obj);
     if (obj->face_sizes.count) {
         mesh->face_size = 0;
         mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
     }
-    size_t colors = obj->colors.count ? 3 * (size_t)mesh->vertex_count : 0;
-    while (obj->colors.count < colors && !obj->context->result)
-        sdv_push_float(obj->context, &obj->colors, 1);
+    if (obj->colors.count)
+        sdv_fill(obj->context, &obj->colors, 3 * (size_t)mesh->vertex_count, &white);
     mesh->colors = (float *)sdv_items(&obj->colors);
     sdv_finish_uvs(obj);
     sdv_finish_statements(obj);
@@ -13816,7 +13639,7 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     sdv_series_take(&obj->face_vertices, out->face_vertices);
     sdv_series_take(&obj->uvs, out->uvs);
     sdv_series_take(&obj->face_uvs, out->face_uvs);
-    sdv_fill_tags(obj, out);
+    sdv_copy(out->holes, sdv_items(&obj->lists[SDV_HOLES]), (size_t)out->hole_count, sizeof(int));
 }
 
 static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subdiv_read read,
@@ -13831,8 +13654,7 @@ static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subd
     obj.context = context;
     obj.read = read;
     obj.user = user;
-    obj.next_line = 1;
-    obj.most_faces = INT_MAX;
+    obj.line = obj.next_line = 1;
     sdv_grow(context, &obj.text, 1 << 18, 1);      // stays in the cache; grows for longer lines
     sdv_skip_byte_order_mark(&obj);
     sdv_read_statements(&obj);
@@ -13840,9 +13662,10 @@ static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subd
 
     sdv_series *series[] = { &obj.positions, &obj.uvs, &obj.face_vertices, &obj.face_uvs };
     for (size_t i = 0; i < sizeof series / sizeof *series; i++) sdv_series_take(series[i], NULL);
-    sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.statement_faces,
-                            &obj.statement_text, &obj.statements, &obj.vs, &obj.ts, &obj.ahead[0],
-                            &obj.ahead[1], &obj.tags, &obj.skipped, &obj.ints, &obj.floats };
+    sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.ahead[0], &obj.ahead[1],
+        &obj.skipped, &obj.statement_faces, &obj.statement_text, &obj.statements, &obj.ints,
+        &obj.floats, &obj.tags, &obj.lists[0], &obj.lists[1], &obj.lists[2], &obj.sharpness[0],
+        &obj.sharpness[1], &obj.sharpness[2] };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sdv_array_free(arrays[i]);
     return context->result;
 }
@@ -13883,13 +13706,16 @@ typedef struct sdv_output {
     sdv_context *context;
     subdiv_write write;
     void        *user;
+    const subdiv_options *opt;
     const sdv_figures *figures;
     char        *buffer;                // [SDV_OUTPUT_SIZE]
     size_t       used;
 } sdv_output;
 
-#define SDV_OUTPUT_SIZE 16384           // stays in the nearest cache
-#define SDV_PIECE_SIZE 256              // more than any line but those of faces and statements
+enum {
+    SDV_OUTPUT_SIZE = 16384,            // stays in the nearest cache
+    SDV_PIECE_SIZE = 256                // more than any line but those of faces and statements
+};
 
 static void sdv_flush(sdv_output *out)
 {
@@ -13916,69 +13742,58 @@ static void sdv_write_text(sdv_output *out, const char *text)
 {
     for (size_t left = strlen(text), size; left; left -= size, text += size) {
         char *p = sdv_room(out);
-        size = left < SDV_PIECE_SIZE ? left : SDV_PIECE_SIZE;
+        size = left < SDV_PIECE_SIZE ? left : (size_t)SDV_PIECE_SIZE;
         memcpy(p, text, size);
         sdv_end(out, p + size);
     }
-}
-
-// A tag with one or two indices and, unless it is negative, a sharpness.
-static void sdv_write_tag(sdv_output *out, const char *tag, const int *indices, int count,
-                          const float *sharpness)
-{
-    sdv_write_text(out, tag);
-    char *p = sdv_room(out);
-    for (int i = 0; i < count; i++) {
-        *p++ = ' ';
-        p = sdv_write_index(out->figures, p, indices[i]);
-    }
-    if (sharpness) {
-        float s = *sharpness > SUBDIV_INFINITE ? SUBDIV_INFINITE : *sharpness;
-        *p++ = ' ';
-        p = sdv_write_exactly(p, s > 0 ? s : 0);
-    }
-    *p++ = '\n';
-    sdv_end(out, p);
-}
-
-static void sdv_write_rules(sdv_output *out, const subdiv_mesh *mesh)
-{
-    static const char *const boundaries[] = { "2\n", "1\n", "0\n" };
-    static const char *const uv_rules[] = { "1\n", "2\n", "3\n", "4\n", "5\n", "0\n" };
-    sdv_write_text(out, "t interpolateboundary 1/0/0 ");
-    sdv_write_text(out, boundaries[mesh->boundary]);
-    if (mesh->uv_rule != SUBDIV_UV_CORNERS_ONLY) {
-        sdv_write_text(out, "t facevaryinginterpolateboundary 1/0/0 ");
-        sdv_write_text(out, uv_rules[mesh->uv_rule]);
-    }
-    if (mesh->creasing == SUBDIV_CREASING_CHAIKIN)
-        sdv_write_text(out, "t creasemethod 0/0/1 chaikin\n");
-    if (mesh->triangles == SUBDIV_TRIANGLES_SMOOTH)
-        sdv_write_text(out, "t smoothtriangles 0/0/1 smooth\n");
-}
-
-// One entry per tag, the form that every reader of these tags understands.
-static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
-{
-    if (!mesh->crease_count && !mesh->corner_count && !mesh->hole_count &&
-        mesh->boundary == SUBDIV_BOUNDARY_EDGE && mesh->uv_rule == SUBDIV_UV_CORNERS_ONLY &&
-        mesh->creasing == SUBDIV_CREASING_UNIFORM &&
-        mesh->triangles == SUBDIV_TRIANGLES_CATMULL_CLARK) return;
-    sdv_write_rules(out, mesh);
-    for (int i = 0; i < mesh->crease_count; i++)
-        sdv_write_tag(out, "t crease 2/1/0", mesh->crease_vertices + 2 * (size_t)i, 2,
-                      &mesh->crease_sharpness[i]);
-    for (int i = 0; i < mesh->corner_count; i++)
-        sdv_write_tag(out, "t corner 1/1/0", &mesh->corner_vertices[i], 1,
-                      &mesh->corner_sharpness[i]);
-    for (int i = 0; i < mesh->hole_count; i++)
-        sdv_write_tag(out, "t hole 1/0/0", &mesh->holes[i], 1, NULL);
 }
 
 static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *numbers, int count)
 {
     for (int i = 0; i < count; i++) p = sdv_write_float(figures, p, &numbers[i]);
     return p;
+}
+
+// Creases, corners or holes, each a tag of its own: the form that every reader of tags understands.
+static void sdv_write_list(sdv_output *out, int kind, int count, const int *indices,
+                           const float *sharpness)
+{
+    for (int i = 0; i < count && !out->context->result; i++) {
+        sdv_write_text(out, sdv_list_tags[kind]);
+        char *p = sdv_room(out);
+        for (int k = kind == SDV_CREASES ? 2 : 1; k > 0; k--) {
+            *p++ = ' ';
+            p = sdv_write_index(out->figures, p, *indices++);
+        }
+        if (sharpness) {
+            float s = sharpness[i] > SUBDIV_INFINITE ? SUBDIV_INFINITE : sharpness[i];
+            *p++ = ' ';
+            p = sdv_write_exactly(p, s > 0 ? s : 0);
+        }
+        *p++ = '\n';
+        sdv_end(out, p);
+    }
+}
+
+// Nothing if all is as usual; otherwise always the boundary, as readers differ in their defaults.
+static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
+{
+    const int rules[SDV_RULES] = { (int)mesh->boundary, (int)mesh->uv_rule, (int)mesh->creasing,
+                                   (int)mesh->triangles };
+    int any = mesh->crease_count || mesh->corner_count || mesh->hole_count;
+    for (int i = 0; i < SDV_RULES; i++) any |= rules[i];
+    if (!any || (out->opt && out->opt->no_tags)) return;
+    for (int i = 0; i < SDV_RULES; i++) {
+        if (i > 0 && rules[i] == 0) continue;
+        sdv_write_text(out, sdv_rule_tags[i].text);
+        sdv_write_text(out, sdv_rule_tags[i].values[rules[i]]);
+        sdv_write_text(out, "\n");
+    }
+    sdv_write_list(out, SDV_CREASES, mesh->crease_count, mesh->crease_vertices,
+                   mesh->crease_sharpness);
+    sdv_write_list(out, SDV_CORNERS, mesh->corner_count, mesh->corner_vertices,
+                   mesh->corner_sharpness);
+    sdv_write_list(out, SDV_HOLES, mesh->hole_count, mesh->holes, NULL);
 }
 
 // Lines of so many numbers, and behind each 3 of more unless that is NULL: v x y z r g b.
@@ -14062,56 +13877,22 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
         if (uvs) uvs += (size_t)(next - f) * (size_t)size;
     }
     sdv_write_statements(out, mesh, statement, mesh->face_count);
+    sdv_write_tags(out, mesh);
 }
 
-static sdv_output sdv_open_output(sdv_context *context, sdv_arena *arena, subdiv_write write,
-                                  void *user)
-{
-    sdv_output out = { context, write, user, NULL, NULL, 0 };
-    sdv_figures *figures = SDV_NEW(context, arena, sdv_figures, 1);
-    out.buffer = SDV_NEW(context, arena, char, SDV_OUTPUT_SIZE);
-    if (context->result) return out;
-    sdv_make_figures(figures);
-    out.figures = figures;
-    return out;
-}
-
-static subdiv_result sdv_save(sdv_context *context, const subdiv_mesh *mesh, subdiv_write write,
-                              void *user, const subdiv_options *opt)
-{
-    sdv_arena arena = sdv_scratch();
-    sdv_output out = sdv_open_output(context, &arena, write, user);
-    if (!context->result) {
-        sdv_write_mesh(&out, mesh);
-        if (!opt || !opt->no_tags) sdv_write_tags(&out, mesh);
-        sdv_flush(&out);
-    }
-    sdv_arena_free(&arena);
-    return context->result;
-}
-
-SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
-                                                  void *user, const subdiv_options *opt)
-{
-    sdv_context context = sdv_begin(opt);
-    if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_all(&context, mesh);
-    return sdv_save(&context, mesh, write, user, opt);
-}
-
-#define SDV_STREAM_POINTS (1 << 20)
+enum { SDV_STREAM_POINTS = 1 << 20 };
 
 // The points of a surface, width numbers each, a window at a time. The first windows hold the
 // points of vertices and edges, which any face may make; the others those inside a few faces, or a
 // part of one. The first three numbers are positions, to be multiplied by factor.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
-                              const char *keyword, int width, const float *values, float factor,
-                              const subdiv_options *opt)
+                              const char *keyword, int width, const float *values, float factor)
 {
+    const subdiv_options *opt = out->opt;
     int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
     size_t stride = (size_t)width;
-    size_t most = total < SDV_STREAM_POINTS ? (size_t)total : SDV_STREAM_POINTS;
-    float *window = SDV_NEW(out->context, arena, float, stride * most);
+    int most = total < SDV_STREAM_POINTS ? total : (int)SDV_STREAM_POINTS;
+    float *window = SDV_NEW(out->context, arena, float, stride * (size_t)most);
     char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
     if (out->context->result) return;
     subdiv_result result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
@@ -14174,43 +13955,63 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     sdv_write_statements(out, &surface->fine, statement, surface->fine.face_count);
 }
 
-// Level 0 is a copy, no larger than the cage.
-static subdiv_result sdv_stream_copy(sdv_context *context, const subdiv_surface *surface,
-                                     const float *positions, subdiv_write write, void *user,
-                                     const subdiv_options *opt)
+static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
+                               const float *positions)
+{
+    sdv_context *context = out->context;
+    subdiv_mesh fine = surface->fine;
+    float factor = sdv_tame(context, arena, surface, &positions);
+    int *row = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
+    int *uvs = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
+    fine.holes = SDV_NEW(context, arena, int, fine.hole_count);
+    const float *values = sdv_join_colors(context, arena, surface, positions);
+    if (context->result) return;
+    sdv_fill_holes(surface, fine.holes);
+    sdv_stream_points(out, arena, surface, "v", surface->colors ? 6 : 3, values, factor);
+    if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1);
+    sdv_stream_faces(out, surface, row, uvs);
+    sdv_write_tags(out, &fine);
+}
+
+typedef struct sdv_content {            // what is written: a mesh, or a surface being refined
+    const subdiv_mesh *mesh;
+    const subdiv_surface *surface;
+    const float *positions;             // of the surface
+} sdv_content;
+
+static subdiv_result sdv_write_obj(sdv_context *context, sdv_content from, subdiv_write write,
+                                   void *user, const subdiv_options *opt)
 {
     subdiv_mesh copy;
-    context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
-    if (!context->result) sdv_save(context, &copy, write, user, opt);
+    memset(&copy, 0, sizeof copy);
+    if (context->result) return context->result;
+    if (from.surface && from.surface->levels == 0) {            // no larger than the cage
+        context->result = subdiv_surface_mesh(&copy, from.surface, from.positions, opt);
+        from.mesh = &copy;
+    }
+    sdv_arena arena = sdv_scratch();
+    sdv_figures *figures = SDV_NEW(context, &arena, sdv_figures, 1);
+    sdv_output out = { context, write, user, opt, figures, NULL, 0 };
+    out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
+    if (!context->result) {
+        sdv_make_figures(figures);
+        if (from.mesh) sdv_write_mesh(&out, from.mesh);
+        else sdv_stream_surface(&out, &arena, from.surface, from.positions);
+        sdv_flush(&out);
+    }
+    sdv_arena_free(&arena);
     subdiv_mesh_free(&copy);
     return context->result;
 }
 
-static subdiv_result sdv_stream(sdv_context *context, const subdiv_surface *surface,
-                                const float *positions, subdiv_write write, void *user,
-                                const subdiv_options *opt)
+SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
+                                                  void *user, const subdiv_options *opt)
 {
-    if (surface->levels == 0)
-        return sdv_stream_copy(context, surface, positions, write, user, opt);
-    sdv_arena arena = sdv_scratch();
-    sdv_output out = sdv_open_output(context, &arena, write, user);
-    subdiv_mesh fine = surface->fine;
-    float factor = sdv_tame(context, &arena, surface, &positions);
-    int *row = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
-    int *uvs = SDV_NEW(context, &arena, int, 8 * (size_t)surface->order.n);
-    fine.holes = SDV_NEW(context, &arena, int, fine.hole_count);
-    const float *values = sdv_join_colors(context, &arena, surface, positions);
-    if (!context->result) {
-        sdv_fill_holes(surface, fine.holes);
-        sdv_stream_points(&out, &arena, surface, "v", surface->colors ? 6 : 3, values, factor, opt);
-        if (surface->uv)
-            sdv_stream_points(&out, &arena, surface->uv, "vt", 2, surface->uvs, 1, opt);
-        sdv_stream_faces(&out, surface, row, uvs);
-        if (!opt || !opt->no_tags) sdv_write_tags(&out, &fine);
-        sdv_flush(&out);
-    }
-    sdv_arena_free(&arena);
-    return context->result;
+    sdv_context context = sdv_begin(opt);
+    sdv_content from = { mesh, NULL, NULL };
+    if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else sdv_check_all(&context, mesh);
+    return sdv_write_obj(&context, from, write, user, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
@@ -14218,9 +14019,9 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, write != NULL);
-    if (context.result) return context.result;
-    return sdv_stream(&context, surface, positions, write, user, opt);
+    return sdv_write_obj(&context, from, write, user, opt);
 }
 
 typedef struct sdv_kept {
@@ -14245,11 +14046,12 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
 {
     sdv_context context = sdv_begin(opt);
     sdv_kept store = { (char *)text, 0, capacity };
+    sdv_content from = { mesh, NULL, NULL };
     if (size) *size = 0;
     if (!size || (capacity && !text))
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_all(&context, mesh);
-    if (!sdv_save(&context, mesh, sdv_write_memory, &store, opt)) *size = store.size;
+    if (!sdv_write_obj(&context, from, sdv_write_memory, &store, opt)) *size = store.size;
     if (!context.result && capacity && capacity < store.size)
         sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
     return context.result;
@@ -14286,9 +14088,11 @@ static FILE *sdv_open_path(sdv_context *context, const char *path, const char *m
 }
 #endif
 
-// Without a buffer of its own: we read and write in large blocks.
+// Opens a file, without a buffer of its own: the library reads and writes in large blocks. Messages
+// name the file from now on.
 static FILE *sdv_open(sdv_context *context, const char *path, const char *mode)
 {
+    context->name = path;
     sdv_forget_errno();
     FILE *file = sdv_open_path(context, path, mode);
     if (file) setvbuf(file, NULL, _IONBF, 0);
@@ -14312,47 +14116,40 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    if (mesh) memset(mesh, 0, sizeof *mesh);
-    if (!path || !mesh) {
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-        return context.result;
-    }
-    context.name = path;
-    FILE *file = sdv_open(&context, path, "rb");
-    if (!file) return context.result;
-    sdv_load_text(&context, mesh, sdv_read_file, file);
-    fclose(file);
+    FILE *file = path && mesh ? sdv_open(&context, path, "rb") : NULL;
+    sdv_load_text(&context, mesh, file ? sdv_read_file : NULL, file);
+    if (file) fclose(file);
     return context.result;
+}
+
+static subdiv_result sdv_write_path(sdv_context *context, sdv_content from, const char *path,
+                                    const subdiv_options *opt)
+{
+    FILE *file = context->result ? NULL : sdv_open(context, path, "wb");
+    if (!file) return context->result;                      // bad arguments leave a file as it is
+    sdv_write_obj(context, from, sdv_write_file, file, opt);
+    if (fclose(file)) sdv_fail_io(context, "writing failed");
+    return context->result;
 }
 
 SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_content from = { mesh, NULL, NULL };
     if (!path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "path is NULL");
-    else sdv_check_all(&context, mesh);            // before the file is overwritten
-    if (context.result) return context.result;
-    context.name = path;
-    FILE *file = sdv_open(&context, path, "wb");
-    if (!file) return context.result;
-    sdv_save(&context, mesh, sdv_write_file, file, opt);
-    if (fclose(file)) sdv_fail_io(&context, "writing failed");
-    return context.result;
+    else sdv_check_all(&context, mesh);
+    return sdv_write_path(&context, from, path, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
+    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, path != NULL);
     if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
-    if (context.result) return context.result;
-    context.name = path;
-    FILE *file = sdv_open(&context, path, "wb");
-    if (!file) return context.result;
-    sdv_stream(&context, surface, positions, sdv_write_file, file, opt);
-    if (fclose(file)) sdv_fail_io(&context, "writing failed");
-    return context.result;
+    return sdv_write_path(&context, from, path, opt);
 }
 
 #endif // SUBDIV_NO_STDIO
@@ -14934,9 +14731,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_LOOKUP
 #undef SDV_NEST_STACK
 #undef SDV_CACHE_LINE
-#undef SDV_OUTPUT_SIZE
-#undef SDV_PIECE_SIZE
-#undef SDV_STREAM_POINTS
 
 #if defined(__GNUC__) && defined(__cplusplus)
 #pragma GCC diagnostic pop
