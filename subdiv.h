@@ -12104,7 +12104,7 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
     sdv_cage cage;
     sdv_plain_cage(&context, &arena, &cage, mesh);
     int *parent = SDV_NEW(&context, &arena, int, mesh->vertex_count);
-    if (!context.result) sdv_user_sharpness(&context, &arena, &cage, mesh);
+    if (!context.result) sdv_user_sharpness(&context, &cage.level, mesh);
     if (!context.result) {
         info->vertex_count = mesh->vertex_count;
         info->edge_count = cage.level.edge_count;
