@@ -600,8 +600,9 @@ typedef struct subdiv_tessellation {
 //
 // Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost ones.
 // Strips join what remains with each edge; they follow its faces, from edge 0-1 on. They consist of
-// triangles and, where two pieces are opposite, quads. Rates that are far apart make thin triangles
-// and, at curved edges, some that are folded over.
+// triangles and, where two pieces are opposite, quads. A quad with rate 1 on two opposite edges has
+// no points inside, unless its face rate asks for some: its other two edges are joined directly.
+// Rates that are far apart make thin triangles and, at curved edges, some that are folded over.
 //
 //     o---o---o---o---o       a quad of rates 3, 4, 4, 4: the 2 x 2 inner quads of 4 x 4; at edge
 //     | \ |   |   | / |       0-1, below, 5 triangles; at each other edge a triangle, 2 quads and a
@@ -10802,6 +10803,7 @@ typedef struct sdv_inside {
     int columns, rows;                  // of the grid
     int margin;                         // pieces that strips replace at column 0 and row 0,
     int last;                           // and at the last column and row
+    int across;                         // the one side that is joined with the side across, or -1
 } sdv_inside;
 
 typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
@@ -10859,7 +10861,8 @@ static int sdv_is_regular(const sdv_tile *tile)
 }
 
 // Finds the grid of a face: of its rate or, if that is 0, of the rates of its edges. A grid with
-// strips has at least one point inside, to which they lead.
+// strips has at least one point inside, to which they lead. A quad of one row or column, as two of
+// its rates are 1, needs none: its other sides are joined with each other.
 static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
 {
     sdv_tile tile = sdv_tile_at(tiling, f);
@@ -10874,9 +10877,12 @@ static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
     if (tile.ngon) grid->columns = grid->columns / 2 + grid->columns % 2;
     if (!quad) grid->rows = grid->columns;
     int least = tile.ngon || sdv_is_regular(&tile) ? 1 : tile.loop ? 3 : 2;
-    if (grid->columns < least) grid->columns = least;
-    if (grid->rows < least) grid->rows = least;
+    if (grid->columns < least && (!quad || most[0] > 1)) grid->columns = least;
+    if (grid->rows < least && (!quad || most[1] > 1)) grid->rows = least;
     grid->margin = !sdv_is_regular(&tile);
+    grid->across = !quad || !grid->margin ? -1 : grid->rows == 1 ? 0 : grid->columns == 1 ? 1 : -1;
+    if (grid->across == 0) grid->columns = sdv_edge_rate(&tile, 2);
+    if (grid->across == 1) grid->rows = sdv_edge_rate(&tile, 3);
     grid->last = tile.ngon ? 0 : grid->margin << tile.loop;
 }
 
@@ -10957,7 +10963,7 @@ static int *sdv_cut_quads(int *faces, const int *end)
 static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
 {
     const sdv_inside *in = tile->grid;
-    int grids = tile->ngon ? tile->sides : 1, cut = out->triangles && !tile->loop;
+    int grids = tile->ngon ? tile->sides : in->across < 0, cut = out->triangles && !tile->loop;
     int margin = in->margin, right = in->columns - in->last, top = in->rows - in->last;
     size_t size = out->triangles ? 3 : 4;
     size_t pieces = (size_t)grids * (size_t)(right - margin) * (size_t)(top - margin);
@@ -10994,15 +11000,16 @@ static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2
 // The strip between a side and the ring, which is above it: whichever piece has its middle first is
 // joined to the point reached on the other line, and two at once are a quad. In halves of a piece,
 // middle i of n is 2i + 1 along the side, and those of the ring are 2 behind (in a triangle's,
-// which is narrower, 3).
+// which is narrower, 3). The side across is as long as a ring with one more piece at either end.
 static void sdv_put_strip(const sdv_tile *tile, int side, const sdv_grid grids[2],
                           sdv_faces_at *out)
 {
     int next = side + 1 < tile->sides ? side + 1 : 0, pieces = sdv_edge_rate(tile, side);
-    int rate = (int)sdv_side_rate(tile, side), inset = 2 + tile->loop, ring = rate - inset;
+    int rate = (int)sdv_side_rate(tile, side), inset = 2 + tile->loop;
+    int more = tile->grid->across == side, ring = rate - inset + more;
     sdv_side edge = sdv_tile_side(tile, side, 0);
-    int a = tile->vertices[side], d = sdv_ring_point(tile, side, grids, 0);
-    for (int i = 0, j = 0; i < pieces || j < ring;) {
+    int a = tile->vertices[side], d = sdv_ring_point(tile, side, grids, -more);
+    for (int i = 0, j = -more; i < pieces || j < ring;) {
         int64_t here = (2 * (int64_t)i + 1) * rate;
         int64_t there = (2 * (int64_t)j + 1 + inset) * pieces;
         int on = i < pieces && (j == ring || here <= there);
@@ -11028,7 +11035,7 @@ static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
     for (int i = 0; i < tile.sides && tile.grid->margin; i++) {
         if (tile.ngon || i == 0) grids[0] = sdv_tile_grid(&tile, i);
         if (tile.ngon) grids[1] = sdv_tile_grid(&tile, (i + 1) % tile.sides);
-        sdv_put_strip(&tile, i, grids, out);
+        if (tile.grid->across < 0 || tile.grid->across == i) sdv_put_strip(&tile, i, grids, out);
     }
 }
 

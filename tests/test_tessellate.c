@@ -477,6 +477,35 @@ static void test_picture(void)
     subdiv_mesh_free(&fine);
 }
 
+// Across a rate of 1 the two other sides of a quad are joined, whichever they are, without points
+// inside; unless the face has a rate of its own.
+static void test_rate_of_one(void)
+{
+    static const int rates[][4] = { { 4, 1, 5, 1 }, { 1, 5, 1, 4 }, { 100, 1, 101, 1 },
+                                    { 1, 4, 1, 1 }, { 1, 1, 4, 1 }, { 3, 1, 1, 1 } };
+    static const int triangles[] = { 9, 9, 201, 5, 5, 4 }, quad[4] = { 0, 1, 2, 3 };
+    for (int i = 0; i < 12; i++) {
+        const int *r = rates[i % 6], face_rate = 3;
+        test_cage c;
+        plan p;
+        subdiv_mesh fine;
+        subdiv_tessellation how = {0};
+        cage_clear(&c, SUBDIV_CATMULL_CLARK);
+        for (int k = 0; k < 4; k++) cage_vertex(&c, k == 1 || k == 2, k >= 2, 0);
+        cage_face(&c, 4, quad);
+        how.edge_rates = r;
+        how.triangles = 1;
+        if (i >= 6) how.face_rates = &face_rate;
+        plan_make(&p, &c.mesh, r, how.face_rates);
+        CHECK_EQUAL(subdiv_tessellate(&fine, &c.mesh, &how, NULL), SUBDIV_OK);
+        CHECK_EQUAL(fine.vertex_count, r[0] + r[1] + r[2] + r[3] + (i < 6 ? 0 : 4));
+        if (i < 6) CHECK_EQUAL(fine.face_count, triangles[i]);
+        check_tessellation(&fine, &p, NULL);
+        subdiv_mesh_free(&fine);
+        plan_free(&p);
+    }
+}
+
 // One quad, one triangle, one pentagon with edges as different as can be.
 static void test_extreme_rates(void)
 {
@@ -766,6 +795,7 @@ int main(void)
     RUN(test_rates);
     RUN(test_edges);
     RUN(test_picture);
+    RUN(test_rate_of_one);
     RUN(test_extreme_rates);
     RUN(test_closed);
     RUN(test_any_threads);

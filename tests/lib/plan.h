@@ -59,8 +59,14 @@ static void plan_face(plan *p, int f, int face_rate)
     if (ngon) columns = rows = (rows + 1) / 2;
     for (int i = 0; i < size; i++)
         regular &= side_rate(p, f, i) == (ngon ? 2 * columns : i % 2 ? rows : columns);
-    p->columns[f] = regular || ngon ? columns : larger(columns, least);
-    p->rows[f] = regular || ngon ? rows : larger(rows, least);
+    for (int i = 0; i < 2; i++) {
+        int *pieces = i ? &rows : &columns;
+        int one = least == 2 && size == 4 && *pieces == 1 && side_rate(p, f, i) == 1 &&
+                  side_rate(p, f, i + 2) == 1;
+        if (!regular && !ngon && !one) *pieces = larger(*pieces, least);
+    }
+    p->columns[f] = columns;
+    p->rows[f] = rows;
 }
 
 // The faces that are left out of the result, as refinement has it.
