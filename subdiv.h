@@ -6743,10 +6743,11 @@ static int sdv_is_edge(const sdv_level *level, int h)
     return level->across[h] <= h;
 }
 
-static sdv_place sdv_first_place(int h)
+// The place of face f, on the grid of face-vertex h if the level is the cage.
+static sdv_place sdv_place_of(const sdv_level *level, int f, int h)
 {
-    sdv_place place = { h, 0, 0, 1 };
-    return place;
+    sdv_place first = { h, 0, 0, 1 };
+    return level->places ? level->places[f] : first;
 }
 
 // Makes room for what the next level has of a level.
@@ -6773,19 +6774,6 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
     }
     for (int v = 0; v < level->vertex_count && level->partner; v++)
         if (split->active[v] && level->partner[v] >= 0) split->active[level->partner[v]] = 1;
-}
-
-// Numbers the face points, of the faces that have an active vertex, from first on.
-static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
-{
-    int next = first;
-    for (int f = 0; f < level->face_count; f++) {
-        int active = 0, end = sdv_face_end(level, f);
-        for (int h = sdv_face_start(level, f); h < end; h++)
-            active |= split->active[level->face_vertices[h]];
-        split->face[f] = active ? next++ : -1;
-    }
-    split->face_points = next - first;
 }
 
 // Numbers the children: each face-vertex has one where its vertex is active, and knows the
@@ -6815,8 +6803,13 @@ static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop
     int next = 0;
     for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
     split->vertex_points = next;
-    if (!loop) sdv_number_face_points(level, split, next);
-    next += split->face_points;
+    for (int f = 0; f < level->face_count && !loop; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - split->vertex_points;
     for (int h = 0; h < level->face_vertex_count; h++) {
         if (!sdv_is_edge(level, h)) continue;
         int active = split->active[level->face_vertices[h]] |
@@ -6932,7 +6925,7 @@ static void sdv_place_child(const sdv_level *level, int f, int grid, int i, sdv_
                             int child)
 {
     int loop = next->face_size == 3, right = loop ? i & 1 : i == 1 || i == 2, up = i >= 2;
-    sdv_place place = level->places ? level->places[f] : sdv_first_place(grid);
+    sdv_place place = sdv_place_of(level, f, grid);
     place.row = 2 * place.row + place.step * up;
     place.column = 2 * place.column + place.step * right;
     if (loop && i == 3) place.step = -place.step;
@@ -7391,26 +7384,19 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
     return patch->up && patch->along;
 }
 
-// Where face f stands on its grid.
-static void sdv_set_place(const sdv_level *level, int f, sdv_patch *patch)
-{
-    sdv_place place = level->places ? level->places[f] : sdv_first_place(sdv_face_start(level, f));
-    patch->h = place.h;
-    patch->row = place.row;
-    patch->column = place.column;
-    patch->step = (signed char)place.step;
-}
-
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
+    sdv_place place = sdv_place_of(level, f, h);
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, patch)) return 0;
-    sdv_set_place(level, f, patch);
-    return 1;
+    patch->h = place.h;
+    patch->row = place.row;
+    patch->column = place.column;
+    patch->step = (signed char)place.step;
+    return is_free || sdv_find_fans(writer, level, rules, kinds, h, size, patch);
 }
 
 // The kinds of a face's vertices; rough if its size is not the regular one.
@@ -7519,7 +7505,6 @@ typedef struct sdv_exact {
     sdv_strips *strips;                 // of semi-sharp patches, counted from 1
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
-    unsigned char *absent;              // [face_count] without surface; NULL: none
     unsigned *cells;                    // see >>cells
     sdv_nest_kind *kinds;
     sdv_nest *nests;
@@ -7943,7 +7928,7 @@ static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, in
         face->nest = number;
         face->turn = h - start;
         face->level = depth;
-        face->place = level->places ? level->places[f] : sdv_first_place(start);
+        face->place = sdv_place_of(level, f, start);
         level->rough[f] = 0;
         if (i + 1 < faces) h = sdv_counter_clockwise(level, h);
     }
@@ -8037,19 +8022,6 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
     sdv_exact_step(maker, level, &split, next, &surface->refine[2 * depth], next_arena, &scratch);
     sdv_arena_free(&scratch);
-}
-
-// Faces without a surface: dropped by boundary "none", or without values.
-static void sdv_find_absent(sdv_context *context, subdiv_surface *surface,
-                            const unsigned char *hole)
-{
-    int any = 0, faces = surface->face_count;
-    unsigned char *absent = SDV_NEW(context, &surface->arena, unsigned char, faces);
-    for (int f = 0; f < faces && absent; f++) {
-        absent[f] = hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
-        any |= absent[f];
-    }
-    if (any) surface->exact->absent = absent;
 }
 
 static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
@@ -8408,8 +8380,10 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
-// Makes the cells of all faces, and one more for faces without a surface.
-static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
+// Makes the cells of all faces, and one more for faces without values, which have no surface, just
+// as those that boundary "none" drops.
+static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
+                           const unsigned char *hole)
 {
     const sdv_level *cage = &surface->order.cage;
     sdv_exact *exact = surface->exact;
@@ -8420,9 +8394,9 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
     sdv_set_leaves(&maker);
     exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &maker.cells,
                                               sizeof *cells);
-    for (int f = 0; f < surface->face_count && exact->absent && !context->result; f++) {
+    for (int f = 0; f < surface->face_count && !context->result; f++) {
         int own = surface->own_face ? surface->own_face[f] : f;
-        if (!exact->absent[f] || own < 0) continue;
+        if (own < 0 || hole[f] != SDV_DROPPED) continue;
         for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
             exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
     }
@@ -8680,7 +8654,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         memset(level.core, 1, (size_t)level.face_count);
         sdv_level_fade(&level);
         surface->work_count = level.vertex_count;
-        sdv_find_absent(context, surface, hole);
     }
     for (int i = 0; level.face_count && !context->result; i++) {
         sdv_exact_level(&maker, i, &level, &next, &next_arena);
@@ -8690,7 +8663,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result && !surface->borrows) sdv_make_cells(context, surface);
+    if (!context->result && !surface->borrows) sdv_make_cells(context, surface, hole);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -8794,14 +8767,6 @@ SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, 
         curve->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
         curve->across[i] = p[i][1];
     }
-}
-
-// In the order of sdv_powers, for the channels of the polynomial.
-static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
-{
-    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
-    for (int k = 0; k < SDV_SLOTS; k++)
-        slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -9172,10 +9137,12 @@ typedef struct sdv_exact_evaluation {
 static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
                                 int lanes, float *out)
 {
+    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
     sdv_four slots[SDV_SLOTS], times = sdv_all((float)shrink);
     float first[4];
-    sdv_pack(q, slots);
-    for (int k = 0; k < SDV_SLOTS; k++) slots[k] = sdv_times(times, slots[k]);
+    slots[14] = slots[15] = sdv_all(0);
+    for (int k = 0; k < (q->degree == 4 ? 14 : SDV_SLOTS); k++)
+        slots[k] = sdv_times(times, q->c[powers[k][0]][powers[k][1]]);
     sdv_store(first, slots[0]);
     for (int l = 0; l < 4; l++) first[l] = (float)(origin[l] + (double)first[l]);
     slots[0] = sdv_load(first);
