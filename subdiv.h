@@ -6821,29 +6821,28 @@ static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop
     split->edge_points = next - split->vertex_points - split->face_points;
 }
 
+// Sets what a point of the next level has, if the point is there.
+static void sdv_split_point(sdv_level *next, int point, float sharpness, int faces)
+{
+    if (point < 0) return;
+    next->vertex_sharpness[point] = sharpness;
+    next->vertex_faces[point] = faces;
+}
+
 // Gives vertex, edge and face points what they inherit; each child has 2 (Loop: 3) faces at an edge
 // point.
 static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
                              const sdv_rules *rules)
 {
-    for (int v = 0; v < level->vertex_count; v++) {
-        int point = split->vertex[v];
-        if (point < 0) continue;
-        next->vertex_sharpness[point] = sdv_fade(level->vertex_sharpness[v]);
-        next->vertex_faces[point] = level->vertex_faces[v];
-    }
-    for (int f = 0; f < level->face_count && !rules->loop; f++) {
-        int point = split->face[f];
-        if (point < 0) continue;
-        next->vertex_sharpness[point] = 0;
-        next->vertex_faces[point] = sdv_face_end(level, f) - sdv_face_start(level, f);
-    }
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        int point = split->edge[h];
-        if (point < 0 || !sdv_is_edge(level, h)) continue;
-        next->vertex_sharpness[point] = 0;
-        next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
-    }
+    for (int v = 0; v < level->vertex_count; v++)
+        sdv_split_point(next, split->vertex[v], sdv_fade(level->vertex_sharpness[v]),
+                        level->vertex_faces[v]);
+    for (int f = 0; f < level->face_count && !rules->loop; f++)
+        sdv_split_point(next, split->face[f], 0, sdv_face_end(level, f) - sdv_face_start(level, f));
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (sdv_is_edge(level, h))
+            sdv_split_point(next, split->edge[h], 0,
+                            (rules->loop ? 3 : 2) * sdv_edge_faces(level, h));
 }
 
 // What only surfaces of values have: partners and origins, of vertex points alone.
@@ -8402,19 +8401,35 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
     }
 }
 
+// The cell of a face, or of the quad at its corner; *odd: there is no such corner.
+SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
+                              unsigned *odd)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int size = loop ? 3 : 4, corners = 1, first;
+    if (surface->own_face) f = surface->own_face[f];
+    if (f < 0) {
+        *odd |= corner < 0;
+        return cage->face_vertex_count;
+    }
+    first = cage->face_size == size ? f : sdv_face_start(cage, f);
+    if (cage->face_size != size) corners = sdv_face_end(cage, f) - first;
+    if (corners == size) corners = 1;
+    *odd |= (unsigned)corner >= (unsigned)corners;
+    return first + ((unsigned)corner < (unsigned)corners ? corner : 0);
+}
+
 // Is a location there?
 static int sdv_is_location(const subdiv_surface *surface, subdiv_location at)
 {
     const float under = -1e-6f, over = 1 + 1e-6f;
-    const sdv_level *cage = &surface->order.cage;
-    int f = at.face, size = surface->rules.loop ? 3 : 4;
-    if (f < 0 || f >= surface->face_count) return 0;
+    int loop = surface->rules.loop;
+    unsigned odd = 0;
+    if (at.face < 0 || at.face >= surface->face_count) return 0;
     if (!(at.u >= under && at.v >= under && at.u <= over && at.v <= over)) return 0;
-    if (surface->rules.loop && at.u + at.v > over) return 0;
-    if (surface->own_face) f = surface->own_face[f];
-    if (f < 0) return at.corner >= 0;
-    int count = sdv_face_end(cage, f) - sdv_face_start(cage, f);
-    return at.corner >= 0 && at.corner < (count == size ? 1 : count);
+    if (loop && at.u + at.v > over) return 0;
+    sdv_first_cell(surface, loop, at.face, at.corner, &odd);
+    return !odd;
 }
 
 // Locations are looked up in batches of so many, in loops without branches, which compilers
@@ -8477,24 +8492,6 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
         l->first[k] = ((y & 12) | x >> 2) ^ (-first_above & 15);
         l->second[k] = ((y & 3) << 2 | (x & 3)) ^ (-above & 15);
     }
-}
-
-// The cell of a face, or of the quad at its corner; *odd: there is no such corner.
-SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
-                              unsigned *odd)
-{
-    const sdv_level *cage = &surface->order.cage;
-    int size = loop ? 3 : 4, corners = 1, first;
-    if (surface->own_face) f = surface->own_face[f];
-    if (f < 0) {
-        *odd |= corner < 0;
-        return cage->face_vertex_count;
-    }
-    first = cage->face_size == size ? f : sdv_face_start(cage, f);
-    if (cage->face_size != size) corners = sdv_face_end(cage, f) - first;
-    if (corners == size) corners = 1;
-    *odd |= (unsigned)corner >= (unsigned)corners;
-    return first + ((unsigned)corner < (unsigned)corners ? corner : 0);
 }
 
 // Puts those in the place of the faces. Are all corners there?
