@@ -14957,7 +14957,9 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SLOTS
 #undef SDV_CELL_LEVELS
 #undef SDV_CELL_BITS
+#undef SDV_CELL_LEAF
 #undef SDV_CELL_NONE
+#undef SDV_CELL_FAR
 #undef SDV_CELL_POLYNOMIALS
 #undef SDV_LOOKUP
 #undef SDV_NEST_STACK
