@@ -7481,9 +7481,8 @@ typedef struct sdv_nest_kind {
     int      work_count;                // the points, and those of the next level
     sdv_batches refine[2];              // the rows: to face points, to the others
     int     *below;                     // [points] the same points of the next level's nest
-    int     *children;                  // [4 * faces] their patches; -1: in the nest
-    int      turns, width;              // patches: of each turn of the face; control points of each
-    sdv_patches patches;
+    int      width;                     // control points of a patch
+    sdv_patches patches;                // for each turn of the faces: three of each face
     double  *limit;                     // [3 * points] weights of the limit and of two tangents,
                                         // of a smooth ring and a crease; NULL: none
 } sdv_nest_kind;
@@ -7710,21 +7709,6 @@ static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nes
     }
 }
 
-// Which patches the children of a nest's faces are.
-static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const sdv_split *split,
-                              const sdv_level *next, sdv_arena *scratch)
-{
-    sdv_context *context = maker->writer->context;
-    int loop = maker->surface->rules.loop, count = 0;
-    int *patch = SDV_NEW(context, scratch, int, next->face_count);
-    kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
-    if (context->result) return;
-    for (int f = 0; f < next->face_count; f++)
-        patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
-    for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
-        kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
-}
-
 // A patch as seen by the face that it is turned in: control point k there is the nest's own number
 // sdv_turned_points[k], for every turn once more.
 static const unsigned char sdv_turned_points[2][16] = {
@@ -7742,15 +7726,14 @@ static void sdv_turn_patch(const sdv_rules *rules, const sdv_patch *from, const 
     for (int i = 0; i < 3; i++) patch->fan[(i + 1) % 3] = from->fan[i];
 }
 
-// Behind the patches of a nest the same in all other turns.
+// Adds to the patches of a nest what they are in all other turns.
 static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rules *rules,
                            sdv_nest_kind *kind)
 {
     sdv_patches made = kind->patches;
     size_t width = (size_t)sdv_control_points(rules), count = (size_t)made.count;
     kind->width = (int)width;
-    kind->turns = rules->loop ? 3 : 4;
-    made.count *= kind->turns;
+    made.count *= rules->loop ? 3 : 4;
     made.items = SDV_NEW(context, arena, sdv_patch, made.count);
     made.points = SDV_NEW(context, arena, int, width * (size_t)made.count);
     if (context->result) return;
@@ -7837,7 +7820,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
     sdv_find_patches(maker->writer, scratch, &next, rules, &kind->patches);
     if (context->result) return;
     sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
-    sdv_nest_children(maker, kind, &split, &next, scratch);
+    SUBDIV_ASSERT(kind->patches.count == 3 * kind->faces);
     sdv_nest_turns(context, arena, rules, kind);
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
         sdv_nest_limit(context, rules, kind, arena, scratch);
@@ -9051,7 +9034,7 @@ static void sdv_nest_descend(sdv_nest_state *s)
 static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int child, int turn,
                                        const int **points)
 {
-    int i = turn * (kind->patches.count / kind->turns) + kind->children[4 * face + child];
+    int i = 3 * (turn * kind->faces + face) + child - 1;
     *points = kind->patches.points + (size_t)kind->width * (size_t)i;
     return &kind->patches.items[i];
 }
