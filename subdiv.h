@@ -7985,8 +7985,8 @@ static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *leve
     exact->patch_count += patches->count;
 }
 
-// A level: its patches and nests become leaves; then the rows to the next level, if any face is
-// left.
+// Turns the patches and nests of a level into leaves, and makes the next level of the faces that
+// are left, if there are any.
 static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level, sdv_level *next,
                             sdv_arena *next_arena)
 {
@@ -8006,6 +8006,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_arena_free(&scratch);
 }
 
+// Keeps what has been made, at its size.
 static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 {
     subdiv_surface *surface = maker->surface;
@@ -8021,8 +8022,8 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
                                                         sizeof(sdv_nest_face));
-    surface->exact->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
-                                                   sizeof(sdv_strips));
+    exact->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
+                                                 sizeof(sdv_strips));
     for (int i = 0; i < exact->kind_count && !context->result; i++)
         if (exact->kinds[i].work_count > exact->most_work)
             exact->most_work = exact->kinds[i].work_count;
@@ -8031,7 +8032,8 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 // -------------------------------------------------------------------------------- >>locations
 // Where a location is on a leaf, and which polynomial of the leaf is there.
 
-// Which child of a face, and where on it; a middle triangle is turned by half: scale changes sign.
+// Goes down to the child of a face that has (x, y), and returns its number. A middle triangle is
+// turned by half, and the scale changes its sign.
 SDV_INLINE int sdv_descend(int loop, double *x, double *y, double *scale)
 {
     int right = *x >= 0.5, up = *y >= 0.5, middle = loop && !right && !up && *x + *y >= 0.5;
@@ -8059,7 +8061,7 @@ static void sdv_turn_place(int loop, int turn, double u, double v, double *x, do
 
 // The number of the first polynomial of a child of a nest's face.
 SDV_INLINE size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, int depth,
-                                                int child)
+                                             int child)
 {
     return (size_t)exact->polynomial_count +
            3 * ((size_t)depth * (size_t)exact->nest_face_count + (size_t)face) + (size_t)child - 1;
@@ -8072,11 +8074,13 @@ SDV_INLINE float sdv_on_face(float u)
     return u < 1 ? u : 1;
 }
 
-// Where a patch is, of those of all levels, one level's behind the other's.
+// Where a patch is: number i of its level. Patches of all levels are numbered one level after the
+// other.
 typedef struct sdv_patch_at {
     int level, i;
 } sdv_patch_at;
 
+// Goes on to the level that has the patch, if i is behind the patches of its level.
 static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
 {
     while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
@@ -8098,7 +8102,7 @@ static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at
     return &patches->items[at.i];
 }
 
-// Where a location is: on a leaf, and on a polynomial of that.
+// The leaf that a location is on, and the polynomial of the leaf.
 typedef struct sdv_leaf {
     const sdv_patch *patch;             // its leaf is a patch of these control points,
     const int       *points;
@@ -8108,7 +8112,7 @@ typedef struct sdv_leaf {
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
 
-// The strip that a coordinate is on; it then counts in the strip's own segment.
+// Finds the strip that a coordinate is on, and turns it into the coordinate on the strip's segment.
 SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
 {
     const double whole = 1 << SDV_STRIP_LEVELS;
@@ -8119,7 +8123,7 @@ SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale
     return i;
 }
 
-// Finds the part of a patch that is cut into strips.
+// Finds the part of a patch, cut into strips, that a location is on.
 static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
 {
     const sdv_strips *along = &surface->exact->strips[leaf->patch->along - 1];
@@ -8128,8 +8132,8 @@ static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
     leaf->polynomial += (size_t)(row * along->count + column);
 }
 
-// On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
-// as seen by the face again.
+// Finds the child that a location on a face of a nest is on, on the level that has it, as seen from
+// the vertex. The place on the child is as seen from the face again.
 static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
 {
     int turn = exact->nest_faces[leaf->nest_face].turn, depth = 0;
@@ -8150,6 +8154,7 @@ static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
     leaf->polynomial = sdv_nest_polynomial_number(exact, leaf->nest_face, depth, child);
 }
 
+// Finds the polynomial of a leaf that a location is on.
 static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 {
     if (leaf->patch && leaf->patch->up) sdv_find_part(surface, leaf);
@@ -8157,16 +8162,16 @@ static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 }
 
 // ------------------------------------------------------------------------------------ >>cells
-// Where a location is, is found in few steps, as branches would be mispredicted. Each face, or quad
-// of an n-gon, is one cell or, if there is more than one polynomial on it, a grid of 16 cells, and
-// such a cell may be a grid again.
+// Cells find the polynomial of a location in two steps for almost all of them, as a walk down from
+// level to level has its branches mispredicted. Each face, or quad of an n-gon, is one cell or, if
+// it has more than one polynomial, a grid of 16 cells, each of which may be a grid again.
 //
 //     +--+--+--+--+     A cell is a number: 2 first + 1 of a grid whose cells are those from first
 //     |  |  |  |  |     on. Or it has the number of the polynomial that is all over it, and which
 //     +--+--+--+--+     part of the face that covers: one in 2^across columns and 2^up rows (they
-//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. Or, if
-//     +--+--+--+--+     it is smaller than the cells of the second grid or has more than one
-//     |  |  |  |  |     polynomial even so, it has the number of a leaf.
+//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. Or it
+//     +--+--+--+--+     has the number of a leaf: if it is smaller than the cells of the second
+//     |  |  |  |  |     grid, or is as small and has more than one polynomial.
 //     +--+--+--+--+
 //     |  |  |  |  |     Loop: the triangle below the diagonal of a square has the square's number,
 //     +--+--+--+--+     the one above that of the opposite square (15 less it), behind the long
@@ -8174,9 +8179,9 @@ static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 
 #define SDV_CELL_LEVELS 4               // of two grids
 #define SDV_CELL_BITS 8                 // of what is not the polynomial's number
-#define SDV_CELL_LEAF 0xe0000000u       // cells from here on have twice the number of a leaf more
-#define SDV_CELL_NONE 0xfffffffeu       // no surface
-#define SDV_CELL_FAR 1u                 // as the result of a look-up: see sdv_locate
+#define SDV_CELL_LEAF 0xe0000000u       // this plus 2 i: the cell has leaf number i
+#define SDV_CELL_NONE 0xfffffffeu       // the face has no surface
+#define SDV_CELL_FAR 1u                 // what a look-up of many locations has no polynomial for
 
 // Of more polynomials than a cell can number, the last ones are left to their leaves. (Tests ask
 // for fewer.)
@@ -8219,8 +8224,8 @@ static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h,
     return square;
 }
 
-// Number k of the four that a split makes of it, which are numbered as by its vertices; the one of
-// Loop's that is in the middle comes last.
+// Returns part number k of the four that a split makes of a square. They are numbered as its
+// vertices are; the triangle in the middle comes last.
 static sdv_square sdv_split_square(sdv_square square, int loop, int k)
 {
     int middle = loop && k == 3, right = loop ? k == 1 : k == 1 || k == 2;
@@ -8232,7 +8237,7 @@ static sdv_square sdv_split_square(sdv_square square, int loop, int k)
     return square;
 }
 
-// The cell of a square in the grid that is so many levels above it, at least two.
+// Returns which cell of a grid has a square; the grid is that of a face so many levels up.
 static size_t sdv_cell_in_grid(const sdv_square *square, int loop, int levels)
 {
     int shift = levels - 2, rest = (1 << shift) - 1;
@@ -8290,8 +8295,8 @@ static int sdv_strip_over(const sdv_strips *strips, int from, int to)
     return -1;
 }
 
-// Sets the cells of a square of a patch of a level that is cut into strips: one, if one part
-// reaches from corner to corner.
+// Sets the cells of a square that is on a patch cut into strips, of a level: one cell, if one part
+// of the patch is all over the square.
 static void sdv_set_cut(sdv_cell_maker *maker, const sdv_square *square, const sdv_patch *patch,
                         int level, unsigned leaf)
 {
@@ -8336,7 +8341,7 @@ static void sdv_set_nest_face(sdv_cell_maker *maker, const sdv_square *square, i
     }
 }
 
-// Sets the cells of all leaves, which are numbered: patches, then faces of nests.
+// Sets the cells of all leaves, whose numbers are those of patches, then those of nests' faces.
 static void sdv_set_leaves(sdv_cell_maker *maker)
 {
     const subdiv_surface *surface = maker->surface;
@@ -8559,7 +8564,7 @@ static sdv_patch_at sdv_find_patch_of(const sdv_exact *exact, int polynomial)
     return at;
 }
 
-// Sets which leaf a cell is on. Returns its level.
+// Sets the leaf of a cell, by the leaf's number or the polynomial's. Returns the leaf's level.
 static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_leaf *leaf)
 {
     const sdv_exact *exact = surface->exact;
@@ -8576,7 +8581,7 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
     return at.level;
 }
 
-// Finds the leaf of a location.
+// Finds the leaf of a location: down to its cell, then once more as far down as the leaf is.
 static sdv_leaf sdv_locate(const subdiv_surface *surface, const subdiv_location *at)
 {
     const sdv_level *cage = &surface->order.cage;
@@ -8885,6 +8890,7 @@ static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const
     return from;
 }
 
+// How many polynomials a patch has.
 static int sdv_double_parts(const sdv_double_patch *from)
 {
     return from->along ? from->along->count * from->up->count : 1;
@@ -9595,7 +9601,7 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-// By its leaf: a location in a cell that has more than one polynomial.
+// Evaluates a location by its leaf, as its cell has no polynomial.
 static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
 {
     sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
@@ -9609,7 +9615,7 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
         sdv_put_zeros(e, i);
 }
 
-// Locations, looked up, and where their polynomials are, unless their leaves are to be asked.
+// A batch of locations that are looked up, and where their polynomials are.
 typedef struct sdv_sample_batch {
     int count;
     sdv_lookup at;
@@ -9659,6 +9665,7 @@ SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int la
     }
 }
 
+// Evaluates a job's share of the locations, one batch after the other.
 static void sdv_locations_job(void *context, int job)
 {
     sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
