@@ -6736,8 +6736,8 @@ typedef struct sdv_split {
     int vertex_points, face_points, edge_points, faces;
 } sdv_split;
 
-// Is h the face-vertex that stands for its edge where each edge is meant once? The last of its
-// ring does.
+// Is h the face-vertex that stands for its edge where each edge is meant once? It is the last one
+// of its ring.
 static int sdv_is_edge(const sdv_level *level, int h)
 {
     return level->across[h] <= h;
@@ -6869,7 +6869,7 @@ static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv
     }
 }
 
-// The face-vertex of a quad or triangle that stands i places behind h.
+// Returns the face-vertex of a quad or triangle that is i places after h.
 static inline int sdv_turn(int size, int h, int i)
 {
     if (size == 4) return (h & ~3) | ((h + i) & 3);
@@ -6877,8 +6877,8 @@ static inline int sdv_turn(int size, int h, int i)
     return h - at + (to < 3 ? to : to - 3);
 }
 
-// The child at h. Its face-vertex 0 places behind vertex h leads along the edge of h, the last one
-// back along the edge before; they are where the next level meets the neighbours.
+// Makes the child at face-vertex h. Its first edge, from the vertex on, is along the edge of h, and
+// its last edge is along the edge before h: across these two are children of the neighbours.
 //
 //     Catmull-Clark           Loop        2          child at vertex 0:
 //     3-----2                            /2\                vertex
@@ -6911,15 +6911,16 @@ static void sdv_split_vertex(const sdv_level *level, const sdv_split *split, sdv
     if (behind > 0) next->creased[split->vertex[v]] = next->creased[split->edge[before]] = 1;
 }
 
-// An edge inside a face, between siblings: smooth and new. other < 0: there is only one.
+// Makes an edge between two children of a face, which is smooth. other < 0: there is only one
+// child.
 static void sdv_split_inside(sdv_level *next, int at, int other)
 {
     next->across[at] = other < 0 ? at : other;
     next->sharpness[at] = 0;
 }
 
-// Where the child of face f is that has its vertex i; in Loop the middle one is number 3, which is
-// turned. grid: the face-vertex of a face of the cage that has the child's grid.
+// Sets the place of the child of face f at vertex i, or in Loop of the middle child, number 3,
+// which is turned. grid: the face-vertex whose grid the child is on if f is a face of the cage.
 static void sdv_place_child(const sdv_level *level, int f, int grid, int i, sdv_level *next,
                             int child)
 {
@@ -6943,6 +6944,7 @@ static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
     }
 }
 
+// Makes the children of face f.
 static void sdv_split_face(const sdv_level *level, const sdv_split *split, sdv_level *next,
                            int size, int f)
 {
@@ -7060,7 +7062,7 @@ typedef struct sdv_strips {
     sdv_strip items[5];
 } sdv_strips;
 
-// Point t of the control points of the level with segments of length h, as a sum of p0 to p3: the
+// Weighs p0 to p3 for the control point at t of the level with segments of length h, by the
 // polynomial of sdv_cubic.
 static void sdv_cubic_weights(double t, double h, double *w)
 {
@@ -7071,7 +7073,7 @@ static void sdv_cubic_weights(double t, double h, double *w)
     w[3] = c;
 }
 
-// Row i of level c while the edges are sharp, counted from the low one, as a sum of p0 to p3.
+// Weighs p0 to p3 for row i of level c, counted from the low edge, while the edges are sharp.
 static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
 {
     double h = ldexp(1, -c), *w = row;
@@ -7088,7 +7090,7 @@ static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
     }
 }
 
-// The row outside of row p[edge], seen from inside.
+// Weighs p0 to p3 for the row of level c that is outside of row p[edge], as seen from inside.
 static void sdv_outside_row(int c, int edge, double *row)
 {
     double h = ldexp(1, -c);
@@ -7097,7 +7099,7 @@ static void sdv_outside_row(int c, int edge, double *row)
     row[edge == 1 ? 0 : 3] = h;
 }
 
-// Row i of level c, on which the edges are smooth.
+// Weighs p0 to p3 for row i of level c, on which the edges are smooth.
 static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
 {
     int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
@@ -7113,8 +7115,8 @@ static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
         row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
 }
 
-// The strip from segment first to last of level c. A smooth one is its own segment, another a part
-// of the patch's.
+// Adds the strip from segment first to last of level c. A smooth strip is one segment of its own;
+// any other strip is a part of the patch's segment.
 static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
 {
     sdv_strip *strip = &strips->items[strips->count++];
@@ -7159,7 +7161,8 @@ static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int s
     return 1;
 }
 
-// Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
+// Returns the kind of a vertex where nothing is sharp: free, if it has the regular valence and its
+// faces the regular size, or rough.
 static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
 {
     int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
@@ -7191,8 +7194,9 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
     return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
 }
 
-// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
-// creases that go straight on, or end where a crease that stays runs across. All else is rough.
+// Returns the kind of a vertex where something is sharp. Edged: it is on a crease that stays sharp.
+// Pinned: it is a corner that stays one. Lined: it is on semi-sharp creases that go straight on, or
+// end where a crease that stays sharp runs across. Anything else is rough.
 static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int dependent)
 {
     int sharp = 0, stay = 0;
@@ -7341,7 +7345,8 @@ static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
     else sdv_gather_quad(level, h, patch->sharp, points);
 }
 
-// The number of the strips between two edges; 0 if they differ, or there are too many already.
+// Returns the number of the strips between two edges of these sharpnesses; 0 if both are semi-sharp
+// and differ, or if there are too many strips already.
 static int sdv_find_strips(sdv_writer *writer, float low, float high)
 {
     sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
@@ -7398,7 +7403,7 @@ static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_
     return is_free || sdv_find_fans(writer, level, rules, kinds, h, size, patch);
 }
 
-// The kinds of a face's vertices; rough if its size is not the regular one.
+// Returns the kinds of a face's vertices, or rough if the face does not have the regular size.
 static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
                                  int size)
 {
@@ -7409,8 +7414,8 @@ static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *ki
     return size == 4 ? found | kinds[v[3]] : found;
 }
 
-// Finds the patches of a level and marks the faces of the core that have none as rough. At most
-// there are as many as faces that are not rough by their vertices.
+// Finds the patches of a level, and marks faces of the core without a patch as rough. There are at
+// most as many patches as faces whose vertices are not rough.
 static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, sdv_patches *patches)
 {
@@ -7512,15 +7517,15 @@ typedef struct sdv_exact {
     int most_work;                      // of the kinds' work_counts
 } sdv_exact;
 
-// While it is made.
+// Makes an exact surface; arrays grow.
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
     sdv_array kinds, nests, nest_points, nest_faces;
 } sdv_exact_maker;
 
-// The rows from a level to the next: face points first, as the others are made from them. They
-// stand behind the vertex points of the next level, and edge points behind them.
+// Writes the rows from a level to the next: face points first, as the others are made from them.
+// Among the points of the next level, vertex points come first, then face points, then edge points.
 static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_split *split,
                            sdv_writer *writer, sdv_batches *refine)
 {
@@ -7547,7 +7552,7 @@ static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_s
     sdv_end_batches(writer, &refine[1]);
 }
 
-// A row, in doubles: those points of fine levels differ in their last digits alone.
+// Makes the point of a row, in doubles: points of fine levels differ in their last digits alone.
 SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const float *weights,
                               double *work)
 {
@@ -7562,7 +7567,7 @@ SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const floa
     for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
 }
 
-// Job number job's share of the rows.
+// Makes job number job's share of the points of batches.
 static void sdv_make_exact_rows(const sdv_batches *batches, double *work, int job, int jobs)
 {
     for (int b = 0; b < batches->starts[batches->blocks]; b++) {
@@ -7578,7 +7583,7 @@ static void sdv_make_exact_rows(const sdv_batches *batches, double *work, int jo
     }
 }
 
-// The work points of an exact surface: those of the cage from the input, the others step by step.
+// Makes the work points of an exact surface: the cage's from the input, all others step by step.
 typedef struct sdv_exact_work {
     const subdiv_surface *surface;
     int          channels;
@@ -7621,7 +7626,7 @@ static void sdv_make_exact_work(sdv_exact_work *e, const subdiv_options *opt)
 // --------------------------------------------------------------------------------- >>nests
 // Nests: what is the same at many vertices, made once from a small mesh, and where they are.
 
-// The points of a nest whose first face is that of h, a face-vertex at its vertex.
+// Lists the points of a nest, from the face of h on, a face-vertex at the nest's vertex.
 static void sdv_nest_points(const sdv_level *level, int h, int faces, int ring, int loop, int *out)
 {
     *out++ = sdv_point_at(level, h);
@@ -7664,8 +7669,9 @@ static void sdv_nest_mesh(const sdv_nest_kind *kind, int loop, int *faces)
     }
 }
 
-// How large tangent weights are, in those of the regular vertex: the square sums of the edges'
-// part, wave times cos or sin, of which inner leaves the first and last out, and the faces'.
+// Measures the weights of a tangent, where those of a regular vertex have size 1: sums the squares
+// of the edges' weights, which are wave times a cosine or sine, and of the faces' weights. inner
+// leaves out the first and the last edge.
 static double sdv_tangent_size(const double *t, int edges, int faces, int inner, double wave)
 {
     double size = 0;
@@ -7674,8 +7680,8 @@ static double sdv_tangent_size(const double *t, int edges, int faces, int inner,
     return size;
 }
 
-// Weights of the limit and of tangents along the first edge and a quarter turn away, scaled so that
-// for a regular vertex they are the derivatives.
+// Makes the weights of the limit point and of two tangents, along the first edge and a quarter turn
+// away, scaled so that at a regular vertex they are the derivatives.
 static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nest_kind *kind,
                            sdv_arena *arena, sdv_arena *scratch)
 {
@@ -7709,8 +7715,7 @@ static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nes
     }
 }
 
-// A patch as seen by the face that it is turned in: control point k there is the nest's own number
-// sdv_turned_points[k], for every turn once more.
+// Turns a patch of a nest by one vertex: control point k becomes number sdv_turned_points[k].
 static const unsigned char sdv_turned_points[2][16] = {
     { 12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3 },
     { 9, 6, 3, 10, 8, 4, 11, 0, 5, 7, 2, 1, 0, 0, 0, 0 } };
@@ -7726,7 +7731,8 @@ static void sdv_turn_patch(const sdv_rules *rules, const sdv_patch *from, const 
     for (int i = 0; i < 3; i++) patch->fan[(i + 1) % 3] = from->fan[i];
 }
 
-// Adds to the patches of a nest what they are in all other turns.
+// Adds to the patches of a nest, which are as seen from its vertex, all that faces see which have
+// the vertex as their number 1, 2 or 3.
 static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rules *rules,
                            sdv_nest_kind *kind)
 {
@@ -7776,7 +7782,7 @@ static void sdv_exact_step(sdv_exact_maker *maker, sdv_level *level, sdv_split *
     if (!context->result) sdv_split_level(context, next_arena, level, split, next, rules);
 }
 
-// The faces around the vertex of a kind as level 0 of a cage, of which those at it are the core.
+// Makes a cage of the faces of a kind of nest and the faces around them. The nest's are the core.
 static void sdv_nest_cage(sdv_context *context, sdv_arena *arena, const sdv_nest_kind *kind,
                           int loop, sdv_cage *cage)
 {
@@ -8433,7 +8439,7 @@ typedef struct sdv_lookup {
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
 
-// Clamps them to their faces. Do all faces exist, and was no location moved?
+// Loads locations and clamps them to their faces. Do all faces exist, and was no location moved?
 SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
                                   const subdiv_location *locations, int count, sdv_lookup *l)
 {
@@ -8461,9 +8467,9 @@ SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
     return !odd;
 }
 
-// Finds which squares of the finest grid the locations are in, or triangles above their diagonals;
-// and where that is in the first grid, by the upper two bits of x and y, and in the second one, by
-// the lower two: square 4 y + x of 16 or, if it is a triangle above the diagonal, 15 less that.
+// Finds which square of the second grid each location is in, or which triangle above its diagonal.
+// The upper two bits of x and y say which cell of the first grid that is in, and the lower two bits
+// which cell of the second: 4 y + x or, in a triangle above the diagonal, 15 less that.
 SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
 {
     const int side = 1 << SDV_CELL_LEVELS;
@@ -8482,7 +8488,7 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
     }
 }
 
-// Puts those in the place of the faces. Are all corners there?
+// Replaces faces by their first cells. Are all corners there?
 SDV_INLINE int sdv_find_roots(const subdiv_surface *surface, int loop, int count, sdv_lookup *l)
 {
     unsigned odd = 0;
@@ -8508,7 +8514,7 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_loo
     }
 }
 
-// The scales 2^across and 2^up, put together as the bits of floats.
+// Finds the scales 2^across and 2^up, by putting the bits of floats together.
 SDV_INLINE void sdv_find_scales(sdv_lookup *l, int count, int loop)
 {
     for (int k = 0; k < count; k++) {
@@ -8534,7 +8540,8 @@ SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
     }
 }
 
-// Returns 0 if one of them is not there.
+// Looks up the cells of locations and where they are on those. Returns 0 if a location does not
+// exist.
 SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
                            const subdiv_location *locations, int count, sdv_lookup *l)
 {
@@ -8726,14 +8733,16 @@ typedef struct sdv_polynomial {
     int degree;
 } sdv_polynomial;
 
-// A row of it, a polynomial in x alone, and its derivatives in x and y; or, turned, a column.
+// A row of a surface, a polynomial in x alone, and its derivatives in x and y; or, turned, a
+// column.
 typedef struct sdv_curve {
     sdv_four a[5], along[4], across[4];
     int degree;
 } sdv_curve;
 
-// degree, turned and tangents are constants: what is not asked for, the compiler leaves out. The
-// coefficient of x^i y^j is c[5 i + j].
+// Makes the row at y = at or, turned, the column at x = at. degree, turned and tangents are
+// constants: what is not asked for, the compiler leaves out. The coefficient of x^i y^j is c[5 i +
+// j].
 SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
                               float at, sdv_curve *curve)
 {
@@ -8862,7 +8871,7 @@ static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
     c[1][3] = sdv_twice(c[0][4]);
 }
 
-// Linear: 0 at vertex 0.
+// Makes the polynomial of a linear triangle, which is 0 at vertex 0.
 static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
 {
     q->degree = 4;
@@ -8896,8 +8905,8 @@ static int sdv_double_parts(const sdv_double_patch *from)
     return from->along ? from->along->count * from->up->count : 1;
 }
 
-// Four lines of control points, step from point to point and next from line to line, become sums
-// of themselves.
+// Replaces the points of four lines by sums of the points of their line: step from point to point,
+// next from line to line.
 static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)[4])
 {
     for (int line = 0; line < 4; line++, p += next) {
@@ -8951,7 +8960,8 @@ static void sdv_cut_polynomial(const sdv_double_patch *from, int part, double (*
     q->degree = 3;
 }
 
-// The polynomial of part number i, around its origin: a control point, or where the part starts.
+// Makes the polynomial of part number i around an origin: a control point, or where the part
+// starts.
 static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynomial *q,
                                 double *origin)
 {
@@ -9017,13 +9027,13 @@ static void sdv_nest_resume(sdv_nest_state *s, const subdiv_surface *surface, in
     memcpy(w, kept + 4, 4 * sizeof(double) * (size_t)s->kind->points);
 }
 
-// Makes the points of the next level.
+// Makes the points of a nest's next level.
 static void sdv_nest_refine(sdv_nest_state *s)
 {
     for (int i = 0; i < 2; i++) sdv_make_exact_rows(&s->kind->refine[i], s->w, 0, 1);
 }
 
-// Takes those that continue the nest for its points.
+// Goes on to the next level of a nest, whose points have been made.
 static void sdv_nest_descend(sdv_nest_state *s)
 {
     const sdv_nest_kind *kind = s->kind;
@@ -9045,9 +9055,9 @@ static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int 
     return &kind->patches.items[i];
 }
 
-// The scratch memory of an evaluation: work points in doubles, since points of a fine level differ
-// in their last digits alone; a nest's; what each nest has behind its last polynomials: the base,
-// and its points as seen from there; then the coefficients of each polynomial.
+// The scratch memory of an evaluation. Work points are doubles, as points of a fine level differ in
+// their last digits alone. kept has the base of each nest after its last polynomials, and its
+// points as seen from the base.
 typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
     double *nest;                       // [4 * most_work]
@@ -9119,7 +9129,8 @@ typedef struct sdv_exact_evaluation {
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// The coefficients of so many channels of q [lanes * SDV_SLOTS], shrunk, around origin.
+// Keeps the coefficients of so many channels of a polynomial [lanes * SDV_SLOTS], shrunk and moved
+// to origin.
 static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
                                 int lanes, float *out)
 {
@@ -9188,8 +9199,8 @@ static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, i
     sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
 }
 
-// Makes the polynomials of a nest: of the children of its faces that are none of its own.
-// w [4 * work_count].
+// Makes the polynomials of a nest: on each of SDV_NEST_DEPTH levels those of the three children of
+// every face that are patches. w [4 * work_count].
 static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, double *w)
 {
     const sdv_exact *exact = e->surface->exact;
@@ -9279,9 +9290,8 @@ typedef struct sdv_where {
     float x, y, sx, sy;
 } sdv_where;
 
-// From rows, the coefficients of powers of y with their derivatives in x, to values and derivatives
-// up to an order: p, du, dv, duu, duv, dvv, as everywhere here. Of order n they are the first
-// (n + 1)(n + 2) / 2; what is beyond need not be set.
+// Evaluates rows, which are the coefficients of powers of y with their derivatives in x: p, du, dv,
+// duu, duv, dvv, as everywhere here. Up to order n only the first (n + 1)(n + 2) / 2 need be set.
 SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *at, int order,
                                 sdv_four *out)
 {
@@ -9299,7 +9309,7 @@ SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *
     out[3] = sdv_times(sdv_times(sx, sx), sdv_plus(p[0], p[0]));
 }
 
-// From coefficients c [SDV_SLOTS] to rows, with the first and half the second derivatives in x.
+// Evaluates coefficients c [SDV_SLOTS] in x: rows have the first and half the second derivatives.
 SDV_INLINE void sdv_quad_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3])
 {
     sdv_horner(c, 1, 3, x, rows[0]);
@@ -9308,7 +9318,7 @@ SDV_INLINE void sdv_quad_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3]
     sdv_horner(c + 12, 1, 3, x, rows[3]);
 }
 
-// See sdv_powers.
+// Evaluates the coefficients of a triangle in x, see sdv_powers.
 SDV_INLINE void sdv_triangle_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3])
 {
     const sdv_four first[5] = { c[0], c[1], c[2], c[3], c[13] };
@@ -9319,7 +9329,7 @@ SDV_INLINE void sdv_triangle_rows(const sdv_four *c, sdv_four x, sdv_four (*rows
     rows[4][0] = c[12];
 }
 
-// Four coefficients in a row, of up to four channels.
+// Loads four coefficients of up to four channels.
 SDV_INLINE void sdv_load_four(const float *data, int lanes, sdv_four *c)
 {
     c[0] = sdv_load(data);
@@ -9328,7 +9338,7 @@ SDV_INLINE void sdv_load_four(const float *data, int lanes, sdv_four *c)
     c[3] = sdv_load(data + 3 * lanes);
 }
 
-// The values of up to four channels.
+// Evaluates up to four channels of a polynomial.
 SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, const sdv_where *at,
                                       int order, sdv_four *out)
 {
@@ -9342,8 +9352,8 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
     sdv_put_columns(rows, loop, at, order, out);
 }
 
-// How a part of a patch weighs its control points, in values and derivatives: unit vectors, four at
-// a time, show it. weights [16], of which Loop has 12.
+// Finds how a part of a patch weighs its control points, in values and derivatives, by evaluating
+// unit vectors, four at a time. weights [16], of which Loop has 12.
 static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
                               const sdv_where *at, double (*weights)[6])
 {
@@ -9403,7 +9413,7 @@ typedef struct sdv_nest_sample {
     double  tangents[2][4];             // for the normal
 } sdv_nest_sample;
 
-// The limit masks: of the vertex as seen from there, and its two tangents.
+// Applies the limit masks of a nest: of its vertex, as seen from there, and of two tangents.
 static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
 {
     const sdv_nest_kind *kind = s->kind;
@@ -9415,9 +9425,9 @@ static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
         }
 }
 
-// How the child of a nest's face that has (x, y), which is not in the next nest, weighs its control
-// points, which come back. (On a sharp edge, those beside it not at all: there the surface may grow
-// without bound as seen from the vertex, while along the edge it does not.)
+// Finds how the child of a nest's face at (x, y), which is not in the next nest, weighs its control
+// points, and returns these. On a sharp edge the points beside it weigh nothing at all: there the
+// surface may grow without bound as seen from the vertex, while along the edge it does not.
 static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
                                     int face, double x, double y, double (*weights)[6])
 {
@@ -9430,7 +9440,7 @@ static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nes
     return points;
 }
 
-// A sample of that child, at (x, y).
+// Evaluates the child of a nest's face at (x, y), which is not in the next nest.
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
     const sdv_nest_state *state = &s->state;
@@ -9457,8 +9467,8 @@ static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
     }
 }
 
-// At the vertex itself: by the limit masks, if there are any. Else far down, along both edges and,
-// for the normal, between them. Second derivatives are 0.
+// Evaluates the vertex of a nest by its limit masks. Where there are none, goes far down, along
+// both edges and, for the normal, between them. Second derivatives are 0.
 static void sdv_nest_vertex(sdv_nest_sample *s)
 {
     const sdv_nest_kind *kind = s->state.kind;
@@ -9506,7 +9516,7 @@ static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// A place on a face of a nest as seen from the vertex.
+// Finds a place on a face of a nest as seen from the vertex.
 static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
 {
     sdv_turn_place(loop, turn, u, v, x, y);
@@ -9514,7 +9524,7 @@ static void sdv_nest_place(int loop, int turn, double u, double v, double *x, do
     if (*y < 0) *y = 0;
 }
 
-// How many levels down it is, in the nest of each.
+// Returns on how many levels down (x, y), as seen from the vertex, still is in the nest.
 static int sdv_nest_levels(int loop, double x, double y)
 {
     int down;
@@ -9522,7 +9532,7 @@ static int sdv_nest_levels(int loop, double x, double y)
     return down > 0 ? 0 : -down;
 }
 
-// From the nest, or from where the polynomials of its levels end.
+// Evaluates a sample from the nest's points, or from those after the last polynomials.
 static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e, int nest, int c,
                               double *w)
 {
@@ -9541,7 +9551,7 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
     if (e->normals && c == 0) sdv_nest_normal(s, nest, work);
 }
 
-// Derivatives in u and v from those in x and y, with the scale of the face.
+// Turns derivatives in x and y into those in u and v, with the scale of the face.
 static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
 {
     double ss = scale * scale;
@@ -9593,7 +9603,7 @@ static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, 
     return w != NULL;
 }
 
-// Faces without a surface have zeros.
+// Writes the zeros of a face without a surface.
 static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
 {
     for (int k = 0; k < 6; k++)
@@ -10384,11 +10394,11 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
-// makes gives its own to those of the row, which takes as long as to evaluate once. They are those
-// of a point and its derivatives as seen from the vertex: w [3 * work_count], of the nest's points,
-// then of those of the next level.
+// makes gives its weights to the points of the row, which takes as long as one evaluation. Weights
+// w [3 * work_count] are those of a point and its derivatives as seen from the vertex: of the
+// nest's points, then of the points of the next level.
 
-// sdv_nest_refine backwards, from the next level's points.
+// Gives the weights of a row's point to the points that the row sums.
 static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights,
                              double *w)
 {
@@ -10421,8 +10431,9 @@ static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// sdv_nest_descend backwards. The point is base + shrink w: shrink is halved when w is doubled, and
-// as base follows the vertex, that has what the others leave of 1. The derivatives are w's.
+// Goes back from a nest to the level before: sdv_nest_descend backwards. The point is base + shrink
+// w: shrink is halved when w is doubled, and as base follows the vertex, the vertex has what the
+// others leave of 1. Derivatives are those of w.
 static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
 {
     double *vertex = w + 3 * kind->below[0];
@@ -10436,7 +10447,7 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// What the patch at (x, y) weighs its control points with, in one part up to another.
+// Adds the weights of the patch at (x, y), in one part up to another.
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                             double x, double y, int part, int end, double *w)
 {
@@ -10446,7 +10457,7 @@ static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *
         for (int k = part; k < end; k++) w[3 * points[i] + k] += weights[i][k];
 }
 
-// See sdv_nest_vertex.
+// Sets the weights of the vertex of a nest, as sdv_nest_vertex does.
 static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 {
     const double *limit = kind->limit, *t0 = limit + kind->points, *t1 = t0 + kind->points;
