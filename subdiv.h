@@ -9015,18 +9015,6 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
             w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
 }
 
-// Loads the state that sdv_nest_polynomials ended with.
-static void sdv_nest_resume(sdv_nest_state *s, const subdiv_surface *surface, int number,
-                            const double *kept, double *w)
-{
-    s->surface = surface;
-    s->kind = &surface->exact->kinds[surface->exact->nests[number].kind];
-    s->w = w;
-    s->shrink = ldexp(1, -SDV_NEST_DEPTH);
-    memcpy(s->base, kept, sizeof s->base);
-    memcpy(w, kept + 4, 4 * sizeof(double) * (size_t)s->kind->points);
-}
-
 // Makes the points of a nest's next level.
 static void sdv_nest_refine(sdv_nest_state *s)
 {
@@ -9497,20 +9485,15 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
 }
 
-// Are tangents parallel, but for rounding?
-static int sdv_parallel(const double *a, const double *b)
-{
-    double n[3];
-    sdv_cross(a, b, n);
-    return sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
-}
-
 // Near a vertex with one face on a side of its crease tangents are parallel. There the normal is
 // that of the vertex, whose second tangent is how the crease bends.
 static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
 {
-    double limit[3][4];
-    if (!s->state.kind->limit || !sdv_parallel(s->tangents[0], s->tangents[1])) return;
+    const double *a = s->tangents[0], *b = s->tangents[1];
+    double limit[3][4], n[3];
+    sdv_cross(a, b, n);
+    int parallel = sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
+    if (!s->state.kind->limit || !parallel) return;
     sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
     sdv_nest_masks(&s->state, limit);
     memcpy(s->tangents, limit[1], sizeof s->tangents);
@@ -9540,8 +9523,13 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
     int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
     int kept = !vertex && down >= SDV_NEST_DEPTH;
     const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
-    if (kept) sdv_nest_resume(&s->state, surface, nest, sdv_kept_nest(e, nest, c), w);
-    else sdv_nest_load(&s->state, surface, nest, work, w);
+    sdv_nest_load(&s->state, surface, nest, work, w);
+    if (kept) {                         // what sdv_nest_polynomials ended with
+        const double *base = sdv_kept_nest(e, nest, c);
+        s->state.shrink = ldexp(1, -SDV_NEST_DEPTH);
+        memcpy(s->state.base, base, sizeof s->state.base);
+        memcpy(w, base + 4, 4 * sizeof(double) * (size_t)s->state.kind->points);
+    }
     if (vertex) {
         sdv_nest_vertex(s);
     } else {
