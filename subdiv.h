@@ -8042,12 +8042,18 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 // turned by half, and the scale changes its sign.
 SDV_INLINE int sdv_descend(int loop, double *x, double *y, double *scale)
 {
-    int right = *x >= 0.5, up = *y >= 0.5, middle = loop && !right && !up && *x + *y >= 0.5;
-    int child = middle ? 3 : loop && right ? 1 : loop && up ? 2 : right ^ (up * 3);
-    if (loop && right) up = 0;
-    *x = middle ? 1 - 2 * *x : 2 * *x - right;
-    *y = middle ? 1 - 2 * *y : 2 * *y - up;
-    *scale *= middle ? -2 : 2;
+    int right = *x >= 0.5, up = *y >= 0.5, child = right ^ (up * 3);
+    if (loop && !right && !up && *x + *y >= 0.5) {
+        *x = 1 - 2 * *x;
+        *y = 1 - 2 * *y;
+        *scale *= -2;
+        return 3;
+    }
+    if (loop) child = right ? 1 : 2 * up;
+    if (loop) up = child == 2;
+    *x = 2 * *x - right;
+    *y = 2 * *y - up;
+    *scale *= 2;
     return child;
 }
 
