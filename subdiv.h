@@ -6917,17 +6917,18 @@ typedef struct sdv_split {
     int vertex_points, face_points, edge_points, faces;
 } sdv_split;
 
-// Is h the face-vertex that stands for its edge where each edge is meant once? The last of its
-// ring does.
+// Is h the face-vertex that stands for its edge where each edge is meant once? It is the last one
+// of its ring.
 static int sdv_is_edge(const sdv_level *level, int h)
 {
     return level->across[h] <= h;
 }
 
-static sdv_place sdv_first_place(int h)
+// The place of face f, on the grid of face-vertex h if the level is the cage.
+static sdv_place sdv_place_of(const sdv_level *level, int f, int h)
 {
-    sdv_place place = { h, 0, 0, 1 };
-    return place;
+    sdv_place first = { h, 0, 0, 1 };
+    return level->places ? level->places[f] : first;
 }
 
 // Makes room for what the next level has of a level.
@@ -6954,19 +6955,6 @@ static void sdv_find_active(const sdv_level *level, sdv_split *split)
     }
     for (int v = 0; v < level->vertex_count && level->partner; v++)
         if (split->active[v] && level->partner[v] >= 0) split->active[level->partner[v]] = 1;
-}
-
-// Numbers the face points, of the faces that have an active vertex, from first on.
-static void sdv_number_face_points(const sdv_level *level, sdv_split *split, int first)
-{
-    int next = first;
-    for (int f = 0; f < level->face_count; f++) {
-        int active = 0, end = sdv_face_end(level, f);
-        for (int h = sdv_face_start(level, f); h < end; h++)
-            active |= split->active[level->face_vertices[h]];
-        split->face[f] = active ? next++ : -1;
-    }
-    split->face_points = next - first;
 }
 
 // Numbers the children: each face-vertex has one where its vertex is active, and knows the
@@ -6996,8 +6984,13 @@ static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop
     int next = 0;
     for (int v = 0; v < level->vertex_count; v++) split->vertex[v] = split->active[v] ? next++ : -1;
     split->vertex_points = next;
-    if (!loop) sdv_number_face_points(level, split, next);
-    next += split->face_points;
+    for (int f = 0; f < level->face_count && !loop; f++) {
+        int active = 0, end = sdv_face_end(level, f);
+        for (int h = sdv_face_start(level, f); h < end; h++)
+            active |= split->active[level->face_vertices[h]];
+        split->face[f] = active ? next++ : -1;
+    }
+    split->face_points = next - split->vertex_points;
     for (int h = 0; h < level->face_vertex_count; h++) {
         if (!sdv_is_edge(level, h)) continue;
         int active = split->active[level->face_vertices[h]] |
@@ -7009,29 +7002,28 @@ static void sdv_number_points(const sdv_level *level, sdv_split *split, int loop
     split->edge_points = next - split->vertex_points - split->face_points;
 }
 
+// Sets what a point of the next level has, if the point is there.
+static void sdv_split_point(sdv_level *next, int point, float sharpness, int faces)
+{
+    if (point < 0) return;
+    next->vertex_sharpness[point] = sharpness;
+    next->vertex_faces[point] = faces;
+}
+
 // Gives vertex, edge and face points what they inherit; each child has 2 (Loop: 3) faces at an edge
 // point.
 static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv_level *next,
                              const sdv_rules *rules)
 {
-    for (int v = 0; v < level->vertex_count; v++) {
-        int point = split->vertex[v];
-        if (point < 0) continue;
-        next->vertex_sharpness[point] = sdv_fade(level->vertex_sharpness[v]);
-        next->vertex_faces[point] = level->vertex_faces[v];
-    }
-    for (int f = 0; f < level->face_count && !rules->loop; f++) {
-        int point = split->face[f];
-        if (point < 0) continue;
-        next->vertex_sharpness[point] = 0;
-        next->vertex_faces[point] = sdv_face_end(level, f) - sdv_face_start(level, f);
-    }
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        int point = split->edge[h];
-        if (point < 0 || !sdv_is_edge(level, h)) continue;
-        next->vertex_sharpness[point] = 0;
-        next->vertex_faces[point] = (rules->loop ? 3 : 2) * sdv_edge_faces(level, h);
-    }
+    for (int v = 0; v < level->vertex_count; v++)
+        sdv_split_point(next, split->vertex[v], sdv_fade(level->vertex_sharpness[v]),
+                        level->vertex_faces[v]);
+    for (int f = 0; f < level->face_count && !rules->loop; f++)
+        sdv_split_point(next, split->face[f], 0, sdv_face_end(level, f) - sdv_face_start(level, f));
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (sdv_is_edge(level, h))
+            sdv_split_point(next, split->edge[h], 0,
+                            (rules->loop ? 3 : 2) * sdv_edge_faces(level, h));
 }
 
 // What only surfaces of values have: partners and origins, of vertex points alone.
@@ -7058,7 +7050,7 @@ static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv
     }
 }
 
-// The face-vertex of a quad or triangle that stands i places behind h.
+// Returns the face-vertex of a quad or triangle that is i places after h.
 static inline int sdv_turn(int size, int h, int i)
 {
     if (size == 4) return (h & ~3) | ((h + i) & 3);
@@ -7066,8 +7058,8 @@ static inline int sdv_turn(int size, int h, int i)
     return h - at + (to < 3 ? to : to - 3);
 }
 
-// The child at h. Its face-vertex 0 places behind vertex h leads along the edge of h, the last one
-// back along the edge before; they are where the next level meets the neighbours.
+// Makes the child at face-vertex h. Its first edge, from the vertex on, is along the edge of h, and
+// its last edge is along the edge before h: across these two are children of the neighbours.
 //
 //     Catmull-Clark           Loop        2          child at vertex 0:
 //     3-----2                            /2\                vertex
@@ -7100,20 +7092,21 @@ static void sdv_split_vertex(const sdv_level *level, const sdv_split *split, sdv
     if (behind > 0) next->creased[split->vertex[v]] = next->creased[split->edge[before]] = 1;
 }
 
-// An edge inside a face, between siblings: smooth and new. other < 0: there is only one.
+// Makes an edge between two children of a face, which is smooth. other < 0: there is only one
+// child.
 static void sdv_split_inside(sdv_level *next, int at, int other)
 {
     next->across[at] = other < 0 ? at : other;
     next->sharpness[at] = 0;
 }
 
-// Where the child of face f is that has its vertex i; in Loop the middle one is number 3, which is
-// turned. grid: the face-vertex of a face of the cage that has the child's grid.
+// Sets the place of the child of face f at vertex i, or in Loop of the middle child, number 3,
+// which is turned. grid: the face-vertex whose grid the child is on if f is a face of the cage.
 static void sdv_place_child(const sdv_level *level, int f, int grid, int i, sdv_level *next,
                             int child)
 {
     int loop = next->face_size == 3, right = loop ? i & 1 : i == 1 || i == 2, up = i >= 2;
-    sdv_place place = level->places ? level->places[f] : sdv_first_place(grid);
+    sdv_place place = sdv_place_of(level, f, grid);
     place.row = 2 * place.row + place.step * up;
     place.column = 2 * place.column + place.step * right;
     if (loop && i == 3) place.step = -place.step;
@@ -7132,6 +7125,7 @@ static void sdv_split_middle(const sdv_split *split, sdv_level *next, int f)
     }
 }
 
+// Makes the children of face f.
 static void sdv_split_face(const sdv_level *level, const sdv_split *split, sdv_level *next,
                            int size, int f)
 {
@@ -7249,7 +7243,7 @@ typedef struct sdv_strips {
     sdv_strip items[5];
 } sdv_strips;
 
-// Point t of the control points of the level with segments of length h, as a sum of p0 to p3: the
+// Weighs p0 to p3 for the control point at t of the level with segments of length h, by the
 // polynomial of sdv_cubic.
 static void sdv_cubic_weights(double t, double h, double *w)
 {
@@ -7260,7 +7254,7 @@ static void sdv_cubic_weights(double t, double h, double *w)
     w[3] = c;
 }
 
-// Row i of level c while the edges are sharp, counted from the low one, as a sum of p0 to p3.
+// Weighs p0 to p3 for row i of level c, counted from the low edge, while the edges are sharp.
 static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
 {
     double h = ldexp(1, -c), *w = row;
@@ -7277,7 +7271,7 @@ static void sdv_sharp_row(const sdv_strips *strips, int c, int i, double *row)
     }
 }
 
-// The row outside of row p[edge], seen from inside.
+// Weighs p0 to p3 for the row of level c that is outside of row p[edge], as seen from inside.
 static void sdv_outside_row(int c, int edge, double *row)
 {
     double h = ldexp(1, -c);
@@ -7286,7 +7280,7 @@ static void sdv_outside_row(int c, int edge, double *row)
     row[edge == 1 ? 0 : 3] = h;
 }
 
-// Row i of level c, on which the edges are smooth.
+// Weighs p0 to p3 for row i of level c, on which the edges are smooth.
 static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
 {
     int last = 1 << c, low = i <= 0, edge = low ? 1 : 2;
@@ -7302,8 +7296,8 @@ static void sdv_strip_row(const sdv_strips *strips, int c, int i, double *row)
         row[k] += (1 - fraction) / 8 * (inside[k] - 2 * (k == edge) + outside[k]);
 }
 
-// The strip from segment first to last of level c. A smooth one is its own segment, another a part
-// of the patch's.
+// Adds the strip from segment first to last of level c. A smooth strip is one segment of its own;
+// any other strip is a part of the patch's segment.
 static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int smooth)
 {
     sdv_strip *strip = &strips->items[strips->count++];
@@ -7348,7 +7342,8 @@ static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int s
     return 1;
 }
 
-// Without anything sharp: free, with the regular valence in faces of the regular size, or rough.
+// Returns the kind of a vertex where nothing is sharp: free, if it has the regular valence and its
+// faces the regular size, or rough.
 static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
 {
     int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
@@ -7380,8 +7375,9 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
     return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
 }
 
-// Edged: on a crease that stays sharp. Pinned: a corner that stays one. Lined: on semi-sharp
-// creases that go straight on, or end where a crease that stays runs across. All else is rough.
+// Returns the kind of a vertex where something is sharp. Edged: it is on a crease that stays sharp.
+// Pinned: it is a corner that stays one. Lined: it is on semi-sharp creases that go straight on, or
+// end where a crease that stays sharp runs across. Anything else is rough.
 static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int dependent)
 {
     int sharp = 0, stay = 0;
@@ -7530,7 +7526,8 @@ static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
     else sdv_gather_quad(level, h, patch->sharp, points);
 }
 
-// The number of the strips between two edges; 0 if they differ, or there are too many already.
+// Returns the number of the strips between two edges of these sharpnesses; 0 if both are semi-sharp
+// and differ, or if there are too many strips already.
 static int sdv_find_strips(sdv_writer *writer, float low, float high)
 {
     sdv_strips *strips = (sdv_strips *)sdv_items(&writer->strips);
@@ -7572,29 +7569,22 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
     return patch->up && patch->along;
 }
 
-// Where face f stands on its grid.
-static void sdv_set_place(const sdv_level *level, int f, sdv_patch *patch)
-{
-    sdv_place place = level->places ? level->places[f] : sdv_first_place(sdv_face_start(level, f));
-    patch->h = place.h;
-    patch->row = place.row;
-    patch->column = place.column;
-    patch->step = (signed char)place.step;
-}
-
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
                           const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
+    sdv_place place = sdv_place_of(level, f, h);
     memset(patch, 0, sizeof *patch);
     memset(patch->fan, SDV_FAN_RING, sizeof patch->fan);
-    if (!is_free && !sdv_find_fans(writer, level, rules, kinds, h, size, patch)) return 0;
-    sdv_set_place(level, f, patch);
-    return 1;
+    patch->h = place.h;
+    patch->row = place.row;
+    patch->column = place.column;
+    patch->step = (signed char)place.step;
+    return is_free || sdv_find_fans(writer, level, rules, kinds, h, size, patch);
 }
 
-// The kinds of a face's vertices; rough if its size is not the regular one.
+// Returns the kinds of a face's vertices, or rough if the face does not have the regular size.
 static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
                                  int size)
 {
@@ -7605,8 +7595,8 @@ static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *ki
     return size == 4 ? found | kinds[v[3]] : found;
 }
 
-// Finds the patches of a level and marks the faces of the core that have none as rough. At most
-// there are as many as faces that are not rough by their vertices.
+// Finds the patches of a level, and marks faces of the core without a patch as rough. There are at
+// most as many patches as faces whose vertices are not rough.
 static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
                              const sdv_rules *rules, sdv_patches *patches)
 {
@@ -7677,9 +7667,8 @@ typedef struct sdv_nest_kind {
     int      work_count;                // the points, and those of the next level
     sdv_batches refine[2];              // the rows: to face points, to the others
     int     *below;                     // [points] the same points of the next level's nest
-    int     *children;                  // [4 * faces] their patches; -1: in the nest
-    int      turns, width;              // patches: of each turn of the face; control points of each
-    sdv_patches patches;
+    int      width;                     // control points of a patch
+    sdv_patches patches;                // for each turn of the faces: three of each face
     double  *limit;                     // [3 * points] weights of the limit and of two tangents,
                                         // of a smooth ring and a crease; NULL: none
 } sdv_nest_kind;
@@ -7700,7 +7689,6 @@ typedef struct sdv_exact {
     sdv_strips *strips;                 // of semi-sharp patches, counted from 1
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
-    unsigned char *absent;              // [face_count] without surface; NULL: none
     unsigned *cells;                    // see >>cells
     sdv_nest_kind *kinds;
     sdv_nest *nests;
@@ -7710,15 +7698,15 @@ typedef struct sdv_exact {
     int most_work;                      // of the kinds' work_counts
 } sdv_exact;
 
-// While it is made.
+// Makes an exact surface; arrays grow.
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
     sdv_array kinds, nests, nest_points, nest_faces;
 } sdv_exact_maker;
 
-// The rows from a level to the next: face points first, as the others are made from them. They
-// stand behind the vertex points of the next level, and edge points behind them.
+// Writes the rows from a level to the next: face points first, as the others are made from them.
+// Among the points of the next level, vertex points come first, then face points, then edge points.
 static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_split *split,
                            sdv_writer *writer, sdv_batches *refine)
 {
@@ -7737,7 +7725,7 @@ static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_s
     sdv_end_batches(writer, &refine[1]);
 }
 
-// A row, in doubles: those points of fine levels differ in their last digits alone.
+// Makes the point of a row, in doubles: points of fine levels differ in their last digits alone.
 SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const float *weights,
                               double *work)
 {
@@ -7752,7 +7740,7 @@ SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const floa
     for (int c = 0; c < 4; c++) out[c] = p0[c] + sum[c];
 }
 
-// Job number job's share of the rows.
+// Makes job number job's share of the points of batches.
 static void sdv_make_exact_rows(const sdv_batches *batches, double *work, int job, int jobs)
 {
     for (int b = 0; b < batches->starts[batches->blocks]; b++) {
@@ -7768,7 +7756,7 @@ static void sdv_make_exact_rows(const sdv_batches *batches, double *work, int jo
     }
 }
 
-// The work points of an exact surface: those of the cage from the input, the others step by step.
+// Makes the work points of an exact surface: the cage's from the input, all others step by step.
 typedef struct sdv_exact_work {
     const subdiv_surface *surface;
     int          channels;
@@ -7811,7 +7799,7 @@ static void sdv_make_exact_work(sdv_exact_work *e, const subdiv_options *opt)
 // --------------------------------------------------------------------------------- >>nests
 // Nests: what is the same at many vertices, made once from a small mesh, and where they are.
 
-// The points of a nest whose first face is that of h, a face-vertex at its vertex.
+// Lists the points of a nest, from the face of h on, a face-vertex at the nest's vertex.
 static void sdv_nest_points(const sdv_level *level, int h, int faces, int ring, int loop, int *out)
 {
     *out++ = sdv_point_at(level, h);
@@ -7854,8 +7842,9 @@ static void sdv_nest_mesh(const sdv_nest_kind *kind, int loop, int *faces)
     }
 }
 
-// How large tangent weights are, in those of the regular vertex: the square sums of the edges'
-// part, wave times cos or sin, of which inner leaves the first and last out, and the faces'.
+// Measures the weights of a tangent, where those of a regular vertex have size 1: sums the squares
+// of the edges' weights, which are wave times a cosine or sine, and of the faces' weights. inner
+// leaves out the first and the last edge.
 static double sdv_tangent_size(const double *t, int edges, int faces, int inner, double wave)
 {
     double size = 0;
@@ -7864,8 +7853,8 @@ static double sdv_tangent_size(const double *t, int edges, int faces, int inner,
     return size;
 }
 
-// Weights of the limit and of tangents along the first edge and a quarter turn away, scaled so that
-// for a regular vertex they are the derivatives.
+// Makes the weights of the limit point and of two tangents, along the first edge and a quarter turn
+// away, scaled so that at a regular vertex they are the derivatives.
 static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nest_kind *kind,
                            sdv_arena *arena, sdv_arena *scratch)
 {
@@ -7898,23 +7887,7 @@ static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nes
     }
 }
 
-// Which patches the children of a nest's faces are.
-static void sdv_nest_children(sdv_exact_maker *maker, sdv_nest_kind *kind, const sdv_split *split,
-                              const sdv_level *next, sdv_arena *scratch)
-{
-    sdv_context *context = maker->writer->context;
-    int loop = maker->surface->rules.loop, count = 0;
-    int *patch = SDV_NEW(context, scratch, int, next->face_count);
-    kind->children = SDV_NEW(context, &maker->surface->arena, int, 4 * (size_t)kind->faces);
-    if (context->result) return;
-    for (int f = 0; f < next->face_count; f++)
-        patch[f] = next->core[f] && !next->rough[f] ? count++ : -1;
-    for (int i = 0; i < 4 * kind->faces; i++)          // every fourth face is one of the nest
-        kind->children[i] = patch[split->child[i / 4 * 16 + i % 4] / (loop ? 3 : 4)];
-}
-
-// A patch as seen by the face that it is turned in: control point k there is the nest's own number
-// sdv_turned_points[k], for every turn once more.
+// Turns a patch of a nest by one vertex: control point k becomes number sdv_turned_points[k].
 static const unsigned char sdv_turned_points[2][16] = {
     { 12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3 },
     { 9, 6, 3, 10, 8, 4, 11, 0, 5, 7, 2, 1, 0, 0, 0, 0 } };
@@ -7930,15 +7903,15 @@ static void sdv_turn_patch(const sdv_rules *rules, const sdv_patch *from, const 
     for (int i = 0; i < 3; i++) patch->fan[(i + 1) % 3] = from->fan[i];
 }
 
-// Behind the patches of a nest the same in all other turns.
+// Adds to the patches of a nest, which are as seen from its vertex, all that faces see which have
+// the vertex as their number 1, 2 or 3.
 static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rules *rules,
                            sdv_nest_kind *kind)
 {
     sdv_patches made = kind->patches;
     size_t width = (size_t)sdv_control_points(rules), count = (size_t)made.count;
     kind->width = (int)width;
-    kind->turns = rules->loop ? 3 : 4;
-    made.count *= kind->turns;
+    made.count *= rules->loop ? 3 : 4;
     made.items = SDV_NEW(context, arena, sdv_patch, made.count);
     made.points = SDV_NEW(context, arena, int, width * (size_t)made.count);
     if (context->result) return;
@@ -7981,7 +7954,7 @@ static void sdv_exact_step(sdv_exact_maker *maker, sdv_level *level, sdv_split *
     if (!context->result) sdv_split_level(context, next_arena, level, split, next, rules);
 }
 
-// The faces around the vertex of a kind as level 0 of a cage, of which those at it are the core.
+// Makes a cage of the faces of a kind of nest and the faces around them. The nest's are the core.
 static void sdv_nest_cage(sdv_context *context, sdv_arena *arena, const sdv_nest_kind *kind,
                           int loop, sdv_cage *cage)
 {
@@ -8025,7 +7998,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
     sdv_find_patches(maker->writer, scratch, &next, rules, &kind->patches);
     if (context->result) return;
     sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
-    sdv_nest_children(maker, kind, &split, &next, scratch);
+    SUBDIV_ASSERT(kind->patches.count == 3 * kind->faces);
     sdv_nest_turns(context, arena, rules, kind);
     if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
         sdv_nest_limit(context, rules, kind, arena, scratch);
@@ -8115,7 +8088,7 @@ static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, in
         face->nest = number;
         face->turn = h - start;
         face->level = depth;
-        face->place = level->places ? level->places[f] : sdv_first_place(start);
+        face->place = sdv_place_of(level, f, start);
         level->rough[f] = 0;
         if (i + 1 < faces) h = sdv_counter_clockwise(level, h);
     }
@@ -8190,8 +8163,8 @@ static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *leve
     exact->patch_count += patches->count;
 }
 
-// A level: its patches and nests become leaves; then the rows to the next level, if any face is
-// left.
+// Turns the patches and nests of a level into leaves, and makes the next level of the faces that
+// are left, if there are any.
 static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level, sdv_level *next,
                             sdv_arena *next_arena)
 {
@@ -8211,19 +8184,7 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_arena_free(&scratch);
 }
 
-// Faces without a surface: dropped by boundary "none", or without values.
-static void sdv_find_absent(sdv_context *context, subdiv_surface *surface,
-                            const unsigned char *hole)
-{
-    int any = 0, faces = surface->face_count;
-    unsigned char *absent = SDV_NEW(context, &surface->arena, unsigned char, faces);
-    for (int f = 0; f < faces && absent; f++) {
-        absent[f] = hole[f] == SDV_DROPPED || (surface->own_face && surface->own_face[f] < 0);
-        any |= absent[f];
-    }
-    if (any) surface->exact->absent = absent;
-}
-
+// Keeps what has been made, at its size.
 static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 {
     subdiv_surface *surface = maker->surface;
@@ -8239,8 +8200,8 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
     exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
                                                         sizeof(sdv_nest_face));
-    surface->exact->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
-                                                   sizeof(sdv_strips));
+    exact->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
+                                                 sizeof(sdv_strips));
     for (int i = 0; i < exact->kind_count && !context->result; i++)
         if (exact->kinds[i].work_count > exact->most_work)
             exact->most_work = exact->kinds[i].work_count;
@@ -8249,15 +8210,22 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
 // -------------------------------------------------------------------------------- >>locations
 // Where a location is on a leaf, and which polynomial of the leaf is there.
 
-// Which child of a face, and where on it; a middle triangle is turned by half: scale changes sign.
+// Goes down to the child of a face that has (x, y), and returns its number. A middle triangle is
+// turned by half, and the scale changes its sign.
 SDV_INLINE int sdv_descend(int loop, double *x, double *y, double *scale)
 {
-    int right = *x >= 0.5, up = *y >= 0.5, middle = loop && !right && !up && *x + *y >= 0.5;
-    int child = middle ? 3 : loop && right ? 1 : loop && up ? 2 : right ^ (up * 3);
-    if (loop && right) up = 0;
-    *x = middle ? 1 - 2 * *x : 2 * *x - right;
-    *y = middle ? 1 - 2 * *y : 2 * *y - up;
-    *scale *= middle ? -2 : 2;
+    int right = *x >= 0.5, up = *y >= 0.5, child = right ^ (up * 3);
+    if (loop && !right && !up && *x + *y >= 0.5) {
+        *x = 1 - 2 * *x;
+        *y = 1 - 2 * *y;
+        *scale *= -2;
+        return 3;
+    }
+    if (loop) child = right ? 1 : 2 * up;
+    if (loop) up = child == 2;
+    *x = 2 * *x - right;
+    *y = 2 * *y - up;
+    *scale *= 2;
     return child;
 }
 
@@ -8277,7 +8245,7 @@ static void sdv_turn_place(int loop, int turn, double u, double v, double *x, do
 
 // The number of the first polynomial of a child of a nest's face.
 SDV_INLINE size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, int depth,
-                                                int child)
+                                             int child)
 {
     return (size_t)exact->polynomial_count +
            3 * ((size_t)depth * (size_t)exact->nest_face_count + (size_t)face) + (size_t)child - 1;
@@ -8290,11 +8258,13 @@ SDV_INLINE float sdv_on_face(float u)
     return u < 1 ? u : 1;
 }
 
-// Where a patch is, of those of all levels, one level's behind the other's.
+// Where a patch is: number i of its level. Patches of all levels are numbered one level after the
+// other.
 typedef struct sdv_patch_at {
     int level, i;
 } sdv_patch_at;
 
+// Goes on to the level that has the patch, if i is behind the patches of its level.
 static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
 {
     while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
@@ -8316,7 +8286,7 @@ static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at
     return &patches->items[at.i];
 }
 
-// Where a location is: on a leaf, and on a polynomial of that.
+// The leaf that a location is on, and the polynomial of the leaf.
 typedef struct sdv_leaf {
     const sdv_patch *patch;             // its leaf is a patch of these control points,
     const int       *points;
@@ -8326,7 +8296,7 @@ typedef struct sdv_leaf {
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
 
-// The strip that a coordinate is on; it then counts in the strip's own segment.
+// Finds the strip that a coordinate is on, and turns it into the coordinate on the strip's segment.
 SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale)
 {
     const double whole = 1 << SDV_STRIP_LEVELS;
@@ -8337,7 +8307,7 @@ SDV_INLINE int sdv_find_strip(const sdv_strips *strips, double *x, double *scale
     return i;
 }
 
-// Finds the part of a patch that is cut into strips.
+// Finds the part of a patch, cut into strips, that a location is on.
 static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
 {
     const sdv_strips *along = &surface->exact->strips[leaf->patch->along - 1];
@@ -8346,8 +8316,8 @@ static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
     leaf->polynomial += (size_t)(row * along->count + column);
 }
 
-// On a face of a nest: which level, which child, as seen from the vertex; the place on the child is
-// as seen by the face again.
+// Finds the child that a location on a face of a nest is on, on the level that has it, as seen from
+// the vertex. The place on the child is as seen from the face again.
 static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
 {
     int turn = exact->nest_faces[leaf->nest_face].turn, depth = 0;
@@ -8368,6 +8338,7 @@ static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
     leaf->polynomial = sdv_nest_polynomial_number(exact, leaf->nest_face, depth, child);
 }
 
+// Finds the polynomial of a leaf that a location is on.
 static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 {
     if (leaf->patch && leaf->patch->up) sdv_find_part(surface, leaf);
@@ -8375,16 +8346,16 @@ static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 }
 
 // ------------------------------------------------------------------------------------ >>cells
-// Where a location is, is found in few steps, as branches would be mispredicted. Each face, or quad
-// of an n-gon, is one cell or, if there is more than one polynomial on it, a grid of 16 cells, and
-// such a cell may be a grid again.
+// Cells find the polynomial of a location in two steps for almost all of them, as a walk down from
+// level to level has its branches mispredicted. Each face, or quad of an n-gon, is one cell or, if
+// it has more than one polynomial, a grid of 16 cells, each of which may be a grid again.
 //
 //     +--+--+--+--+     A cell is a number: 2 first + 1 of a grid whose cells are those from first
 //     |  |  |  |  |     on. Or it has the number of the polynomial that is all over it, and which
 //     +--+--+--+--+     part of the face that covers: one in 2^across columns and 2^up rows (they
-//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. Or, if
-//     +--+--+--+--+     it is smaller than the cells of the second grid or has more than one
-//     |  |  |  |  |     polynomial even so, it has the number of a leaf.
+//     |  |  |  |  |     differ where strips cross); in Loop whether it is a turned triangle. Or it
+//     +--+--+--+--+     has the number of a leaf: if it is smaller than the cells of the second
+//     |  |  |  |  |     grid, or is as small and has more than one polynomial.
 //     +--+--+--+--+
 //     |  |  |  |  |     Loop: the triangle below the diagonal of a square has the square's number,
 //     +--+--+--+--+     the one above that of the opposite square (15 less it), behind the long
@@ -8392,9 +8363,9 @@ static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 
 #define SDV_CELL_LEVELS 4               // of two grids
 #define SDV_CELL_BITS 8                 // of what is not the polynomial's number
-#define SDV_CELL_LEAF 0xe0000000u       // cells from here on have twice the number of a leaf more
-#define SDV_CELL_NONE 0xfffffffeu       // no surface
-#define SDV_CELL_FAR 1u                 // as the result of a look-up: see sdv_locate
+#define SDV_CELL_LEAF 0xe0000000u       // this plus 2 i: the cell has leaf number i
+#define SDV_CELL_NONE 0xfffffffeu       // the face has no surface
+#define SDV_CELL_FAR 1u                 // what a look-up of many locations has no polynomial for
 
 // Of more polynomials than a cell can number, the last ones are left to their leaves. (Tests ask
 // for fewer.)
@@ -8437,8 +8408,8 @@ static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h,
     return square;
 }
 
-// Number k of the four that a split makes of it, which are numbered as by its vertices; the one of
-// Loop's that is in the middle comes last.
+// Returns part number k of the four that a split makes of a square. They are numbered as its
+// vertices are; the triangle in the middle comes last.
 static sdv_square sdv_split_square(sdv_square square, int loop, int k)
 {
     int middle = loop && k == 3, right = loop ? k == 1 : k == 1 || k == 2;
@@ -8450,7 +8421,7 @@ static sdv_square sdv_split_square(sdv_square square, int loop, int k)
     return square;
 }
 
-// The cell of a square in the grid that is so many levels above it, at least two.
+// Returns which cell of a grid has a square; the grid is that of a face so many levels up.
 static size_t sdv_cell_in_grid(const sdv_square *square, int loop, int levels)
 {
     int shift = levels - 2, rest = (1 << shift) - 1;
@@ -8508,8 +8479,8 @@ static int sdv_strip_over(const sdv_strips *strips, int from, int to)
     return -1;
 }
 
-// Sets the cells of a square of a patch of a level that is cut into strips: one, if one part
-// reaches from corner to corner.
+// Sets the cells of a square that is on a patch cut into strips, of a level: one cell, if one part
+// of the patch is all over the square.
 static void sdv_set_cut(sdv_cell_maker *maker, const sdv_square *square, const sdv_patch *patch,
                         int level, unsigned leaf)
 {
@@ -8554,7 +8525,7 @@ static void sdv_set_nest_face(sdv_cell_maker *maker, const sdv_square *square, i
     }
 }
 
-// Sets the cells of all leaves, which are numbered: patches, then faces of nests.
+// Sets the cells of all leaves, whose numbers are those of patches, then those of nests' faces.
 static void sdv_set_leaves(sdv_cell_maker *maker)
 {
     const subdiv_surface *surface = maker->surface;
@@ -8580,8 +8551,10 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
-// Makes the cells of all faces, and one more for faces without a surface.
-static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
+// Makes the cells of all faces, and one more for faces without values, which have no surface, just
+// as those that boundary "none" drops.
+static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
+                           const unsigned char *hole)
 {
     const sdv_level *cage = &surface->order.cage;
     sdv_exact *exact = surface->exact;
@@ -8592,27 +8565,43 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
     sdv_set_leaves(&maker);
     exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &maker.cells,
                                               sizeof *cells);
-    for (int f = 0; f < surface->face_count && exact->absent && !context->result; f++) {
+    for (int f = 0; f < surface->face_count && !context->result; f++) {
         int own = surface->own_face ? surface->own_face[f] : f;
-        if (!exact->absent[f] || own < 0) continue;
+        if (own < 0 || hole[f] != SDV_DROPPED) continue;
         for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
             exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
     }
+}
+
+// The cell of a face, or of the quad at its corner; *odd: there is no such corner.
+SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
+                              unsigned *odd)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int size = loop ? 3 : 4, corners = 1, first;
+    if (surface->own_face) f = surface->own_face[f];
+    if (f < 0) {
+        *odd |= corner < 0;
+        return cage->face_vertex_count;
+    }
+    first = cage->face_size == size ? f : sdv_face_start(cage, f);
+    if (cage->face_size != size) corners = sdv_face_end(cage, f) - first;
+    if (corners == size) corners = 1;
+    *odd |= (unsigned)corner >= (unsigned)corners;
+    return first + ((unsigned)corner < (unsigned)corners ? corner : 0);
 }
 
 // Is a location there?
 static int sdv_is_location(const subdiv_surface *surface, subdiv_location at)
 {
     const float under = -1e-6f, over = 1 + 1e-6f;
-    const sdv_level *cage = &surface->order.cage;
-    int f = at.face, size = surface->rules.loop ? 3 : 4;
-    if (f < 0 || f >= surface->face_count) return 0;
+    int loop = surface->rules.loop;
+    unsigned odd = 0;
+    if (at.face < 0 || at.face >= surface->face_count) return 0;
     if (!(at.u >= under && at.v >= under && at.u <= over && at.v <= over)) return 0;
-    if (surface->rules.loop && at.u + at.v > over) return 0;
-    if (surface->own_face) f = surface->own_face[f];
-    if (f < 0) return at.corner >= 0;
-    int count = sdv_face_end(cage, f) - sdv_face_start(cage, f);
-    return at.corner >= 0 && at.corner < (count == size ? 1 : count);
+    if (loop && at.u + at.v > over) return 0;
+    sdv_first_cell(surface, loop, at.face, at.corner, &odd);
+    return !odd;
 }
 
 // Locations are looked up in batches of so many, in loops without branches, which compilers
@@ -8628,7 +8617,7 @@ typedef struct sdv_lookup {
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
 
-// Clamps them to their faces. Do all faces exist, and was no location moved?
+// Loads locations and clamps them to their faces. Do all faces exist, and was no location moved?
 SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
                                   const subdiv_location *locations, int count, sdv_lookup *l)
 {
@@ -8656,9 +8645,9 @@ SDV_INLINE int sdv_load_locations(const subdiv_surface *surface, int loop,
     return !odd;
 }
 
-// Finds which squares of the finest grid the locations are in, or triangles above their diagonals;
-// and where that is in the first grid, by the upper two bits of x and y, and in the second one, by
-// the lower two: square 4 y + x of 16 or, if it is a triangle above the diagonal, 15 less that.
+// Finds which square of the second grid each location is in, or which triangle above its diagonal.
+// The upper two bits of x and y say which cell of the first grid that is in, and the lower two bits
+// which cell of the second: 4 y + x or, in a triangle above the diagonal, 15 less that.
 SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
 {
     const int side = 1 << SDV_CELL_LEVELS;
@@ -8677,25 +8666,7 @@ SDV_INLINE void sdv_find_squares(sdv_lookup *l, int count, int loop)
     }
 }
 
-// The cell of a face, or of the quad at its corner; *odd: there is no such corner.
-SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, int corner,
-                              unsigned *odd)
-{
-    const sdv_level *cage = &surface->order.cage;
-    int size = loop ? 3 : 4, corners = 1, first;
-    if (surface->own_face) f = surface->own_face[f];
-    if (f < 0) {
-        *odd |= corner < 0;
-        return cage->face_vertex_count;
-    }
-    first = cage->face_size == size ? f : sdv_face_start(cage, f);
-    if (cage->face_size != size) corners = sdv_face_end(cage, f) - first;
-    if (corners == size) corners = 1;
-    *odd |= (unsigned)corner >= (unsigned)corners;
-    return first + ((unsigned)corner < (unsigned)corners ? corner : 0);
-}
-
-// Puts those in the place of the faces. Are all corners there?
+// Replaces faces by their first cells. Are all corners there?
 SDV_INLINE int sdv_find_roots(const subdiv_surface *surface, int loop, int count, sdv_lookup *l)
 {
     unsigned odd = 0;
@@ -8721,7 +8692,7 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_loo
     }
 }
 
-// The scales 2^across and 2^up, put together as the bits of floats.
+// Finds the scales 2^across and 2^up, by putting the bits of floats together.
 SDV_INLINE void sdv_find_scales(sdv_lookup *l, int count, int loop)
 {
     for (int k = 0; k < count; k++) {
@@ -8747,7 +8718,8 @@ SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
     }
 }
 
-// Returns 0 if one of them is not there.
+// Looks up the cells of locations and where they are on those. Returns 0 if a location does not
+// exist.
 SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
                            const subdiv_location *locations, int count, sdv_lookup *l)
 {
@@ -8777,7 +8749,7 @@ static sdv_patch_at sdv_find_patch_of(const sdv_exact *exact, int polynomial)
     return at;
 }
 
-// Sets which leaf a cell is on. Returns its level.
+// Sets the leaf of a cell, by the leaf's number or the polynomial's. Returns the leaf's level.
 static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_leaf *leaf)
 {
     const sdv_exact *exact = surface->exact;
@@ -8794,7 +8766,7 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
     return at.level;
 }
 
-// Finds the leaf of a location.
+// Finds the leaf of a location: down to its cell, then once more as far down as the leaf is.
 static sdv_leaf sdv_locate(const subdiv_surface *surface, const subdiv_location *at)
 {
     const sdv_level *cage = &surface->order.cage;
@@ -8852,7 +8824,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         memset(level.core, 1, (size_t)level.face_count);
         sdv_level_fade(&level);
         surface->work_count = level.vertex_count;
-        sdv_find_absent(context, surface, hole);
     }
     for (int i = 0; level.face_count && !context->result; i++) {
         sdv_exact_level(&maker, i, &level, &next, &next_arena);
@@ -8862,7 +8833,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result && !surface->borrows) sdv_make_cells(context, surface);
+    if (!context->result && !surface->borrows) sdv_make_cells(context, surface, hole);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -8940,14 +8911,16 @@ typedef struct sdv_polynomial {
     int degree;
 } sdv_polynomial;
 
-// A row of it, a polynomial in x alone, and its derivatives in x and y; or, turned, a column.
+// A row of a surface, a polynomial in x alone, and its derivatives in x and y; or, turned, a
+// column.
 typedef struct sdv_curve {
     sdv_four a[5], along[4], across[4];
     int degree;
 } sdv_curve;
 
-// degree, turned and tangents are constants: what is not asked for, the compiler leaves out. The
-// coefficient of x^i y^j is c[5 i + j].
+// Makes the row at y = at or, turned, the column at x = at. degree, turned and tangents are
+// constants: what is not asked for, the compiler leaves out. The coefficient of x^i y^j is c[5 i +
+// j].
 SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
                               float at, sdv_curve *curve)
 {
@@ -8966,14 +8939,6 @@ SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, 
         curve->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
         curve->across[i] = p[i][1];
     }
-}
-
-// In the order of sdv_powers, for the channels of the polynomial.
-static void sdv_pack(const sdv_polynomial *q, sdv_four *slots)
-{
-    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
-    for (int k = 0; k < SDV_SLOTS; k++)
-        slots[k] = k >= 14 && q->degree == 4 ? sdv_all(0) : q->c[powers[k][0]][powers[k][1]];
 }
 
 // Beyond a sharp edge: outside = 2 edge - inside.
@@ -9084,7 +9049,7 @@ static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
     c[1][3] = sdv_twice(c[0][4]);
 }
 
-// Linear: 0 at vertex 0.
+// Makes the polynomial of a linear triangle, which is 0 at vertex 0.
 static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
 {
     q->degree = 4;
@@ -9112,13 +9077,14 @@ static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const
     return from;
 }
 
+// How many polynomials a patch has.
 static int sdv_double_parts(const sdv_double_patch *from)
 {
     return from->along ? from->along->count * from->up->count : 1;
 }
 
-// Four lines of control points, step from point to point and next from line to line, become sums
-// of themselves.
+// Replaces the points of four lines by sums of the points of their line: step from point to point,
+// next from line to line.
 static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)[4])
 {
     for (int line = 0; line < 4; line++, p += next) {
@@ -9172,7 +9138,8 @@ static void sdv_cut_polynomial(const sdv_double_patch *from, int part, double (*
     q->degree = 3;
 }
 
-// The polynomial of part number i, around its origin: a control point, or where the part starts.
+// Makes the polynomial of part number i around an origin: a control point, or where the part
+// starts.
 static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynomial *q,
                                 double *origin)
 {
@@ -9226,25 +9193,13 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
             w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
 }
 
-// Loads the state that sdv_nest_polynomials ended with.
-static void sdv_nest_resume(sdv_nest_state *s, const subdiv_surface *surface, int number,
-                            const double *kept, double *w)
-{
-    s->surface = surface;
-    s->kind = &surface->exact->kinds[surface->exact->nests[number].kind];
-    s->w = w;
-    s->shrink = ldexp(1, -SDV_NEST_DEPTH);
-    memcpy(s->base, kept, sizeof s->base);
-    memcpy(w, kept + 4, 4 * sizeof(double) * (size_t)s->kind->points);
-}
-
-// Makes the points of the next level.
+// Makes the points of a nest's next level.
 static void sdv_nest_refine(sdv_nest_state *s)
 {
     for (int i = 0; i < 2; i++) sdv_make_exact_rows(&s->kind->refine[i], s->w, 0, 1);
 }
 
-// Takes those that continue the nest for its points.
+// Goes on to the next level of a nest, whose points have been made.
 static void sdv_nest_descend(sdv_nest_state *s)
 {
     const sdv_nest_kind *kind = s->kind;
@@ -9261,14 +9216,14 @@ static void sdv_nest_descend(sdv_nest_state *s)
 static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int child, int turn,
                                        const int **points)
 {
-    int i = turn * (kind->patches.count / kind->turns) + kind->children[4 * face + child];
+    int i = 3 * (turn * kind->faces + face) + child - 1;
     *points = kind->patches.points + (size_t)kind->width * (size_t)i;
     return &kind->patches.items[i];
 }
 
-// The scratch memory of an evaluation: work points in doubles, since points of a fine level differ
-// in their last digits alone; a nest's; what each nest has behind its last polynomials: the base,
-// and its points as seen from there; then the coefficients of each polynomial.
+// The scratch memory of an evaluation. Work points are doubles, as points of a fine level differ in
+// their last digits alone. kept has the base of each nest after its last polynomials, and its
+// points as seen from the base.
 typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
     double *nest;                       // [4 * most_work]
@@ -9340,14 +9295,17 @@ typedef struct sdv_exact_evaluation {
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// The coefficients of so many channels of q [lanes * SDV_SLOTS], shrunk, around origin.
+// Keeps the coefficients of so many channels of a polynomial [lanes * SDV_SLOTS], shrunk and moved
+// to origin.
 static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
                                 int lanes, float *out)
 {
+    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
     sdv_four slots[SDV_SLOTS], times = sdv_all((float)shrink);
     float first[4];
-    sdv_pack(q, slots);
-    for (int k = 0; k < SDV_SLOTS; k++) slots[k] = sdv_times(times, slots[k]);
+    slots[14] = slots[15] = sdv_all(0);
+    for (int k = 0; k < (q->degree == 4 ? 14 : SDV_SLOTS); k++)
+        slots[k] = sdv_times(times, q->c[powers[k][0]][powers[k][1]]);
     sdv_store(first, slots[0]);
     for (int l = 0; l < 4; l++) first[l] = (float)(origin[l] + (double)first[l]);
     slots[0] = sdv_load(first);
@@ -9407,8 +9365,8 @@ static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, i
     sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
 }
 
-// Makes the polynomials of a nest: of the children of its faces that are none of its own.
-// w [4 * work_count].
+// Makes the polynomials of a nest: on each of SDV_NEST_DEPTH levels those of the three children of
+// every face that are patches. w [4 * work_count].
 static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, double *w)
 {
     const sdv_exact *exact = e->surface->exact;
@@ -9498,9 +9456,8 @@ typedef struct sdv_where {
     float x, y, sx, sy;
 } sdv_where;
 
-// From rows, the coefficients of powers of y with their derivatives in x, to values and derivatives
-// up to an order: p, du, dv, duu, duv, dvv, as everywhere here. Of order n they are the first
-// (n + 1)(n + 2) / 2; what is beyond need not be set.
+// Evaluates rows, which are the coefficients of powers of y with their derivatives in x: p, du, dv,
+// duu, duv, dvv, as everywhere here. Up to order n only the first (n + 1)(n + 2) / 2 need be set.
 SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *at, int order,
                                 sdv_four *out)
 {
@@ -9518,7 +9475,7 @@ SDV_INLINE void sdv_put_columns(sdv_four (*rows)[3], int loop, const sdv_where *
     out[3] = sdv_times(sdv_times(sx, sx), sdv_plus(p[0], p[0]));
 }
 
-// From coefficients c [SDV_SLOTS] to rows, with the first and half the second derivatives in x.
+// Evaluates coefficients c [SDV_SLOTS] in x: rows have the first and half the second derivatives.
 SDV_INLINE void sdv_quad_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3])
 {
     sdv_horner(c, 1, 3, x, rows[0]);
@@ -9527,7 +9484,7 @@ SDV_INLINE void sdv_quad_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3]
     sdv_horner(c + 12, 1, 3, x, rows[3]);
 }
 
-// See sdv_powers.
+// Evaluates the coefficients of a triangle in x, see sdv_powers.
 SDV_INLINE void sdv_triangle_rows(const sdv_four *c, sdv_four x, sdv_four (*rows)[3])
 {
     const sdv_four first[5] = { c[0], c[1], c[2], c[3], c[13] };
@@ -9538,7 +9495,7 @@ SDV_INLINE void sdv_triangle_rows(const sdv_four *c, sdv_four x, sdv_four (*rows
     rows[4][0] = c[12];
 }
 
-// Four coefficients in a row, of up to four channels.
+// Loads four coefficients of up to four channels.
 SDV_INLINE void sdv_load_four(const float *data, int lanes, sdv_four *c)
 {
     c[0] = sdv_load(data);
@@ -9547,7 +9504,7 @@ SDV_INLINE void sdv_load_four(const float *data, int lanes, sdv_four *c)
     c[3] = sdv_load(data + 3 * lanes);
 }
 
-// The values of up to four channels.
+// Evaluates up to four channels of a polynomial.
 SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, const sdv_where *at,
                                       int order, sdv_four *out)
 {
@@ -9561,8 +9518,8 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
     sdv_put_columns(rows, loop, at, order, out);
 }
 
-// How a part of a patch weighs its control points, in values and derivatives: unit vectors, four at
-// a time, show it. weights [16], of which Loop has 12.
+// Finds how a part of a patch weighs its control points, in values and derivatives, by evaluating
+// unit vectors, four at a time. weights [16], of which Loop has 12.
 static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
                               const sdv_where *at, double (*weights)[6])
 {
@@ -9622,7 +9579,7 @@ typedef struct sdv_nest_sample {
     double  tangents[2][4];             // for the normal
 } sdv_nest_sample;
 
-// The limit masks: of the vertex as seen from there, and its two tangents.
+// Applies the limit masks of a nest: of its vertex, as seen from there, and of two tangents.
 static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
 {
     const sdv_nest_kind *kind = s->kind;
@@ -9634,9 +9591,9 @@ static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
         }
 }
 
-// How the child of a nest's face that has (x, y), which is not in the next nest, weighs its control
-// points, which come back. (On a sharp edge, those beside it not at all: there the surface may grow
-// without bound as seen from the vertex, while along the edge it does not.)
+// Finds how the child of a nest's face at (x, y), which is not in the next nest, weighs its control
+// points, and returns these. On a sharp edge the points beside it weigh nothing at all: there the
+// surface may grow without bound as seen from the vertex, while along the edge it does not.
 static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
                                     int face, double x, double y, double (*weights)[6])
 {
@@ -9649,7 +9606,7 @@ static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nes
     return points;
 }
 
-// A sample of that child, at (x, y).
+// Evaluates the child of a nest's face at (x, y), which is not in the next nest.
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
 {
     const sdv_nest_state *state = &s->state;
@@ -9676,8 +9633,8 @@ static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
     }
 }
 
-// At the vertex itself: by the limit masks, if there are any. Else far down, along both edges and,
-// for the normal, between them. Second derivatives are 0.
+// Evaluates the vertex of a nest by its limit masks. Where there are none, goes far down, along
+// both edges and, for the normal, between them. Second derivatives are 0.
 static void sdv_nest_vertex(sdv_nest_sample *s)
 {
     const sdv_nest_kind *kind = s->state.kind;
@@ -9706,26 +9663,21 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
 }
 
-// Are tangents parallel, but for rounding?
-static int sdv_parallel(const double *a, const double *b)
-{
-    double n[3];
-    sdv_cross(a, b, n);
-    return sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
-}
-
 // Near a vertex with one face on a side of its crease tangents are parallel. There the normal is
 // that of the vertex, whose second tangent is how the crease bends.
 static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
 {
-    double limit[3][4];
-    if (!s->state.kind->limit || !sdv_parallel(s->tangents[0], s->tangents[1])) return;
+    const double *a = s->tangents[0], *b = s->tangents[1];
+    double limit[3][4], n[3];
+    sdv_cross(a, b, n);
+    int parallel = sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
+    if (!s->state.kind->limit || !parallel) return;
     sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
     sdv_nest_masks(&s->state, limit);
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// A place on a face of a nest as seen from the vertex.
+// Finds a place on a face of a nest as seen from the vertex.
 static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
 {
     sdv_turn_place(loop, turn, u, v, x, y);
@@ -9733,7 +9685,7 @@ static void sdv_nest_place(int loop, int turn, double u, double v, double *x, do
     if (*y < 0) *y = 0;
 }
 
-// How many levels down it is, in the nest of each.
+// Returns on how many levels down (x, y), as seen from the vertex, still is in the nest.
 static int sdv_nest_levels(int loop, double x, double y)
 {
     int down;
@@ -9741,7 +9693,7 @@ static int sdv_nest_levels(int loop, double x, double y)
     return down > 0 ? 0 : -down;
 }
 
-// From the nest, or from where the polynomials of its levels end.
+// Evaluates a sample from the nest's points, or from those after the last polynomials.
 static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e, int nest, int c,
                               double *w)
 {
@@ -9749,8 +9701,13 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
     int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
     int kept = !vertex && down >= SDV_NEST_DEPTH;
     const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
-    if (kept) sdv_nest_resume(&s->state, surface, nest, sdv_kept_nest(e, nest, c), w);
-    else sdv_nest_load(&s->state, surface, nest, work, w);
+    sdv_nest_load(&s->state, surface, nest, work, w);
+    if (kept) {                         // what sdv_nest_polynomials ended with
+        const double *base = sdv_kept_nest(e, nest, c);
+        s->state.shrink = ldexp(1, -SDV_NEST_DEPTH);
+        memcpy(s->state.base, base, sizeof s->state.base);
+        memcpy(w, base + 4, 4 * sizeof(double) * (size_t)s->state.kind->points);
+    }
     if (vertex) {
         sdv_nest_vertex(s);
     } else {
@@ -9760,7 +9717,7 @@ static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e,
     if (e->normals && c == 0) sdv_nest_normal(s, nest, work);
 }
 
-// Derivatives in u and v from those in x and y, with the scale of the face.
+// Turns derivatives in x and y into those in u and v, with the scale of the face.
 static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
 {
     double ss = scale * scale;
@@ -9812,7 +9769,7 @@ static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, 
     return w != NULL;
 }
 
-// Faces without a surface have zeros.
+// Writes the zeros of a face without a surface.
 static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
 {
     for (int k = 0; k < 6; k++)
@@ -9820,7 +9777,7 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-// By its leaf: a location in a cell that has more than one polynomial.
+// Evaluates a location by its leaf, as its cell has no polynomial.
 static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
 {
     sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
@@ -9834,7 +9791,7 @@ static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t 
         sdv_put_zeros(e, i);
 }
 
-// Locations, looked up, and where their polynomials are, unless their leaves are to be asked.
+// A batch of locations that are looked up, and where their polynomials are.
 typedef struct sdv_sample_batch {
     int count;
     sdv_lookup at;
@@ -9884,6 +9841,7 @@ SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int la
     }
 }
 
+// Evaluates a job's share of the locations, one batch after the other.
 static void sdv_locations_job(void *context, int job)
 {
     sdv_exact_evaluation *e = (sdv_exact_evaluation *)context;
@@ -10633,11 +10591,11 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
-// makes gives its own to those of the row, which takes as long as to evaluate once. They are those
-// of a point and its derivatives as seen from the vertex: w [3 * work_count], of the nest's points,
-// then of those of the next level.
+// makes gives its weights to the points of the row, which takes as long as one evaluation. Weights
+// w [3 * work_count] are those of a point and its derivatives as seen from the vertex: of the
+// nest's points, then of the points of the next level.
 
-// sdv_nest_refine backwards, from the next level's points.
+// Gives the weights of a row's point to the points that the row sums.
 static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights,
                              double *w)
 {
@@ -10670,8 +10628,9 @@ static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// sdv_nest_descend backwards. The point is base + shrink w: shrink is halved when w is doubled, and
-// as base follows the vertex, that has what the others leave of 1. The derivatives are w's.
+// Goes back from a nest to the level before: sdv_nest_descend backwards. The point is base + shrink
+// w: shrink is halved when w is doubled, and as base follows the vertex, the vertex has what the
+// others leave of 1. Derivatives are those of w.
 static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
 {
     double *vertex = w + 3 * kind->below[0];
@@ -10685,7 +10644,7 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// What the patch at (x, y) weighs its control points with, in one part up to another.
+// Adds the weights of the patch at (x, y), in one part up to another.
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                             double x, double y, int part, int end, double *w)
 {
@@ -10695,7 +10654,7 @@ static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *
         for (int k = part; k < end; k++) w[3 * points[i] + k] += weights[i][k];
 }
 
-// See sdv_nest_vertex.
+// Sets the weights of the vertex of a nest, as sdv_nest_vertex does.
 static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 {
     const double *limit = kind->limit, *t0 = limit + kind->points, *t1 = t0 + kind->points;
@@ -14733,7 +14692,9 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SLOTS
 #undef SDV_CELL_LEVELS
 #undef SDV_CELL_BITS
+#undef SDV_CELL_LEAF
 #undef SDV_CELL_NONE
+#undef SDV_CELL_FAR
 #undef SDV_CELL_POLYNOMIALS
 #undef SDV_LOOKUP
 #undef SDV_NEST_STACK
