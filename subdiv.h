@@ -1413,7 +1413,7 @@ static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
 // Finds the first of count numbers, each of 4 bytes, whose bits of the mask are not at least low
 // and below high; count if there is none. Looks at blocks of numbers without a branch for each:
 // bit 31 tells.
-#define SDV_CHECKED 256
+enum { SDV_CHECKED = 256 };
 
 static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask, int low, int high)
 {
@@ -1434,8 +1434,8 @@ static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask,
 }
 
 // Finds the first float of this exponent, biased as in its bits, or more; count if there is none.
-#define SDV_ENDLESS 255                 // infinite or not a number
-#define SDV_HUGE 243                    // 2^116 or more
+enum { SDV_ENDLESS = 255 };             // infinite or not a number
+enum { SDV_HUGE = 243 };                // 2^116 or more
 
 static size_t sdv_find_exponent(const float *numbers, size_t count, int exponent)
 {
@@ -1924,7 +1924,7 @@ static int sdv_is_boundary(const sdv_level *level, int h)
 
 // Boundary "none": every face at a vertex with an unsharpened boundary edge becomes a hole, and is
 // no part of the surface either.
-#define SDV_DROPPED 2
+enum { SDV_DROPPED = 2 };
 
 static void sdv_open_boundary(sdv_cage *cage)
 {
@@ -2562,7 +2562,7 @@ static int sdv_is_spline(const sdv_rules *rules)
 // for each of its vertices. The points along each side of a grid and those inside it, row by
 // row, are evenly spaced in the result: so an index needs a first one and a step.
 
-#define SDV_MOST_LEVELS 16              // of a mesh of 2^31 faces and any level
+enum { SDV_MOST_LEVELS = 16 };          // of a mesh of 2^31 faces and any level
 #ifndef SDV_FULL_LEVELS                 // (tests ask for fewer)
 #define SDV_FULL_LEVELS 3               // of work points; deeper ones are frames: see >>lines
 #endif
@@ -2931,7 +2931,7 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 // that any range of faces can be made alone.
 
 // Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
-#define SDV_RUNS 4
+enum { SDV_RUNS = 4 };
 
 typedef struct sdv_runs {
     float weight[SDV_RUNS];
@@ -2939,7 +2939,7 @@ typedef struct sdv_runs {
     int   blend;                        // of two rules, by weights that hardly any other row has
 } sdv_runs;
 
-#define SDV_BLOCK_FACES 128
+enum { SDV_BLOCK_FACES = 128 };
 
 typedef struct sdv_shape {
     int   count[3];                     // behind the first point so many points of each weight
@@ -5103,7 +5103,7 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
 // What a limit's points have besides their place: tangents, which rows and grids have weights for,
 // and normals.
 
-#define SDV_WAITING 16                  // points that wait at most: fours of them
+enum { SDV_WAITING = 16 };              // points that wait at most: fours of them
 
 typedef struct sdv_tangents {           // a part of the result, that of its sdv_window
     float *normals, *tangents;          // or NULL
@@ -5443,7 +5443,7 @@ static void sdv_make_batches(const sdv_batches *batches, const float *work, int 
 // Inside a face everything is regular: the points between those of a grid are made row by row,
 // region by region. There points are seen from a corner of the grid, so that sums lose nothing by
 // where the mesh stands.
-#define SDV_REGION 16                     // cells along a side
+enum { SDV_REGION = 16 };               // cells along a side
 
 typedef struct sdv_cells {              // of a grid: those between such rows and columns of points
     int left, right, bottom, top;
@@ -6208,7 +6208,7 @@ static int sdv_share(int count, int i, int jobs)
     return (int)((int64_t)count * i / jobs);
 }
 
-#define SDV_MOST_JOBS 256
+enum { SDV_MOST_JOBS = 256 };
 #ifndef SDV_JOB_POINTS                  // (tests ask for smaller jobs)
 #define SDV_JOB_POINTS 1024
 #endif
@@ -7228,7 +7228,7 @@ static int sdv_control_points(const sdv_rules *rules)
 // Loop is not one polynomial but one for each segment of level c.)
 //
 // Strips are measured in segments of so many levels, as semi-sharp creases are smooth by then.
-#define SDV_STRIP_LEVELS 10
+enum { SDV_STRIP_LEVELS = 10 };
 
 typedef struct sdv_strip {
     int    from, to;                    // segments that it covers
@@ -7642,11 +7642,11 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
 //
 // Patches and faces of nests are the leaves; cells find the one that has a location.
 
-#define SDV_EXACT_LEVELS 13             // sharpness is gone after 10, see sdv_fade; the last
+enum { SDV_EXACT_LEVELS = 13 };         // sharpness is gone after 10, see sdv_fade; the last
                                         // ones set the rings of vertices apart
-#define SDV_NEST_DEPTH 4                // levels of a nest whose polynomials are kept
-#define SDV_NEST_FAR 100                // levels down, where a nest without limit masks has arrived
-#define SDV_SLOTS 16                    // coefficients of a polynomial; Loop needs 14 of them
+enum { SDV_NEST_DEPTH = 4 };            // levels of a nest whose polynomials are kept
+enum { SDV_NEST_FAR = 100 };            // levels down: a nest without limit masks has arrived
+enum { SDV_SLOTS = 16 };                // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
 static const unsigned char sdv_powers[2][SDV_SLOTS][2] = {
@@ -8361,7 +8361,7 @@ static void sdv_find_polynomial(const subdiv_surface *surface, sdv_leaf *leaf)
 //     +--+--+--+--+     the one above that of the opposite square (15 less it), behind the long
 //                       side, where there is no triangle.
 
-#define SDV_CELL_LEVELS 4               // of two grids
+enum { SDV_CELL_LEVELS = 4 };           // of two grids
 #define SDV_CELL_BITS 8                 // of what is not the polynomial's number
 #define SDV_CELL_LEAF 0xe0000000u       // this plus 2 i: the cell has leaf number i
 #define SDV_CELL_NONE 0xfffffffeu       // the face has no surface
@@ -8606,7 +8606,7 @@ static int sdv_is_location(const subdiv_surface *surface, subdiv_location at)
 
 // Locations are looked up in batches of so many, in loops without branches, which compilers
 // vectorize.
-#define SDV_LOOKUP 32
+enum { SDV_LOOKUP = 32 };
 
 typedef struct sdv_lookup {
     int   face[SDV_LOOKUP], corner[SDV_LOOKUP];
@@ -9176,7 +9176,7 @@ typedef struct sdv_nest_state {
     double  base[4], shrink;
 } sdv_nest_state;
 
-#define SDV_NEST_STACK 256              // work points; nests with more take memory
+enum { SDV_NEST_STACK = 256 };          // work points; nests with more take memory
 
 static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int number,
                           const double *work, double *w)
@@ -9231,7 +9231,7 @@ typedef struct sdv_exact_memory {
     float  *polynomials;                // [SDV_SLOTS] each, channel by channel
 } sdv_exact_memory;
 
-#define SDV_CACHE_LINE 64
+enum { SDV_CACHE_LINE = 64 };
 
 static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
 {
@@ -14672,33 +14672,14 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SIMD
 #undef SDV_SEPARATE
 #undef SDV_NEW
-#undef SDV_CHECKED
-#undef SDV_ENDLESS
-#undef SDV_HUGE
 #undef SDV_IMPLIED
-#undef SDV_DROPPED
-#undef SDV_BLOCK_FACES
-#undef SDV_RUNS
-#undef SDV_REGION
 #undef SDV_FULL_LEVELS
-#undef SDV_MOST_LEVELS
-#undef SDV_STRIP_LEVELS
-#undef SDV_WAITING
-#undef SDV_MOST_JOBS
 #undef SDV_JOB_POINTS
-#undef SDV_EXACT_LEVELS
-#undef SDV_NEST_DEPTH
-#undef SDV_NEST_FAR
-#undef SDV_SLOTS
-#undef SDV_CELL_LEVELS
 #undef SDV_CELL_BITS
 #undef SDV_CELL_LEAF
 #undef SDV_CELL_NONE
 #undef SDV_CELL_FAR
 #undef SDV_CELL_POLYNOMIALS
-#undef SDV_LOOKUP
-#undef SDV_NEST_STACK
-#undef SDV_CACHE_LINE
 
 #if defined(__GNUC__) && defined(__cplusplus)
 #pragma GCC diagnostic pop
