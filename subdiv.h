@@ -67,7 +67,10 @@
                          >>locations  >>cells  >>polynomials  >>samples
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
              >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
-   A student needs the four sections with a star and may skip the rest.
+   A student needs the four sections with a star and may skip the rest. The way from the first call
+   to a mask: subdiv_refine > sdv_prepare > sdv_prepare_rows > sdv_fill_level > sdv_vertex_row >
+   sdv_vertex_mask > sdv_catmull_clark_vertex. To where it is added up: subdiv_refine >
+   sdv_make_mesh > subdiv_evaluate > sdv_make_points > sdv_make_batches > sdv_batch_sum.
 
    WORDS
    cage            the mesh you start from            level      how often it has been refined
