@@ -782,7 +782,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 // ------------------------------------------------------------------------------ >>platform
 
-// What C++ calls old-style or useless is what C needs.
+// Silences the warnings of C++ about casts that C needs.
 #if defined(__GNUC__) && defined(__cplusplus)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
@@ -815,8 +815,8 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #define SUBDIV_ASSERT(condition) assert(condition)
 #endif
 
-// For what an inner loop calls at each point: speed does not depend on what the compiler thinks of
-// it, and arguments that are constants make each call a loop of its own kind.
+// Forces functions inline that inner loops call for each point. Their speed then does not depend on
+// the compiler's judgement, and constant arguments make each call a loop of its own kind.
 #if defined(__GNUC__)
 #define SDV_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
@@ -825,9 +825,10 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #define SDV_INLINE static inline
 #endif
 
-// Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
-// bits are the same with and without, unless the compiler fuses multiplications and additions.
-// (32-bit ARM's NEON does not: it has no numbers below FLT_MIN.)
+// sdv_four holds four floats: all the SIMD there is. Below, plain C says what each operation does.
+// SIMD rounds as plain C does, so the results' bits are the same with and without, unless the
+// compiler fuses multiplications and additions. (32-bit ARM goes without: its NEON has no numbers
+// below FLT_MIN.)
 #if defined(SUBDIV_NO_SIMD)
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
@@ -989,7 +990,7 @@ SDV_INLINE sdv_four sdv_sqrt(sdv_four a)
     return a;
 }
 
-// In all lanes?
+// Whether a < b in all four lanes.
 SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
 {
     int less = 1;
@@ -997,7 +998,7 @@ SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
     return less;
 }
 
-// Lane j of vector i becomes lane i of vector j.
+// Transposes four vectors: lane j of vector i becomes lane i of vector j.
 SDV_INLINE void sdv_transpose(sdv_four *a)
 {
     sdv_four from[4] = { a[0], a[1], a[2], a[3] };
@@ -1015,8 +1016,8 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #endif
 }
 
-// Under the address sanitizer each array is a block of its own, so that it sees what is written
-// beside one.
+// SDV_SEPARATE is 1 under the address sanitizer: each array is then a block of its own, so that the
+// sanitizer sees accesses beside it.
 #if defined(__SANITIZE_ADDRESS__)
 #define SDV_SEPARATE 1
 #elif defined(__has_feature)
@@ -1028,6 +1029,7 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #define SDV_SEPARATE 0
 #endif
 
+// Allocates count items of a type from an arena: see sdv_new.
 #define SDV_NEW(context, arena, type, count) \
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
 
