@@ -1034,21 +1034,22 @@ SDV_INLINE void sdv_prefetch(const float *p)
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
 
 // -------------------------------------------------------------------------------- >>memory
-// Memory comes from arenas, chains of blocks freed together. A failed allocation is remembered in
-// the context, so a function may ask for several arrays and look at context->result once.
+// Arrays come from arenas: chains of blocks that are freed together. The context remembers a failed
+// allocation, so a function may ask for several arrays and look at context->result once.
 
-typedef struct sdv_block {
-    struct sdv_block *next;
-    void *user;
+typedef struct sdv_block {              // the head of a block; the memory to use is behind it
+    struct sdv_block *next;             // of the same arena, or NULL
+    void *user;                         // handed to SUBDIV_FREE
 } sdv_block;
 
 typedef struct sdv_arena {
-    sdv_block *blocks;
-    char      *free;                    // the rest of the first block
-    size_t     left;                    // its size
-    size_t     chunk;                   // blocks are at least that large, and double in size
+    sdv_block *blocks;                  // the newest first
+    char      *free;                    // the unused end of the newest block
+    size_t     left;                    // bytes there
+    size_t     chunk;                   // bytes of the next block at least; doubles with each
 } sdv_arena;
 
+// Returns an empty arena. With chunk 0 each block is just as large as it has to be.
 static sdv_arena sdv_new_arena(size_t chunk)
 {
     sdv_arena arena = { NULL, NULL, 0, 0 };
@@ -1056,22 +1057,22 @@ static sdv_arena sdv_new_arena(size_t chunk)
     return arena;
 }
 
-// For what lives shortly: few and large blocks, which huge pages suit.
+// Returns an empty arena for short-lived arrays: few and large blocks, which suit huge pages.
 static sdv_arena sdv_scratch(void)
 {
     return sdv_new_arena((size_t)1 << 16);
 }
 
-typedef struct sdv_context {            // one call of the library
+typedef struct sdv_context {            // the state of one call of the library
     subdiv_result result;               // the first error; nothing is done after it
-    subdiv_error *error;
-    void         *user;
+    subdiv_error *error;                // opt->error, or NULL
+    void         *user;                 // opt->user
     const char   *name;                 // of the OBJ file, for messages, or NULL
 } sdv_context;
 
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...);
 
-// Linux: asks for huge pages, as touching a large block page by page costs more than filling it.
+// Asks Linux for huge pages: to touch a large block page by page costs more than to fill it.
 #if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
 extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
 
@@ -1089,6 +1090,7 @@ static void sdv_huge_pages(void *memory, size_t size)
 }
 #endif
 
+// Allocates a block with room for size bytes. NULL when out of memory.
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
@@ -1114,7 +1116,7 @@ static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
     arena->left = size;
 }
 
-// Sees to it that the next arrays, so many bytes in all, come from one block.
+// Makes sure that the next arrays of an arena, size bytes in all, come from one block.
 static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 {
     if (SDV_SEPARATE || context->result || size <= arena->left) return;
@@ -1123,7 +1125,7 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
     sdv_add_block(context, arena, size);
 }
 
-// Room for count items, not cleared. Never NULL while context->result is SUBDIV_OK.
+// Allocates count items, not cleared. Never NULL while context->result is SUBDIV_OK.
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
     if (context->result) return NULL;
@@ -1152,12 +1154,12 @@ static void sdv_arena_free(sdv_arena *arena)
     arena->left = 0;
 }
 
-typedef struct sdv_array {              // grows
-    sdv_block *block;
+typedef struct sdv_array {              // an array that grows, in a block of its own
+    sdv_block *block;                   // its items; NULL: none so far
     size_t count, capacity;             // in items
 } sdv_array;
 
-// Room for so many items in all; those that are there are kept.
+// Moves an array to a larger block, with room for capacity items in all.
 static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
 {
     if (context->result) return;
@@ -1175,7 +1177,7 @@ static void sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, si
     array->capacity = capacity;
 }
 
-// A place behind the items, with room for so many more. NULL when out of memory.
+// Returns the place behind the last item, with room for more; NULL when out of memory.
 static void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
 {
     if (!array->block || array->capacity - array->count < more)
@@ -1183,6 +1185,7 @@ static void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more,
     return context->result ? NULL : (char *)(array->block + 1) + array->count * item;
 }
 
+// Copies count items. Pointers may be NULL if there are none.
 static void sdv_copy(void *to, const void *from, size_t count, size_t item)
 {
     if (count) memcpy(to, from, count * item);
@@ -1199,7 +1202,7 @@ static void sdv_array_free(sdv_array *array)
     array->block = NULL;
 }
 
-// Appends count cleared items.
+// Appends count cleared items and returns the first of them. NULL when out of memory.
 static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, size_t item)
 {
     void *room = sdv_array_room(context, array, count, item);
@@ -1209,6 +1212,7 @@ static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, si
     return room;
 }
 
+// Moves the items of a growing array to an arena and frees the array.
 static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *array, size_t item)
 {
     void *kept = sdv_new(context, arena, array->count, item);
@@ -1217,7 +1221,7 @@ static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *a
     return kept;
 }
 
-// A copy of count items; NULL if they are none or there is no memory.
+// Copies count items to an arena. NULL if from is NULL or there is no memory.
 static void *sdv_duplicate(sdv_context *context, sdv_arena *arena, const void *from, size_t count,
                            size_t item)
 {
