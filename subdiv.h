@@ -1600,34 +1600,36 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 }
 
 // --------------------------------------------------------------------------------- >>level
-// A level is a mesh and how sharp everything is: all that refinement needs to know, and all that
-// the next level inherits.
+// A level is a mesh with the sharpness of its edges and vertices: all that refinement needs to
+// know, and all that the next level inherits.
 //
 // More words, for the inside:
-//     order       where the points of the result stand, in closed form, on the grids of cage faces
-//     row         the weights of one point; batch: rows of the same shape
-//     work point  a point of any level but the last, or of a limit also that; all in one array
-//     line        the points inside an edge of the cage; grid: those inside a face
-//     frame       the points of a grid beside its sides: all that deep levels keep of it
-//     patch       a regular face, its control points; strips: between semi-sharp creases, a part
-//     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks);
-//                 rough: those among them that are no patch on this level
+//     order       formulas for where each point of the result stands, on the grids of cage faces
+//     row         the points that one new point is made from, with weights; batch: rows alike
+//     work point  a point that later points are made from: of any level before the result
+//     line        the points inside an edge of the cage
+//     grid        the points of a quad or Loop triangle of the cage, in rows and columns; any other
+//                 polygon has one for each vertex
+//     frame       the inner points beside a grid's sides: deep levels keep no other inner points
+//     patch       a regular face with its control points; strip: a part of one between creases
+//     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks)
+//     rough       a face of the core that is no patch on this level
 //     nest        a vertex that stays irregular on every level, and the faces around it
-//     leaf        of SUBDIV_EXACT: a patch or a face of a nest; cell: what finds the one that has
-//                 (face, u, v)
-//     tile        a face with rates of its own; home: of a shared point, the face that makes it
+//     leaf        of SUBDIV_EXACT: a patch or a face of a nest
+//     cell        of SUBDIV_EXACT: a part of a cage face, from which the leaf at (u, v) is found
+//     tile        a face with rates of its own; home: the face that makes a shared point
 //
-// A face-vertex h is a place in face_vertices, and stands for three things: a face, one of its
-// vertices, and the edge that leads on from there to the next vertex. So an edge is a ring of
-// face-vertices, one for each face that has it, in rising order:
+// A face-vertex h is an index into face_vertices. It stands for three things: a face, one of its
+// vertices, and the edge from there to the next vertex, the edge that "leads on". An edge is a ring
+// of face-vertices, one for each face that has it, in rising order:
 //
 //     +---<---+
-//     |   q   |       across[h] = q, across[q] = h; alone on a boundary: across[h] = h;
-//     +--->---+       a ring of three or more where the mesh is non-manifold
-//     |   h   |
+//     |   q   |       between two faces:  across[h] = q, across[q] = h
+//     +--->---+       on a boundary:      across[h] = h
+//     |   h   |       non-manifold:       a ring of three or more
 //     +---<---+
 
-typedef struct sdv_rules {
+typedef struct sdv_rules {              // how every level is refined
     int loop;                           // faces split into 4 triangles, else into quads
     int linear;                         // nothing is smoothed
     int straight;                       // boundaries stay straight
@@ -1636,7 +1638,7 @@ typedef struct sdv_rules {
     subdiv_triangles triangles;
 } sdv_rules;
 
-typedef struct sdv_place {              // of a face on its cage face's grid (see >>order)
+typedef struct sdv_place {              // where a face is on a grid of its cage face (see >>order)
     int h;                              // the cage face-vertex of the grid
     int row, column, step;              // of vertex 0; step -1: a triangle turned by half
 } sdv_place;
@@ -1651,37 +1653,38 @@ typedef struct sdv_level {
     int *across;                        // [face_vertex_count]  the next in the ring of an edge
     int *vertex_first;                  // [vertex_count]       the first face-vertex there, or -1
     int *vertex_next;                   // [face_vertex_count]  the next one at its vertex, or -1
-    int *vertex_faces;                  // [vertex_count]       how many there are
+    int *vertex_faces;                  // [vertex_count]       the number of face-vertices there
     int *face_edges;                    // [face_vertex_count]  numbers of edges: level 0 alone
-    int *edge_first;                    // [edge_count]         their first face-vertices
+    int *edge_first;                    // [edge_count]         the first face-vertex of each edge
     int  edge_count;
 
-    // How sharp it is.
+    // The sharpness of edges and vertices.
     float *sharpness;                   // [face_vertex_count]  of the edge that leads on
-    float *half_sharpness;              // [face_vertex_count]  one level down, of the half of that
-                                        //                      edge here; NULL: sdv_fade
+    float *half_sharpness;              // [face_vertex_count]  one level down, of the half of this
+                                        //                      edge at its vertex; NULL: sdv_fade
     float *vertex_sharpness;            // [vertex_count]
     unsigned char *creased;             // [vertex_count]       has a sharp edge
 
-    // How the sharpness of values fades with that of the cage: see >>face-varying.
-    int *partner;                       // [vertex_count]       fades as that vertex does; -1: by
-                                        //                      itself; NULL: all do
+    // The fading of face-varying values along with the cage: see >>face-varying.
+    int *partner;                       // [vertex_count]       the vertex it fades with, or -1;
+                                        //                      NULL: each fades by itself
     float *seam;                        // [vertex_count]       of those with a partner: the largest
                                         //                      sharpness of a semi-sharp seam there
-    int *origin, origin_count;          // [vertex_count]       vertex of the cage, or -1; NULL:
-    float *sums;                        // [2 * origin_count]   not needed
+    int *origin, origin_count;          // [vertex_count]       its vertex of the cage, or -1; NULL:
+    float *sums;                        // [2 * origin_count]   not needed. See sdv_chaikin_sums
 
-    // Where its points are among the work points.
+    // The work points of vertices and faces.
     int    first_point;                 // vertex v is work point first_point + v
-    const struct sdv_order *order;      // of the cage on a later level: its points; else NULL
+    const struct sdv_order *order;      // where the cage's points stand on a later level, or NULL
     int   *face_point;                  // [face_count]         work points of the face points
 
-    // What SUBDIV_EXACT does with its faces.
+    // Faces under SUBDIV_EXACT.
     sdv_place *places;                  // [face_count]         where they are; NULL on level 0
     unsigned char *core;                // [face_count]         becomes leaves
     unsigned char *rough;               // [face_count]         in the core, and not a patch
 } sdv_level;
 
+// A face has the face-vertices from sdv_face_start up to, but without, sdv_face_end.
 static int sdv_face_start(const sdv_level *level, int face)
 {
     return level->face_size ? face * level->face_size : level->face_starts[face];
@@ -1699,7 +1702,7 @@ static int sdv_face_of(const sdv_level *level, int h)
     return level->face_of[h];
 }
 
-// The face-vertices before and after h in its face.
+// Return the face-vertices before and after h in its face: "_any" for faces of any size.
 static int sdv_previous_any(const sdv_level *level, int h)
 {
     int face = sdv_face_of(level, h);
@@ -1726,13 +1729,13 @@ static inline int sdv_next(const sdv_level *level, int h)
     return sdv_next_any(level, h);
 }
 
-// The first face-vertex of the quad of h.
+// Returns the first face-vertex of the quad of h.
 static inline int sdv_quad_start(const sdv_level *level, int h)
 {
     return level->face_size ? h & ~3 : level->face_starts[level->face_of[h]];
 }
 
-// The number of vertices of the face of h.
+// Returns the number of vertices of the face of h.
 static int sdv_size_of(const sdv_level *level, int h)
 {
     if (level->face_size) return level->face_size;
@@ -1747,9 +1750,10 @@ static int sdv_edge_faces(const sdv_level *level, int h)
     return count;
 }
 
-// Where each edge at a vertex is meant once, by the face-vertices h there (outgoing) and those
-// before them, which lead to it: an edge between two faces by the one that leads on from the
-// vertex, any other by the last of its ring.
+// Picks one face-vertex for each edge at a vertex, so that each edge is met once. Ask it for each
+// face-vertex h at the vertex, with outgoing 1: its edge leads on from there; and for the one
+// before each, with outgoing 0: its edge leads to the vertex. An edge between two faces that are
+// wound alike is met where it leads on, any other at the last face-vertex of its ring.
 static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
 {
     int q = level->across[h];
@@ -1758,7 +1762,7 @@ static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
     return q <= h;
 }
 
-// The arrays that each level has besides face_vertices and across; chaikin: and half_sharpness.
+// Allocates what each level has besides face_vertices and across; chaikin: also half_sharpness.
 static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level, int chaikin)
 {
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
