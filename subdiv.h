@@ -2338,8 +2338,8 @@ static int sdv_counter_clockwise(const sdv_level *level, int h)
 }
 
 // --------------------------------------------------------------------------------- >>masks
-// Every rule of refinement, once. A mask is a set of weights that sum to 1; refinement takes
-// the points around and adds them up with these weights, whatever the points are.
+// Every rule of refinement, once. A mask is a set of weights that sum to 1. Refinement multiplies
+// the points around by these weights and adds them up, whatever the points are.
 //
 //     point = self v + edge (sum of neighbours) + face (sum of face points)
 //                    + crease (sum of the two neighbours along the crease)
@@ -2351,7 +2351,7 @@ typedef struct sdv_mask {
     double crease;                      // on top of edge: the two neighbours along the crease
 } sdv_mask;
 
-// Face point [CC78]: the mean of the face's n vertices.
+// Face point [CC78]: the mean of the face's n vertices. Returns the weight of each.
 //
 //     1/n----1/n
 //      |  F  |               F = (v0 + v1 + ... ) / n
@@ -2361,7 +2361,7 @@ static double sdv_face_weight(int n)
     return 1.0 / n;
 }
 
-// Edge point on a crease or boundary, and everywhere under bilinear: the midpoint.
+// Edge point on a crease or boundary, and any edge point under bilinear: the midpoint.
 //
 //     1/2---E---1/2          E = (a + b) / 2
 static sdv_mask sdv_crease_edge(void)
@@ -2370,8 +2370,8 @@ static sdv_mask sdv_crease_edge(void)
     return mask;
 }
 
-// Smooth edge point, Catmull-Clark [CC78]: the mean of the two ends and the two face points. With
-// any other number of faces the face points share their half [OSD].
+// Smooth edge point, Catmull-Clark [CC78]: the mean of the two ends and the two face points. Where
+// an edge has another number of faces, their points share one half [OSD].
 //
 //        f0
 //     a--E--b                E = (a + b + f0 + f1) / 4
@@ -2382,8 +2382,8 @@ static sdv_mask sdv_catmull_clark_edge(int faces)
     return mask;
 }
 
-// A smooth edge point beside one or two triangles, with the rule "smooth" [OSD]: w = 0.47 for each
-// triangle and 1/4 for each other face; the face points weigh the mean of the two w, the ends the
+// Smooth edge point beside one or two triangles, with SUBDIV_TRIANGLES_SMOOTH [OSD]. A triangle has
+// w = 0.47, another face w = 1/4. Each face point weighs the mean of the two w; the ends share the
 // rest.
 static sdv_mask sdv_smooth_triangle_edge(int triangles)
 {
@@ -2405,7 +2405,7 @@ static sdv_mask sdv_loop_edge(int faces)
     return mask;
 }
 
-// Corner: stays where it is.
+// Vertex point of a corner: the vertex stays where it is.
 static sdv_mask sdv_corner_vertex(void)
 {
     sdv_mask mask = { 1, 0, 0, 0 };
@@ -2421,8 +2421,8 @@ static sdv_mask sdv_crease_vertex(void)
     return mask;
 }
 
-// Smooth vertex point, Catmull-Clark, valence n [CC78]. With F the mean of the face points, R the
-// mean of the edges' midpoints, V = (F + 2R + (n - 3) v) / n. Midpoints are half v:
+// Smooth vertex point, Catmull-Clark, valence n [CC78]: V = (F + 2R + (n - 3) v) / n, with F the
+// mean of the face points and R the mean of the edges' midpoints, (v + e) / 2 each:
 //
 //     f----e----f
 //     |    |    |            V = (n-2)/n v + 1/n^2 (sum of e) + 1/n^2 (sum of f)
@@ -2451,7 +2451,7 @@ static sdv_mask sdv_loop_vertex(int n)
     return mask;
 }
 
-// Between sharp and smooth [DKT98]: linear in the sharpness.
+// Blends a sharp mask with this weight and a smooth one with the rest [DKT98].
 static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
 {
     sdv_mask mask;
@@ -2462,7 +2462,7 @@ static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
     return mask;
 }
 
-// The smooth rules of each scheme; bilinear has those of Catmull-Clark, and does not ask for them.
+// Return the smooth masks of the scheme. (Bilinear has no smooth points and uses neither.)
 static sdv_mask sdv_smooth_vertex(const sdv_rules *rules, int faces)
 {
     return rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
@@ -2473,7 +2473,8 @@ static sdv_mask sdv_smooth_edge(const sdv_rules *rules, int faces)
     return rules->loop ? sdv_loop_edge(faces) : sdv_catmull_clark_edge(faces);
 }
 
-// The mask of a vertex with so many faces: that of its rule, or a blend with that of the next one.
+// Returns the mask of a vertex point: that of its rule or, where the next level has another rule, a
+// blend of the two.
 static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int faces)
 {
     sdv_mask masks[SDV_CORNER + 1];
@@ -2485,8 +2486,9 @@ static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int f
     return sdv_blend(fading.weight, masks[fading.rule], masks[fading.next]);
 }
 
-// The mask of an edge's edge point: sharp while both its halves stay sharp, a blend where one of
-// them turns smooth. triangles: how many of its two faces are, under the rule "smooth"; else 0.
+// Returns the mask of an edge point: sharp while both halves of the edge stay sharp, a blend where
+// one of them turns smooth. triangles: how many of the edge's two faces are triangles, under
+// SUBDIV_TRIANGLES_SMOOTH; else 0.
 static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays_sharp,
                               int faces, int triangles)
 {
@@ -2497,14 +2499,14 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
     return sdv_blend((double)(sharpness < 1 ? sharpness : 1), sdv_crease_edge(), smooth);
 }
 
-// Limit masks: where a vertex ends up when refinement goes on forever, and how the surface lies
-// there. They are the left eigenvectors of one step of refinement around the vertex: of the
-// eigenvalue 1 for the point; of the next ones for tangents, whose weights sum to 0. So they follow
-// from the masks above, whatever weights these have. They are for levels from 1 on, where all faces
-// are quads (Loop: triangles). Sharpness that is left counts as infinite [OSD].
+// Limit masks say where a vertex ends up when refinement goes on forever, and how the surface lies
+// there. They are left eigenvectors of one step of refinement around the vertex: for the point, of
+// the eigenvalue 1; for tangents, whose weights sum to 0, of the next ones. So they follow from the
+// masks above, whatever weights these have. They are for levels from 1 on, where all faces are
+// quads (Loop: triangles). Sharpness that is left counts as infinite [OSD].
 //
-// Smooth, valence n [HKD93], [Loop87]: from the weights of the vertex mask (v.edge, v.face) and of
-// the edge mask (self, face). Regular: 4/9, 1/9, 1/36; Loop 1/2, 1/12.
+// Limit point of a smooth vertex, valence n [HKD93], [Loop87], from the weights of the vertex mask
+// (v.edge, v.face) and of the edge mask (self, face). Regular: 4/9, 1/9, 1/36; Loop 1/2, 1/12.
 //
 //     f----e----f            P = (v + y (sum of e) + z (sum of f)) / (1 + n (y + z))
 //     |    |    |
@@ -2521,7 +2523,7 @@ static sdv_mask sdv_smooth_limit(const sdv_rules *rules, int n)
     return mask;
 }
 
-// On a crease or boundary: the point of the curve along it, a cubic B-spline [HDD94].
+// Limit point on a crease or boundary: on the curve along it, a cubic B-spline [HDD94].
 //
 //     1/6---2/3---1/6        P = (v + y (a + b)) / (1 + 2 y)      y = v.crease / (1 - self)
 static sdv_mask sdv_crease_limit(void)
@@ -2531,9 +2533,9 @@ static sdv_mask sdv_crease_limit(void)
     return mask;
 }
 
-// Waves around a vertex: its neighbours weigh 4 cos(i a), the vertices f across the quads g times
-// the cosines beside them. A step of refinement multiplies them by the eigenvalue L; self and face
-// are the weights of the edge mask:
+// A wave around a vertex is a set of weights that one step of refinement only multiplies, by the
+// eigenvalue L. Neighbour i weighs 4 cos(i a); the vertex f across a quad weighs g times the sum of
+// the cosines beside it. With self and face the weights of the edge mask:
 //
 //     L = (b + sqrt(b^2 - 16 self)) / 8      b = 1 + 4 self + 2 face (1 + cos a)
 //     g = 4 face / (4 L - 1)                 Loop:  L = self + 2 face cos a
@@ -2541,6 +2543,7 @@ typedef struct sdv_wave {
     double factor, face;                // L and g
 } sdv_wave;
 
+// Returns the wave whose neighbours are the angle a apart.
 static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2);
@@ -2552,14 +2555,14 @@ static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
     return wave;
 }
 
-// Tangents t0 t1, each the weights of v, of the e and of the f, counter-clockwise from any e; t0 x
-// t1 is along the normal, their lengths mean nothing. Smooth, a = 2 pi/n [HKD93], [Loop87]:
+// Tangents t0 t1 at a smooth vertex, a = 2 pi/n [HKD93], [Loop87]: weights of v, of each e and of
+// each f, counter-clockwise from any e. t0 x t1 is along the normal; their lengths mean nothing.
 //
 //     t0 = sum of  4 cos(i a) e_i + g (cos(i a) + cos((i+1) a)) f_i       t1: the same with sin
 //
-// f_i stands between e_i and e_(i+1); Loop: the e alone. Valence 2 has no two such waves. Two quads
-// back to back have no tangent plane; e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
-// triangles make a cusp, and have no t1.
+// f_i stands between e_i and e_(i+1); Loop has no f. Valence 2 has only one such wave. Two quads
+// back to back have no tangent plane: e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
+// triangles make a cusp and have no t1.
 static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, double *t1)
 {
     double a = 6.283185307179586477 / n, g = n > 2 ? sdv_wave_of(rules, a).face : 0;
@@ -2574,9 +2577,10 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
     }
 }
 
-// On a crease or boundary, for the side with k faces: e_0 and e_k are along the crease, and
-// t0 = e_0 - e_k; t1 leads across (the faces of [BLZ00] and of [HDD94] refine otherwise). It is
-// half a wave, a = pi/k, with weights x of the two ends and y of v that make it an eigenvector:
+// Tangents at a crease or boundary, for the side with k faces. e_0 and e_k are on the crease, so
+// t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have others, as their faces refine in other
+// ways). It is half a wave, a = pi/k, with weights x of the two ends and y of v that make it an
+// eigenvector:
 //
 //     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i  +  x (e_0 + e_k) + y v
 //
@@ -2585,8 +2589,8 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 //     p = (g / 4 + face) sin a         q = (4 self + 2 face + g / 2) r
 //     Loop:  p = 4 face sin a          q = 4 self r         r = (1 + cos a) / sin a
 //
-// Regular is Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v, and Loop k = 3. A single face
-// fills a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
+// At a regular vertex k = 2, so t1 = 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face
+// fills a straight angle: t1 = e_0 + e_1 - 2v, the way the curve bends.
 static void sdv_crease_tangents(const sdv_rules *rules, int k, double *t0, double *t1)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2), v = sdv_crease_vertex();
@@ -2611,15 +2615,15 @@ static void sdv_crease_tangents(const sdv_rules *rules, int k, double *t0, doubl
     t1[1] = t1[1 + k] = k == 1 ? 1 : (middle * p + v.crease * q) / determinant;
 }
 
-// The limit mask of a rule at a vertex with so many faces. A corner is where it ends up.
+// Returns the limit mask of a vertex that has a rule and so many faces. A corner stays.
 static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
 {
     if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
     return rule == SDV_CREASE ? sdv_crease_limit() : sdv_smooth_limit(rules, faces);
 }
 
-// Whether regular vertices and edges are refined as cubic B-splines and, under Loop, box splines
-// are: SUBDIV_EXACT takes their surface for that.
+// Whether the masks of regular vertices and edges are those of cubic B-splines (Loop: of box
+// splines). SUBDIV_EXACT relies on it: its patches are such splines.
 static int sdv_is_spline(const sdv_rules *rules)
 {
     static const double splines[2][6] = { { 0.5, 0.0625, 0.0625, 0.25, 0.25, 0.125 },
