@@ -2636,54 +2636,59 @@ static int sdv_is_spline(const sdv_rules *rules)
 }
 
 // ----------------------------------------------------------------------------------- >>order
-// THE ORDER OF THE RESULT (see the top) as formulas. Every cage face is a grid: a quad or a Loop
-// triangle one of n segments a side, n = 2^levels, any other polygon one quad of m = n / 2 segments
-// for each of its vertices. The points along each side of a grid and those inside it, row by
-// row, are evenly spaced in the result: so an index needs a first one and a step.
+// THE ORDER OF THE RESULT (see the top) as formulas. A cage face has a grid: a quad or a Loop
+// triangle one of n = 2^levels segments a side, any other polygon one of m = n / 2 segments for
+// each of its vertices. Corners and, between them, sides have these numbers:
+//
+//     3---2---2     2            Side 0 is row 0, side 3 is column 0. A triangle has no corner 3
+//     |       |     | \          and no side 2.
+//     3       1     3   1
+//     |       |     |     \      The points inside a side or a row are evenly spaced in the result:
+//     0---0---1     0---0---1    a first index and a step give all of them.
 
-#define SDV_MOST_LEVELS 16              // of a mesh of 2^31 faces and any level
+#define SDV_MOST_LEVELS 16              // 0 to 15: level 16 of a quad has 2^32 faces
 #ifndef SDV_FULL_LEVELS                 // (tests ask for fewer)
-#define SDV_FULL_LEVELS 3               // of work points; deeper ones are frames: see >>lines
+#define SDV_FULL_LEVELS 3               // levels up to here keep whole grids, deeper ones frames
 #endif
 
-typedef struct sdv_side {               // of a grid: where point t stands, inside the side
-    int first, step;                    // first + step * t
+typedef struct sdv_side {               // the points inside a side of a grid
+    int first, step;                    // point t has index first + step * t, 0 < t < segments
 } sdv_side;
 
-typedef struct sdv_grid {
+typedef struct sdv_grid {               // the indices of the points of a grid
     int columns, rows;                  // segments along a side
-    int triangle;
-    int inside;                         // the index of (1, 1)
+    int triangle;                       // row r has columns 0 to columns - r
+    int inside;                         // the index of row 1, column 1
     int corner[4];
-    sdv_side side[4];                   // row 0; last column (triangle: the slanted side), by row;
-                                        // last row (quads alone); column 0, by row
-    int frame;                          // of its inside there are only the points beside its sides
+    sdv_side side[4];                   // t is the column on sides 0 and 2, the row on 1 and 3
+    int frame;                          // its inside is a frame: see sdv_frame_point
 } sdv_grid;
 
-typedef struct sdv_order {
+typedef struct sdv_order {              // the indices of all points of a level or of the result
     sdv_level cage;                     // faces and edges alone
     int loop, n, m;
     int first_edge_point, first_face_point;
     int count;                          // of points
-    int frame;                          // all grids are frames: see sdv_frame_point
+    int frame;                          // all grids are frames
     const int *quads;                   // [faces + 1] of frames: how many quads come before each
 } sdv_order;                            // face; NULL: all faces are quads
 
-// A side of size segments whose points stand from first on, seen from its one end or the other.
+// Returns a side of size segments whose points have indices first, first + 1, ..., seen from the
+// end where they begin or, backwards, from the other.
 static inline sdv_side sdv_seen_side(int first, int size, int backwards)
 {
     sdv_side side = { backwards ? first - 1 + size : first - 1, backwards ? -1 : 1 };
     return side;
 }
 
-// A cage edge seen from the end that stands first in the result, or from the other.
+// Returns a cage edge seen from its lower-numbered end or, backwards, from the other.
 static inline sdv_side sdv_seen_edge(const sdv_order *order, int edge, int backwards)
 {
     int n = order->n;
     return sdv_seen_side(order->first_edge_point + edge * (n - 1), n, backwards);
 }
 
-// The cage edge that leads on from face-vertex h, seen from there or from its other end.
+// Returns the cage edge that leads on from face-vertex h, seen from h or from its other end.
 static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 {
     const sdv_level *cage = &order->cage;
@@ -2691,9 +2696,9 @@ static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
     return sdv_seen_edge(order, cage->face_edges[h], (a > b) != backwards);
 }
 
-// The first point inside face f: every face has one centre, and m (m - 1) points for each of its
-// vertices; a triangle under Loop (n - 1)(n - 2) / 2. In a frame a quad has 4 (n - 2), a triangle
-// 3 (n - 3), and an n-gon its centre, the points of its spokes, and the frames of its quads.
+// Returns the first point inside face f. Whole: a face has 1 + m (m - 1) * vertices points inside,
+// a triangle under Loop (n - 1)(n - 2) / 2. Frames: a quad has 4 (n - 2), a triangle 3 (n - 3), any
+// other polygon its centre, the points of its spokes and the frames of its quads.
 static int sdv_first_inside(const sdv_order *order, int f)
 {
     int n = order->n, m = order->m, first = order->first_face_point;
@@ -2704,7 +2709,7 @@ static int sdv_first_inside(const sdv_order *order, int f)
     return first + quads * 4 * (n - 2) + f - quads + (sides - 4 * quads) * (m - 1 + 4 * (m - 2));
 }
 
-// The face that has the point inside it.
+// Returns the cage face that has the point inside it.
 static int sdv_face_inside(const sdv_order *order, int point)
 {
     int low = 0, high = order->cage.face_count;
@@ -2716,20 +2721,21 @@ static int sdv_face_inside(const sdv_order *order, int point)
     return low;
 }
 
+// Whether face f has one grid for each of its vertices.
 static int sdv_is_ngon(const sdv_order *order, int f)
 {
     return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
 }
 
-// How many grids a face has.
+// Returns how many grids face f has.
 static int sdv_grids_of(const sdv_order *order, int f)
 {
     return sdv_is_ngon(order, f) ? sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f)
                                  : 1;
 }
 
-// The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
-// vertex and, of a quad, the one before are seen from their other ends.
+// Fills in the grid of face f, which has one, from its first face-vertex h on. Its sides are edges:
+// sides 2 and 3 run against the order of the face's vertices.
 static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
@@ -2744,15 +2750,15 @@ static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
     grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
-// An n-gon has its centre, then the points inside its spokes, each m segments and seen from its
-// edge, then those inside the quads at its vertices: this is the first one of quad i.
+// Returns the first point inside grid i of a polygon with so many sides. Its centre comes first,
+// then the points inside its spokes, each of m segments, then those inside its grids.
 static int sdv_inside_ngon(int centre, int sides, int m, int i)
 {
     return centre + 1 + sides * (m - 1) + i * (m - 1) * (m - 1);
 }
 
-// Quad i: vertex, middle of the edge, centre, middle of the edge before. The second half of that
-// edge is seen backwards.
+// Fills in grid i of an n-gon. Corners: the vertex, the middle of the edge, the centre, the middle
+// of the edge before. Sides: half of the edge, two spokes, half of the edge before.
 static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int centre, int sides,
                           int m, int i, sdv_grid *grid)
 {
@@ -2770,7 +2776,7 @@ static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int c
     grid->corner[3] = edge_before.first + edge_before.step * m;
 }
 
-// The first point inside grid i of face f.
+// Returns the first point inside grid i of face f.
 static int sdv_inside_grid(const sdv_order *order, int f, int i)
 {
     const sdv_level *cage = &order->cage;
@@ -2781,6 +2787,7 @@ static int sdv_inside_grid(const sdv_order *order, int f, int i)
                         : sdv_inside_ngon(first, sides, m, i);
 }
 
+// Fills in the grid at face-vertex h: the first one of its face, if the face has a single grid.
 static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
@@ -2798,14 +2805,22 @@ static int sdv_side_index(const sdv_grid *grid, int side, int t)
     return grid->side[side].first + grid->side[side].step * t;
 }
 
-// first: that of (1, 1), from which they follow row by row, each of a triangle one shorter.
+// Returns the index of a point inside a whole grid. Row 1, column 1 has index first, and the others
+// follow row by row; in a triangle each row is one point shorter.
 static int sdv_inside_point(int first, int columns, int triangle, int row, int column)
 {
     int64_t r = row - 1, cut = triangle ? r * row / 2 : 0;
     return (int)(first + r * (columns - 1) - cut) + column - 1;
 }
 
-// The points of a frame stand counter-clockwise, from (1, 1) on.
+// Returns the index of a point of a frame: the ring of points beside a grid's sides. Deep levels
+// keep no other points inside a grid. sdv_frame_rows makes them.
+//
+//     o . . . o
+//     . 6 5 4 .       the frame of a quad with n = 4: points 0 to 4 (n - 2) - 1, counter-clockwise
+//     . 7   3 .       from row 1, column 1 on; that of a triangle has 3 (n - 3) points
+//     . 0 1 2 .
+//     o . . . o
 static int sdv_frame_point(const sdv_grid *grid, int row, int column)
 {
     int n = grid->columns, along = n - 2 - grid->triangle, corner = n - 1;
@@ -2845,7 +2860,7 @@ static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
     return sdv_inside_index(grid, row, column);
 }
 
-// Where the points of a row stand, but those of other sides: first + step * column.
+// Returns the indices of a row as first + step * column. Its two ends may stand elsewhere.
 static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
 {
     sdv_side line = { sdv_inside_index(grid, row, 0), 1 };
@@ -2860,13 +2875,12 @@ static int sdv_grid_index(const sdv_grid *grid, int row, int column)
                           : sdv_quad_index(grid, row, column);
 }
 
-// A row of points, or what lies on it from one column to another: its two ends, and those between
-// on its line.
-typedef struct sdv_row {
-    sdv_side line;
-    int size, left, right;              // columns 0 to size
+typedef struct sdv_row {                // a part of a row of points
+    sdv_side line;                      // the points between its two ends
+    int size, left, right;              // segments; the two ends
 } sdv_row;
 
+// Returns a row from column first to column last.
 static sdv_row sdv_grid_row(const sdv_grid *grid, int row, int first, int last)
 {
     sdv_row points = { sdv_grid_line(grid, row), last - first, 0, 0 };
@@ -2893,8 +2907,9 @@ static int *sdv_put_face4(int *out, int a, int b, int c, int d)
     return out + 4;
 }
 
-// The fine faces between two rows of points, low and high: quads a b c d. First all of them as if
-// the rows' ends, too, stood on their lines; behind the last point numbers may be beyond INT_MAX.
+// Writes the fine faces between two rows of points, low and high: quads a b c d. The loop takes the
+// rows' ends for points of their lines; they are corrected behind it. Its counters are unsigned,
+// as they may step beyond INT_MAX at the end.
 //
 //     d c
 //     a b
@@ -2921,7 +2936,8 @@ static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
     return out;
 }
 
-// Triangles a b d and, turned by half, c d b; the last of a row has no c.
+// Writes the fine faces between two rows of points: triangles a b d, each but the last followed by
+// c d b, turned by half.
 static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
     int a = low->left, d = high->left;
@@ -2938,8 +2954,8 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
     return sdv_put_face3(out, a, low->right, d);
 }
 
-// The fine faces between such rows of points and such columns; in a triangle, where these run
-// along its sides, each row ends one column earlier than the one below.
+// Writes the fine faces between two rows and two columns of points. In a triangle each row ends one
+// column earlier than the one below.
 static int *sdv_grid_faces(const sdv_grid *grid, int bottom, int top, int left, int right,
                            int *out)
 {
@@ -2953,7 +2969,7 @@ static int *sdv_grid_faces(const sdv_grid *grid, int bottom, int top, int left, 
     return out;
 }
 
-// The fine faces of cage face f on level 1: every edge has one point, and there is the centre.
+// Writes the fine faces of cage face f on level 1, where every edge has one point inside.
 static int *sdv_first_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), size = sdv_face_end(&order->cage, f) - start;
@@ -2980,7 +2996,7 @@ static int *sdv_first_faces(const sdv_order *order, int f, int *out)
     return out;
 }
 
-// The fine faces of cage face f.
+// Writes the fine faces of cage face f. Returns the place behind them.
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), grids = sdv_grids_of(order, f);
