@@ -3010,9 +3010,9 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 }
 
 // ---------------------------------------------------------------------------------- >>rows
-// Masks written out: which points to add with which weights. All points that are ever looked at, of
-// all levels, stand in one array, the work points: level 0, then level 1, and so on. So a row's
-// points are work points, and evaluation need not know what a level is.
+// A row is a mask written out: the index of the point it makes (the target), the work points to add
+// up, and their weights. The work points of all levels stand in one array: level 0, then level 1,
+// and so on. So to evaluate a row, one need not know about levels.
 //
 // As weights sum to 1, a row's sum is
 //
@@ -3021,29 +3021,29 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 // whose rounding errors are those of the small differences: exact wherever the mesh stands. Most
 // masks have one or two weights beside the first: p0 + w ((p1 - p0) + (p2 - p0) + ..).
 //
-// Rows stand in batches of those that look alike, whose loop needs no branch for a point and keeps
-// its weights in registers. Batches stand in blocks, each of the rows of so many cage faces, so
+// Rows of the same shape stand in a batch, whose loop needs no branch for a point and keeps weights
+// in registers. Batches stand in blocks. A block has the rows of SDV_BLOCK_FACES cage faces, so
 // that any range of faces can be made alone.
 
 // Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
 #define SDV_RUNS 4
 
-typedef struct sdv_runs {
+typedef struct sdv_runs {               // the weights of a row, each for a run of its points
     float weight[SDV_RUNS];
-    int   count[SDV_RUNS];
+    int   count[SDV_RUNS];              // points of each run
     int   blend;                        // of two rules, by weights that hardly any other row has
 } sdv_runs;
 
 #define SDV_BLOCK_FACES 128
 
-typedef struct sdv_shape {
+typedef struct sdv_shape {              // how rows of a batch look
     int   count[3];                     // behind the first point so many points of each weight
     float weight[3];
     int   own;                          // each row has weights of its own behind its points
     int   regular;                      // of a limit: smooth, with the regular number of faces
 } sdv_shape;
 
-typedef struct sdv_batch {
+typedef struct sdv_batch {              // rows of the same shape
     sdv_shape shape;
     int       rows;
     const int *items;                   // of each row the target, the points, three floats if own
@@ -3051,41 +3051,39 @@ typedef struct sdv_batch {
     const float *limit;                 // [3][points] of a limit: weights of the point and of two
 } sdv_batch;                            // tangents; else NULL
 
-typedef struct sdv_batches {
+typedef struct sdv_batches {            // the rows of one step of refinement, or of the limit
     int        rows, blocks;
     int       *starts;                  // [blocks + 1] the first batch of each block
     sdv_batch *items;
 } sdv_batches;
 
-// A batch that rows are added to, emptied at the end of each block.
-typedef struct sdv_open_batch {
+typedef struct sdv_open_batch {         // a batch being written, emptied behind each block
     sdv_shape shape;
-    const float *limit;
+    const float *limit;                 // see sdv_batch
     int   stride;                       // ints of a row
-    int   rows, room;                   // and how many there is room for
+    int   rows, room;                   // rows there, and rows that there is room for
     int  *items;
     unsigned char *faces;
 } sdv_open_batch;
 
-// Writes rows: one at a time into points, and from there into the batch of its shape.
-typedef struct sdv_writer {
+typedef struct sdv_writer {             // writes rows into batches
     sdv_context *context;
-    sdv_arena   *arena;                 // what is written goes there
+    sdv_arena   *arena;                 // finished batches go there
     sdv_arena    scratch;               // of open batches
-    sdv_array    open;                  // sdv_open_batch: one of each shape that there was
-    int          known[256];            // numbers of these by the hash of their shape, or -1
+    sdv_array    open;                  // sdv_open_batch: one for each shape so far
+    int          known[256];            // numbers of open batches by the hash of their shape, or -1
     sdv_array    batches, starts;       // sdv_batch, int
     sdv_array    strips;                // sdv_strips: of SUBDIV_EXACT, see >>patches
-    int          rows, face;            // face: the rows that follow belong to it
-    int         *points;                // room for those of a row
+    int          rows, face;            // rows written; the cage face that new rows belong to
+    int         *points;                // room for the points of a row
     sdv_shape    shape;                 // of the last row that was looked up
     int         *smooth;                // [most + 1] open batches of smooth vertices with so many
-    int          most;                  // faces; or -1
-    int          crease, corner, middle;        // the same for vertices and edges that stay sharp,
-    int          smooth_edge;                   // and for edges of the cage that are smooth
+    int          most;                  // faces, or -1; the most faces at a vertex or sides
+    int          crease, corner, middle;        // open batches of vertices and edges that stay
+    int          smooth_edge;                   // sharp and of smooth edges of the cage, or -1
 } sdv_writer;
 
-// For rows of a cage, or of levels that are made of it.
+// Begins a writer of rows for a cage and the levels that are made of it.
 static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
                            sdv_writer *writer)
 {
@@ -3120,8 +3118,8 @@ static int sdv_same_shape(const sdv_shape *a, const sdv_shape *b)
            (a->own || memcmp(a->weight, b->weight, sizeof a->weight) == 0);
 }
 
-// The number of the open batch for rows of a shape or, with limit, of these weights. A shape whose
-// place is taken takes it over. -1: out of memory.
+// Returns the number of the open batch for rows of a shape and, of a limit, of these weights. Makes
+// one where none is known: of shapes with the same hash, only the latest is. -1: out of memory.
 static int sdv_find_open(sdv_writer *writer, const sdv_shape *shape, const float *limit)
 {
     uint32_t bits[3] = { 0, 0, 0 }, hash = 0;
@@ -3153,7 +3151,7 @@ static void sdv_grow_open(sdv_writer *writer, sdv_open_batch *open)
     open->room = (int)room;
 }
 
-// Adds a row to an open batch: where it goes; and returns the place for its points.
+// Adds a row with this target to an open batch. Returns the place for its points.
 SDV_INLINE int *sdv_put_row(sdv_writer *writer, int number, int target)
 {
     if (number < 0) return writer->points;
@@ -3166,7 +3164,7 @@ SDV_INLINE int *sdv_put_row(sdv_writer *writer, int number, int target)
     return row + 1;
 }
 
-// Adds a row of a shape, whose points are in writer->points, to its open batch.
+// Adds a row of a shape, whose points are in writer->points, to an open batch.
 static void sdv_copy_row(sdv_writer *writer, int number, const sdv_shape *shape, int target)
 {
     int points = sdv_row_points(shape), *row = sdv_put_row(writer, number, target);
@@ -3175,8 +3173,7 @@ static void sdv_copy_row(sdv_writer *writer, int number, const sdv_shape *shape,
     if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
 }
 
-// Adds the row whose points are in writer->points to the open batch of a shape. Returns the number
-// of the batch.
+// Adds the row whose points are in writer->points to the open batch of a shape. Returns its number.
 static int sdv_add_shape(sdv_writer *writer, const sdv_shape *shape, const float *limit,
                          int target)
 {
@@ -3185,7 +3182,7 @@ static int sdv_add_shape(sdv_writer *writer, const sdv_shape *shape, const float
     return number;
 }
 
-// From a row's runs to its shape: the first point apart, runs of the same weight together.
+// Returns the shape of a row: its runs without the first point, joined where weights are equal.
 static sdv_shape sdv_shape_of(const sdv_runs *runs)
 {
     sdv_shape shape;
@@ -3210,14 +3207,14 @@ static sdv_shape sdv_shape_of(const sdv_runs *runs)
     return shape;
 }
 
-// Adds the row whose points are in writer->points. Returns the number of its batch.
+// Adds the row whose points are in writer->points. Returns the number of its open batch.
 static int sdv_add_runs(sdv_writer *writer, const sdv_runs *runs, int target)
 {
     writer->shape = sdv_shape_of(runs);
     return sdv_add_shape(writer, &writer->shape, NULL, target);
 }
 
-// Writes the batches of a block.
+// Copies open batches to the batches of a new block and empties them.
 static void sdv_end_block(sdv_writer *writer)
 {
     sdv_context *context = writer->context;
@@ -3245,13 +3242,14 @@ static void sdv_end_block(sdv_writer *writer)
     }
 }
 
-// The rows that follow belong to this cage face.
+// Says that the rows added from now on belong to a cage face; ends a block where a new one begins.
 static void sdv_batch_face(sdv_writer *writer, int face)
 {
     if (face / SDV_BLOCK_FACES != writer->face / SDV_BLOCK_FACES) sdv_end_block(writer);
     writer->face = face;
 }
 
+// Ends the last block and hands all batches over. The writer can then begin with others.
 static void sdv_end_batches(sdv_writer *writer, sdv_batches *made)
 {
     sdv_context *context = writer->context;
@@ -3275,6 +3273,7 @@ static void sdv_writer_free(sdv_writer *writer)
 }
 
 #if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
+// Adds the row that makes point target, the face point of f.
 static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
@@ -3286,7 +3285,7 @@ static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *
 }
 #endif
 
-// From weights of face points to weights of what they are the mean of.
+// Replace a mask's weights of face points by weights of the vertices of these faces, all quads.
 static sdv_mask sdv_spread_vertex(sdv_mask mask, int faces)
 {
     mask.self += faces * mask.face / 4;
@@ -3302,7 +3301,7 @@ static sdv_mask sdv_spread_edge(sdv_mask mask, int faces)
     return mask;
 }
 
-// The point inside face f that is next to its vertex i; if there is one only, that.
+// Returns the point inside face f that is next to its vertex i; on level 1 the centre.
 static int sdv_inside_corner(const sdv_order *order, int f, int i)
 {
     int inside = sdv_first_inside(order, f), n = order->n;
@@ -3312,7 +3311,7 @@ static int sdv_inside_corner(const sdv_order *order, int f, int i)
     return inside + (i >= 2 ? (n - 2) * (n - 1) : 0) + (i == 1 || i == 2 ? n - 2 : 0);
 }
 
-// The points next to the vertex of h: along the edge that leads on, along the one before, and
+// Return a point next to the vertex of h: along the edge that leads on, along the one before, or
 // across the face.
 static int sdv_point_ahead(const sdv_level *level, int h)
 {
@@ -3337,8 +3336,8 @@ static int sdv_point_across(const sdv_level *level, int h)
                                  level->face_vertices[across]);
 }
 
-// Adds the neighbours of v along the edges that are sharp: now, or on the next level where a
-// corner turns into a crease. Or along the others.
+// Appends the neighbours of v along its sharp edges (sharp 1) or along the others (0). An edge is
+// sharp if it is so now or, where a corner turns into a crease, on the next level.
 static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int sharp, int *point)
 {
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
@@ -3353,7 +3352,7 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
     return point;
 }
 
-// Where the number of the batch of such vertices is kept; NULL: of a blend of two rules.
+// Returns where the writer keeps the open batch for a vertex's rule; NULL where two rules blend.
 static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
 {
     if (fading.rule < SDV_CREASE) return &writer->smooth[faces];
@@ -3361,7 +3360,7 @@ static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
     return fading.rule == SDV_CREASE ? &writer->crease : &writer->corner;
 }
 
-// The points around a smooth vertex: its neighbours, then those of its faces.
+// Writes the points around a smooth vertex: its neighbours, then a point for each of its faces.
 static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
 {
     const int *vertices = level->face_vertices;
@@ -3380,8 +3379,8 @@ static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
     }
 }
 
-// Adds the row that makes point target from vertex v and the points around. Without a crease each
-// edge at v lies between two faces. The cage on a later level has no face points: see >>lines.
+// Adds the row that makes point target from vertex v and the points around it. Without a crease
+// each edge at v lies between two faces. Later levels have no face points: see >>lines.
 static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v, int target,
                            sdv_writer *writer)
 {
@@ -3423,8 +3422,8 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
 
-// Adds the row that makes point target from the edge of h: its ends, then on each side the face
-// point or, under Loop, the vertex opposite.
+// Adds the row that makes point target from the edge of h: from its ends and, on each side, from
+// the face point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, int target,
                          sdv_writer *writer)
 {
