@@ -3458,8 +3458,8 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 }
 
 // --------------------------------------------------------------------------------- >>lines
-// From level 1 on nothing has to be found any more. The points of a level stand in THE ORDER OF THE
-// RESULT, and what lies around each follows from where it stands:
+// From level 1 on, topology is arithmetic. The points of a level stand in THE ORDER OF THE RESULT,
+// and the neighbours of each follow from where it stands:
 //
 //     inside a face      on its grid, where all is regular and smooth: see >>grids
 //     on an edge         a line of points, between the rows of points beside it
@@ -3469,49 +3469,44 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 //     v-o-o-o-v   line                                            v-o-o-o-v
 //     . . . . .   right                                            . . . .     right
 //
-// Such rows need no face points: a face point is the mean of four points, a corner of the face
-// each, so that a mask is as well one of the points at the edges' ends and of those across the
-// faces.
+// These rows need no face points. A face point is the mean of its face's four vertices, so its
+// weight in a mask goes to them in equal parts: to ends of edges and to points across faces.
 //
 // The next level's lines follow from this level's lines and the points beside them, and so do the
-// points beside the next level's lines. So that is all that deep levels keep: frames.
+// points beside the next level's lines. So deep levels keep lines and frames alone.
 
-// A row on an edge that is sharp, or was: most are like the last one.
-typedef struct sdv_last_row {
-    float     key[5];                   // what it depends on
+typedef struct sdv_last_row {           // of a line that is or was sharp: most rows are like it
+    float     key[5];                   // all that the shape depends on
     sdv_shape shape;
     int       batch;                    // -1: none yet
 } sdv_last_row;
 
-// The rows from one level to the next.
-typedef struct sdv_filler {
+typedef struct sdv_filler {             // writes the rows from one level to the next
     sdv_writer  writer;
     sdv_level   *level;                 // the cage, with the sharpness that is left on this level
     const sdv_rules *rules;
-    sdv_order    from, to;
-    int          base;                  // where the points of this level start, and those of the
-    int          target;                // next
-    int         *line, *left, *right;   // [n + 1]
-    int         *made;                  // [2 n + 1]
-    int          odd, even;             // batches of the points on smooth edges, of face points,
-    int          face;
-    sdv_last_row sharp[2];              // the last odd and even one
-    int          edges;                 // that have their rows; faces meet them in this order
+    sdv_order    from, to;              // of this level, of the next one
+    int          base;                  // where the points of this level start,
+    int          target;                // where those of the next one start
+    int         *line, *left, *right;   // [n + 1] the points of a line and those beside it
+    int         *made;                  // [2 n + 1] points of the next level, beside a line of it
+    int          odd, even;             // open batches: of edge and vertex points on smooth lines,
+    int          face;                  // of face points
+    sdv_last_row sharp[2];              // of edge points, of vertex points
+    int          edges;                 // edges that have rows so far; faces meet them in order
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
-// The sharpness of edges piece by piece, of this level and the next.
-typedef struct sdv_pieces {
-    int   *number;                      // [edges] among those that are semi-sharp, or -1
-    int    count;
-    float *now, *next;                  // [n * count], [2 n * count]
+typedef struct sdv_pieces {             // the sharpness of semi-sharp edges, piece by piece
+    int   *number;                      // [edges] the number of an edge among these, or -1
+    int    count;                       // of these edges; each has n pieces on this level
+    float *now, *next;                  // [n * count] on this level, [2 n * count] on the next
 } sdv_pieces;
 
-// An edge and its pieces.
-typedef struct sdv_edge_line {
+typedef struct sdv_edge_line {          // the edge of face-vertex h, cut into n pieces
     int h, n;
-    float sharpness;                    // of all pieces, if it is 0 or forever;
-    const float *now, *next;            // else that of each, and of its halves; or NULL
+    float sharpness;                    // of every piece, if it is 0 or forever;
+    const float *now, *next;            // else of each piece, and of each half; or NULL
 } sdv_edge_line;
 
 static sdv_edge_line sdv_line_at(const sdv_filler *fill, int h)
@@ -3525,7 +3520,7 @@ static sdv_edge_line sdv_line_at(const sdv_filler *fill, int h)
     return line;
 }
 
-// Where point t beside a side stands on its grid.
+// Finds the row and column of point t beside a side of a grid, counter-clockwise.
 static void sdv_beside_side(int n, int triangle, int side, int t, int *row, int *column)
 {
     int last = n - 1, back = triangle ? last - t : n - t;
@@ -3535,7 +3530,8 @@ static void sdv_beside_side(int n, int triangle, int side, int t, int *row, int 
     else *row = back, *column = 1;
 }
 
-// The points beside a side of a grid whose inside starts at a point, step by step from at on.
+// Writes the points beside a side of a grid, counter-clockwise, point t to at[step * t]. inside:
+// the first point inside the grid.
 static void sdv_put_beside(const sdv_order *order, int n, int inside, int side, int step, int *at)
 {
     int triangle = order->loop, last = n - 1 - triangle, row, column;
@@ -3549,10 +3545,11 @@ static void sdv_put_beside(const sdv_order *order, int n, int inside, int side, 
         sdv_beside_side(n, 1, side, t, &row, &column);
         at[step * t] = sdv_inside_point(inside, n, 1, row, column);
     }
-    if (order->frame && side == 3 - triangle) at[step * last] = inside;        // all around
+    if (order->frame && side == 3 - triangle) at[step * last] = inside;        // the ring closes
 }
 
-// The points in the row beside the edge of h inside its face, as seen from there or backwards.
+// Writes the points inside the face of h that are beside its edge, from h on or backwards, and at
+// both ends those on the edges before and after it. n + 1 points; Loop: n.
 static void sdv_points_beside(const sdv_order *order, int base, int h, int backwards, int *out)
 {
     const sdv_level *cage = &order->cage;
@@ -3575,7 +3572,7 @@ static void sdv_points_beside(const sdv_order *order, int base, int h, int backw
     sdv_put_beside(order, m, base + sdv_inside_grid(order, f, next), 3, step, at + step * m);
 }
 
-// The points of the edge of h.
+// Writes the n + 1 points of the edge of h, with its ends.
 static void sdv_points_on_edge(const sdv_order *order, int base, int h, int *out)
 {
     const sdv_level *cage = &order->cage;
@@ -3585,7 +3582,7 @@ static void sdv_points_on_edge(const sdv_order *order, int base, int h, int *out
     out[order->n] = base + cage->face_vertices[sdv_next(cage, h)];
 }
 
-// Piece j of a line and what is beside it.
+// Writes the points at piece j of a line: its ends, then the points beside it.
 SDV_INLINE void sdv_points_at_piece(const sdv_filler *fill, int loop, int j, int *points)
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
@@ -3598,7 +3595,7 @@ SDV_INLINE void sdv_points_at_piece(const sdv_filler *fill, int loop, int j, int
     points[5] = right[j + 1];
 }
 
-// Point t of a line and those around it: along it, beside it, and across the faces there.
+// Writes point t of a line and those around it: along it, beside it, and across the faces there.
 SDV_INLINE void sdv_points_around(const sdv_filler *fill, int loop, int t, int *points)
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
@@ -3614,7 +3611,7 @@ SDV_INLINE void sdv_points_around(const sdv_filler *fill, int loop, int t, int *
     points[8] = right[t + 1];
 }
 
-// The odd and even points of a smooth line: those of its pieces and those that it has.
+// Adds the rows of a smooth line: of the odd points, one on each piece, and of the even ones.
 SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side target)
 {
     int at = target.first + target.step;
@@ -3625,7 +3622,7 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
         sdv_points_around(fill, loop, t, sdv_put_row(&fill->writer, fill->even, at));
 }
 
-// Adds a row on a sharp edge that is not like the last one, and remembers it.
+// Adds a row on a sharp edge that is not like the last one, and keeps it as the last one.
 static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
 {
     memcpy(row->key, key, sizeof row->key);
@@ -3633,7 +3630,7 @@ static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *
     sdv_copy_row(&fill->writer, row->batch, &row->shape, target);
 }
 
-// The odd points of a line that is sharp, or was.
+// Add the rows of odd and of even points of a line that is or was sharp.
 static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
 {
     int loop = fill->rules->loop, at = target.first + target.step;
@@ -3687,7 +3684,7 @@ static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side 
     }
 }
 
-// The rows of the points inside the edge of h, which is its first face-vertex.
+// Adds the rows of the points inside an edge, h being its first face-vertex.
 static void sdv_line_rows(sdv_filler *fill, int h)
 {
     sdv_edge_line line = sdv_line_at(fill, h);
@@ -3708,8 +3705,8 @@ static void sdv_line_rows(sdv_filler *fill, int h)
     }
 }
 
-// A polygon that is no quad: the lines of points from the middles of its edges to its centre, the
-// spokes, and the centre. Spoke i is between the quads at vertices i and i + 1.
+// Finds the points of spoke i of an n-gon, from the middle of edge i to the centre, and those
+// beside it: left in the grid at vertex i, right in the grid at vertex i + 1.
 static void sdv_spoke_points(sdv_filler *fill, int f, int i)
 {
     const sdv_order *order = &fill->from;
@@ -3725,6 +3722,7 @@ static void sdv_spoke_points(sdv_filler *fill, int f, int i)
     }
 }
 
+// Adds the rows of the points inside the spokes of an n-gon, and of its centre.
 static void sdv_spoke_rows(sdv_filler *fill, int f)
 {
     const sdv_level *cage = &fill->from.cage;
@@ -3748,8 +3746,8 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
     sdv_add_runs(&fill->writer, &runs, centre);
 }
 
-// Points first to last of the row that comes between a line and the row beside it: they are face
-// points and edge points or, under Loop, edge points alone. made: where they stand; -1: not wanted.
+// Adds the rows of points first to last between a line and the points beside it: face points and
+// edge points or, under Loop, edge points alone. Row t makes point fill->made[t]; -1: no row.
 static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int last)
 {
     const int *line = fill->line, *made = fill->made;
@@ -3769,7 +3767,7 @@ static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int 
     }
 }
 
-// The frame of face f on the next level.
+// Adds the rows that make the frames of face f on the next level: beside its edges and its spokes.
 static void sdv_frame_rows(sdv_filler *fill, int f)
 {
     const sdv_order *from = &fill->from, *to = &fill->to;
