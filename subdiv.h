@@ -4091,14 +4091,13 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 
 // ------------------------------------------------------------------------------- >>prepare
 
-// The mask of a limit row: see >>limit-rows.
-typedef struct sdv_limit_weights {
+typedef struct sdv_limit_weights {      // the mask of a limit row: see >>limit-rows
     int    count;                       // points
     float *weights;                     // [3][count] for the position, then for either tangent
 } sdv_limit_weights;
 
-// What makes a surface for SUBDIV_EXACT and begins its evaluation. A program that does not ask for
-// such surfaces is not given their code: nothing else names these functions.
+// The functions that prepare and evaluate a surface for SUBDIV_EXACT. Only calls that may make such
+// a surface name them, so programs without these calls do not get their code.
 typedef struct sdv_exact_calls {
     void (*create)(sdv_context *context, subdiv_surface *surface);
     void (*prepare)(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -4111,48 +4110,48 @@ typedef struct sdv_exact_calls {
 static const sdv_exact_calls *sdv_find_exact_calls(void);       // NULL under SUBDIV_NO_EXACT
 
 struct subdiv_surface {
-    // Of every surface.
+    // Every surface.
     sdv_arena arena;                    // its first block holds this struct
-    sdv_arena points;                   // of what makes points alone: rows, patches
+    sdv_arena points;                   // holds what only makes points: rows, patches
     int       levels;
     sdv_rules rules;
     sdv_order order;                    // of the result, and the topology of the cage
     int       cage_vertex_count, cage_face_count;
     int       face_count;               // of the cage, also faces without values
     int      *cage_face;                // [face_count] the user's face; NULL: the same
-    int       borrows;                  // the cage's faces, as the cage outlives the surface; it
-                                        // is the library's own: nobody asks it for locations
+    int       borrows;                  // the faces are the user's, not copied, and no locations
+                                        // are looked up: the surface lives for a single call
 
-    // What makes its points; from level 1 on.
+    // Making the points, from level 1 on.
     int       work_count;               // work points
-    sdv_batches *refine;                // [levels] the rows to each next level; of SUBDIV_EXACT
-                                        // [2 levels]: to face points, to the others
-    sdv_order *orders;                  // [levels + 1] of the work points; not of SUBDIV_EXACT
-    int      *bases;                    // [levels + 2] where levels start among them
+    sdv_batches *refine;                // [levels] the rows to each next level; SUBDIV_EXACT:
+                                        // [2 levels] the rows of face points, of other points
+    sdv_order *orders;                  // [levels + 1] of each level; not of SUBDIV_EXACT
+    int      *bases;                    // [levels + 2] the first work point of each level
     int      *quads;                    // see sdv_order
-    sdv_batches limit_rows;             // of a limit: from the last level to it
-    subdiv_surface *at_level_1;         // of a limit on level 0: what makes its points
+    sdv_batches limit_rows;             // from the last level to the limit
+    subdiv_surface *at_level_1;         // makes the limit of level 0; else NULL
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     const struct sdv_exact_calls *exact_calls;
 
-    // What is known of the result before its points are made; not of SUBDIV_EXACT.
+    // The result before its points are made; not of SUBDIV_EXACT.
     subdiv_mesh fine;                   // without positions; without faces if levels > 0
     unsigned char *hole;                // [face_count]
-    int      *first_face;               // [face_count + 1] of each one's fine faces; NULL: none are
-                                        // left out, see sdv_first_fine_face
+    int      *first_face;               // [face_count + 1] the first fine face of each face; NULL:
+                                        // none are left out, see sdv_first_fine_face
 
-    // What the result carries along.
+    // Data that the result carries along.
     subdiv_surface *uv;                 // UVs: a surface of their own; or NULL
     float    *uvs, *colors;             // of the cage
 
-    // Of a surface of values.
+    // Surfaces of face-varying values alone.
     int       is_values;                // made by subdiv_prepare_face_varying
     int      *source;                   // [cage_vertex_count] which of the user's values each
                                         // vertex takes; NULL: the same
     int      *own_face;                 // [face_count] the face of order, -1: without values; NULL:
 };                                      // the same
 
-// Cuts faces into fans around vertex 0: what each face-vertex has.
+// Cuts faces into fans around vertex 0. v has one item for each face-vertex, out three a triangle.
 static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
 {
     for (int f = 0; f < cage->face_count; f++) {
@@ -4166,8 +4165,8 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for
-// it: fans around vertex 0, a choice that needs no positions. cage_face says what each is cut from.
+// Gives work the faces of the cage, copied or borrowed. Under Loop, larger faces are cut into fans
+// around vertex 0, a choice that needs no positions; cage_face says what each is cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
@@ -4202,7 +4201,7 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
             surface->cage_face[work->face_count++] = f;
 }
 
-// Holes of faces that were cut: all their triangles.
+// Makes all triangles of a hole holes, if faces were cut.
 static void sdv_cut_holes(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                           const subdiv_mesh *cage)
 {
@@ -4228,7 +4227,7 @@ static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
         }
 }
 
-// Does a result of so many levels fit? Asked before anything is built; edges < 0: not known yet.
+// Fails if a result of so many levels is too large. edges: of the cage; -1: not counted yet.
 static void sdv_check_size(sdv_context *context, const subdiv_mesh *work, int levels, int edges)
 {
     uint64_t face_vertices = sdv_face_vertex_count(work), faces = (uint64_t)work->face_count;
@@ -4250,13 +4249,13 @@ static void sdv_check_size(sdv_context *context, const subdiv_mesh *work, int le
                  "%d levels of this mesh make more than %d vertices", levels, INT_MAX);
 }
 
-// Sharpness that is left on the result and not implied by its shape.
+// Whether the result lists a sharpness: some is left, and it is not implied by the mesh's shape.
 static int sdv_survives(float sharpness)
 {
     return sharpness > 0 && sharpness <= SUBDIV_INFINITE;
 }
 
-// Has the edge a face that is not left out of the result?
+// Whether edge e has a face that is not left out of the result.
 static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage, int e)
 {
     int seen = surface->fine.hole_count > 0, first = cage->edge_first[e], h = first;
