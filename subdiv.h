@@ -4265,26 +4265,26 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
 }
 
 // ------------------------------------------------------------------------------ >>limit-rows
-// Rows that make points of the limit and their tangents from the last level.
+// A limit row makes a point of the limit and its two tangents from points of the last level.
 
-// What the weights of a limit row depend on, with the number of faces: all those around a smooth
-// vertex; those between the two edges of a crease; of a corner none. Tips have the tangents of one
-// face's edges: a corner and, loose, a crease or smooth vertex whose faces are no such fan, which
-// takes a non-manifold crease or a vertex that is twice in a face.
+// The weights of a limit row depend on its kind and on the number of faces. A ring is a smooth
+// vertex with all its faces, a span a crease with the faces on one side, a tip a corner: its
+// tangents are two edges of a face. A loose crease or ring has the tangents of a tip, as its faces
+// are no such fan: a crease is non-manifold or a vertex is twice in a face.
 typedef enum sdv_limit_kind {
     SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING, SDV_LIMIT_KINDS
 } sdv_limit_kind;
 
-// Writes limit rows. Masks are found by kind and number of faces.
-typedef struct sdv_limit_writer {
+typedef struct sdv_limit_writer {       // writes limit rows
     sdv_writer *writer;
     const sdv_level *level;             // the last
     const sdv_rules *rules;
-    sdv_array   masks;                  // sdv_limit_weights
+    sdv_array   masks;                  // sdv_limit_weights, one for each kind and number of faces
     int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
-    double     *tangents;               // [2 * (2 most + 2)]
+    double     *tangents;               // [2 * (2 most + 2)] room for those of a mask
 } sdv_limit_writer;
 
+// Makes the mask of a kind. Its points are in the order of sdv_add_fan or sdv_add_tip.
 static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
     static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER, SDV_CREASE,
@@ -4313,7 +4313,7 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     return made;
 }
 
-// The number of a mask.
+// Returns the number of the mask of a kind, and makes it the first time.
 static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
     int *known = &limit->known[(int)kind * (limit->writer->most + 1) + faces];
@@ -4326,8 +4326,8 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
     return *known = (int)limit->masks.count++;
 }
 
-// The points of count faces from h on, counter-clockwise: the neighbours, of a crease also the one
-// behind the last face, then the vertices across.
+// Appends the points of count faces from h on, counter-clockwise: the neighbours (at a crease also
+// the one behind the last face), then the vertices across the faces.
 static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
 {
     int *across = point + count + crease;
@@ -4340,8 +4340,8 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
     return across;
 }
 
-// The faces on one side of a crease at the vertex of h: how many, and the first of them. 0 if they
-// close to a ring or the same edge bounds them twice.
+// Counts the faces on the side of a crease where h is, and finds the first of them. 0 if they close
+// to a ring or the same edge bounds them twice.
 static int sdv_find_span(const sdv_level *level, int h, int *first)
 {
     int count = 1, last = h, at;
@@ -4352,8 +4352,8 @@ static int sdv_find_span(const sdv_level *level, int h, int *first)
     return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
 }
 
-// A tip: the two neighbours in the face of h; then, for the position, those along the crease, or
-// all.
+// Appends the points of a tip: for the tangents, the two neighbours in the face of h; for the
+// position of a loose crease, those along it; of a loose ring, all around.
 static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
 {
     int v = level->face_vertices[h];
@@ -4368,7 +4368,7 @@ static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int 
     return point;
 }
 
-// A row of the limit whose points are there already.
+// Adds a limit row whose points are in limit->writer->points.
 static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, int faces, int target)
 {
     int number = sdv_find_limit_mask(limit, kind, faces);
@@ -4381,9 +4381,9 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
     sdv_add_shape(limit->writer, &shape, mask->weights, target);
 }
 
-// The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
-// the vertex, its neighbours and, under Catmull-Clark, the vertices across its faces. h is the face
-// whose surface counts at a crease and whose edges at a corner.
+// Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
+// the vertices across its faces. A crease gets the limit of the side where h is, a corner the
+// tangents of the face of h.
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
