@@ -4420,10 +4420,10 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
 }
 
 // ------------------------------------------------------------------------------------ >>fill
-// The rows of all levels: of the cage's vertices and edges, then of lines and vertices level by
-// level, and those of the limit.
+// Makes the rows of a surface: those of the cage's vertices and edges, then level by level those of
+// vertices and lines, and finally those of the limit.
 
-// Where the points of a level stand, for a cage that is known.
+// Returns the order of the points of a level.
 static sdv_order sdv_order_at(const subdiv_surface *surface, int level, int frame)
 {
     sdv_order order = surface->order;
@@ -4458,14 +4458,15 @@ static void sdv_count_quads(sdv_context *context, subdiv_surface *surface)
     surface->quads = quads;
 }
 
-// The face points of the cage are work points, as edge and vertex points are made from them: the
-// first one. They stand where they do on level 1 or, if that is the result, behind level 0.
+// Returns the first of the cage's face points. They are work points, as edge and vertex points are
+// made from them: on level 1, at their places there or, if level 1 is the result, behind level 0.
 static int sdv_first_face_point(const subdiv_surface *surface)
 {
     int last = surface->levels == 1 && !surface->rules.limit;
     return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1, 0).first_face_point);
 }
 
+// Gives the semi-sharp edges of the cage their pieces: on level 0 one each.
 static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_level *cage, int n,
                            sdv_pieces *pieces)
 {
@@ -4484,8 +4485,7 @@ static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_lev
     }
 }
 
-// The creases of the result on an edge, piece by piece; while there is no room they are only
-// counted.
+// Adds the creases of the result on edge e, piece by piece. Without room in fine only counts them.
 static void sdv_add_creases(subdiv_mesh *fine, const sdv_order *order, const sdv_level *cage, int e,
                             const sdv_pieces *pieces, size_t *count)
 {
@@ -4539,8 +4539,8 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     }
 }
 
-// From a level to the next: the halves of the pieces are its pieces. Those at an edge's ends fade
-// as the vertex there says, others by their neighbours.
+// Goes on to the next level: halves become pieces, and the halves of these are found. Those at an
+// edge's ends fade as the vertex there says, others by their neighbours.
 static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
 {
     float *swap = pieces->now;
@@ -4562,7 +4562,7 @@ static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
     }
 }
 
-// The cage with the sharpness that is left on the next level, at the ends of its edges.
+// Gives the cage the sharpness that is left on the next level, at the ends of its edges.
 static void sdv_fade_cage(sdv_level *level)
 {
     for (int v = 0; v < level->vertex_count; v++) {
@@ -4574,6 +4574,7 @@ static void sdv_fade_cage(sdv_level *level)
     if (level->sums) level->sums += 2 * (size_t)level->origin_count;
 }
 
+// Begins the rows from one level to the next: finds the open batches of smooth points.
 static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int level, int last)
 {
     int loop = surface->rules.loop;
@@ -4600,8 +4601,8 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
-// The rows that make a level from the one before, face by face: of the vertices and edges that no
-// face before it has, and those inside it that are not on a grid.
+// Adds the rows that make level + 1, face by face: those of the vertices and edges that no earlier
+// face has, and those of points inside the face that no grid makes.
 static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
 {
     sdv_writer *writer = &fill->writer;
@@ -4629,8 +4630,8 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
     sdv_end_batches(writer, &surface->refine[level]);
 }
 
-// The limit of point t of a line: on a crease that of the surface on its left; linear, where the
-// tangents are two edges.
+// Adds the limit row of point t of a line. A crease (sharp 2) gets the limit of the side to its
+// left. Linear surfaces have two edges for tangents.
 static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, int t, int sharp,
                                int target)
 {
@@ -4656,6 +4657,8 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
     sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
 }
 
+// Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
+// centre.
 static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
 {
     const sdv_level *level = fill->level;
@@ -4688,7 +4691,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
         points[1 + i] = fill->line[m - 1];
         points[1 + sides + i] = fill->right[m - 1];
     }
-    if (fill->rules->linear) {              // of the quad at vertex 0
+    if (fill->rules->linear) {              // two edges of the quad at vertex 0
         points[2] = points[1];
         points[1] = points[sides];
     }
@@ -4696,6 +4699,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
     else sdv_limit_batch_row(limit, SDV_RING, sides, centre);
 }
 
+// Adds all limit rows. Vertices without faces stay where they are.
 static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
 {
     static const float stay[3] = { 1, 0, 0 };
@@ -4729,6 +4733,7 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
     sdv_array_free(&limit.masks);
 }
 
+// Whether any sharpness of the cage is semi-sharp.
 static int sdv_is_semi(const sdv_level *cage)
 {
     int semi = 0;
@@ -4740,8 +4745,8 @@ static int sdv_is_semi(const sdv_level *cage)
     return semi;
 }
 
-// Where each level starts among the work points. The last one is there for a limit alone. whole: if
-// none were a frame.
+// Finds the first work point of each level. The last level has work points for a limit alone.
+// whole: with whole grids on all levels, no frames.
 static int *sdv_find_bases(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
                            int whole)
 {
@@ -4760,7 +4765,7 @@ static int *sdv_find_bases(sdv_context *context, sdv_arena *arena, const subdiv_
     return bases;
 }
 
-// sharpness: the result has what is left of the cage's.
+// Makes all rows of a surface. sharpness: the result lists the creases and corners that are left.
 static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                              int sharpness, sdv_arena *scratch)
 {
@@ -4781,7 +4786,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
     surface->orders = SDV_NEW(context, &surface->points, sdv_order, (size_t)levels + 1);
-    for (int i = 0; i <= levels && !context->result; i++)      // beyond some level, in frames
+    for (int i = 0; i <= levels && !context->result; i++)      // deep levels have frames
         surface->orders[i] = sdv_order_at(surface, i, i > SDV_FULL_LEVELS);
     surface->bases = sdv_find_bases(context, &surface->points, surface, 0);
     surface->work_count = context->result ? 0 : surface->bases[levels + 1];
@@ -4799,16 +4804,16 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     sdv_writer_free(&fill.writer);
 }
 
-// The first fine face of face f, or how many there are before any.
+// Returns the first fine face of face f; of the face behind the last one, how many there are.
 static int sdv_first_fine_face(const subdiv_surface *surface, int f)
 {
     const sdv_order *order = &surface->order;
     if (surface->first_face) return surface->first_face[f];
-    int64_t n = order->n, m = order->m;         // of no faces any number of levels fits
+    int64_t n = order->n, m = order->m;         // without faces n may be 2^30
     return (int)(order->loop ? f * n * n : sdv_face_start(&order->cage, f) * m * m);
 }
 
-// The faces of the result.
+// Counts the faces of the result, and those that are holes.
 static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, int keep_holes)
 {
     subdiv_mesh *fine = &surface->fine;
@@ -4830,7 +4835,7 @@ static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, 
     surface->first_face = first_face;
 }
 
-// SUBDIV_EXACT has no result: no points, no faces.
+// Empties the result of a surface for SUBDIV_EXACT, which has no points and no faces.
 static void sdv_no_result(subdiv_surface *surface)
 {
     surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
