@@ -4843,24 +4843,22 @@ static void sdv_no_result(subdiv_surface *surface)
 }
 
 // ---------------------------------------------------------------------------------- >>create
-// A surface, from the cage and what the options say.
+// Makes a surface from a cage and options.
 
-// Values at the vertices of faces that are to be refined along.
-typedef struct sdv_values {
+typedef struct sdv_values {             // face-varying values to refine
     int        count;
     const int *indices;                 // [face-vertices] -1: none
     subdiv_uv_rule rule;
 } sdv_values;
 
-// What a surface is to be made from.
-typedef struct sdv_request {
+typedef struct sdv_request {            // says what surface to make
     const subdiv_mesh *cage;
     int                levels;
     const subdiv_options *opt;
     const sdv_exact_calls *exact;       // NULL: SUBDIV_EXACT is no number of levels
     int                borrows;         // see subdiv_surface
-    int                alone;           // only values are asked for, and the cage's UVs are not:
-    sdv_values         values;          // these
+    int                alone;           // of these values alone, not of positions and UVs
+    sdv_values         values;
 } sdv_request;
 
 static sdv_request sdv_request_of(const subdiv_mesh *cage, int levels,
@@ -4877,6 +4875,7 @@ static sdv_request sdv_request_of(const subdiv_mesh *cage, int levels,
     return request;
 }
 
+// Checks a request and the topology of its cage.
 static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
                               const sdv_request *r)
 {
@@ -4890,7 +4889,7 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
         sdv_check_triangles(context, cage);
 }
 
-// The values that go with the positions, or instead of them.
+// Checks the values that go with the positions, or instead of them.
 static void sdv_check_carried(sdv_context *context, const sdv_request *r)
 {
     const subdiv_mesh *cage = r->cage;
@@ -4924,7 +4923,7 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, const sdv_request *
     return surface;
 }
 
-// Takes the cage over, as work: its faces, perhaps cut; and begins the surface of the values.
+// Copies the cage to work, its faces cut if need be. Begins the surface of its values.
 static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const sdv_request *request,
                           subdiv_mesh *work, sdv_values *values)
 {
@@ -4945,7 +4944,7 @@ static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const s
     values->indices = indices;
 }
 
-// The rules that all values share with the positions, and the faces that they are seen on.
+// Gives a surface of values the rules and fine faces of the surface of positions.
 static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_surface *surface)
 {
     made->rules = surface->rules;
@@ -4960,7 +4959,7 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
         made->first_face[f] = sdv_first_fine_face(surface, f);
 }
 
-// A surface of values over a surface that is being prepared from a cage.
+// Prepares a surface of values that goes with a surface of positions.
 static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
                                const subdiv_surface *surface, const subdiv_mesh *work,
                                const sdv_cage *cage, const sdv_values *values)
@@ -4987,7 +4986,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->cage_face_count = seams.level.face_count;
     made->order.cage = seams.level;
     made->rules.linear |= values->rule == SUBDIV_UV_ALL;
-    // In the limit the points inside straight edges need no care: they are on a straight crease.
+    // The exact limit needs no rule for straight edges: their points are on a straight crease.
     made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES && !made->exact;
     made->rules.limit = 0;
     sdv_set_order(made);
@@ -5000,7 +4999,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     sdv_arena_free(&scratch);
 }
 
-// Level 0 of values: as they are.
+// Prepares level 0 of values: a copy of their indices.
 static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const subdiv_mesh *work,
                             const sdv_values *values)
 {
@@ -5016,7 +5015,7 @@ static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const su
                                                      (size_t)work->face_count, sizeof(int));
 }
 
-// Level 0: everything as it is.
+// Prepares level 0: a copy of the cage.
 static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *work,
                              const sdv_values *values)
 {
@@ -5040,7 +5039,8 @@ static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, cons
     if (surface->uv && !context->result) sdv_copy_values(context, surface->uv, work, values);
 }
 
-// Statements stand before the first fine face of their face, or of the next one that has any.
+// Copies the statements. Each stands before the first fine face of its face, or of the next face
+// that has any.
 static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
                                 const subdiv_mesh *cage)
 {
@@ -5062,7 +5062,7 @@ static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
     }
 }
 
-// UVs, colours and statements go with the surface.
+// Copies the UVs, colours and statements that go with the surface.
 static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage)
 {
     size_t uvs = 2 * (size_t)cage->uv_count;
@@ -5078,7 +5078,7 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
     sdv_keep_statements(context, surface, cage);
 }
 
-// The cage's rules, and what the result will be.
+// Sets the rules of a surface from the cage and the options, and counts what the result will have.
 static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
                           const sdv_request *request, const sdv_cage *built)
 {
