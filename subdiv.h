@@ -5144,15 +5144,15 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
 }
 
 // --------------------------------------------------------------------------------- >>results
-// Where the points of a result go, four channels at a time.
+// Writes the points of a result, four channels at a time.
 
-typedef struct sdv_window {             // a part of the result, four channels of it or fewer
-    float *values;                      // of point first; NULL: not wanted
+typedef struct sdv_window {             // the points to write, up to four channels of each
+    float *values;                      // where point first goes; NULL: not wanted
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-    int    first, count;                // so many points are written
-    int    clip;                        // others come, too, and are left out
-    struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
+    int    first, count;                // points first to first + count - 1 are written
+    int    clip;                        // points outside this range come, too, and are left out
+    struct sdv_tangents *tangents;      // of a limit: where normals and tangents go, or NULL
 } sdv_window;
 
 SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
@@ -5169,6 +5169,7 @@ SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
     }
 }
 
+// Writes point index of the result, if the window wants it.
 SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 {
     int i = index - out->first;
@@ -5176,8 +5177,8 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
         sdv_store_some(out->values + out->stride * (size_t)i, a, out->lanes);
 }
 
-// Writes four points, of which lane i of x[k] is channel k of point i, to where they stand in the
-// window, if they do.
+// Writes four points to places at in the window, if below count. Lane i of x[k] is channel k of
+// point i.
 SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
                                 const int *at, int count)
 {
