@@ -5189,16 +5189,16 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
-// What a limit's points have besides their place: tangents, which rows and grids have weights for,
-// and normals.
+// Writes the normals and tangents of the limit's points. Rows and grids make the tangents; normals
+// are made from these, four at a time.
 
-#define SDV_WAITING 16                  // points that wait at most: fours of them
+#define SDV_WAITING 16                  // points that wait at most; a multiple of 4
 
-typedef struct sdv_tangents {           // a part of the result, that of its sdv_window
-    float *normals, *tangents;          // or NULL
+typedef struct sdv_tangents {           // goes with an sdv_window and has the same points
+    float *normals, *tangents;          // where they go, or NULL
     size_t stride, tangent_stride;      // floats from point to point
-    int      count;                     // points that wait, as normals are made four at a time:
-    int      at[SDV_WAITING];           // where in the part they stand,
+    int      count;                     // points that wait until there are enough;
+    int      at[SDV_WAITING];           // their places in the window
     sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents
 } sdv_tangents;
 
@@ -5214,15 +5214,15 @@ static void sdv_cross(const double *a, const double *b, double *n)
     n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// A vector made 1 long, or 0.
+// Scales a vector to length 1. The vector 0 stays.
 SDV_INLINE void sdv_make_unit(const double *n, float *unit)
 {
     double squares = sdv_dot3(n, n), scale = squares > 0 ? 1 / sqrt(squares) : 0;
     for (int k = 0; k < 3; k++) unit[k] = scale > 0 ? (float)(n[k] * scale) : 0;
 }
 
-// a x b made 1 long or, if that is rounding alone, 0: if the square of the sine is no more than
-// this. In doubles, whose range holds the squares of products of all floats.
+// Scales a x b to length 1 or, where it is no more than rounding, to 0: parallel is the largest
+// squared sine of such an angle. Doubles hold the squares of products of all floats.
 static void sdv_unit_cross(const double *a, const double *b, double parallel, float *unit)
 {
     double n[3];
@@ -5231,7 +5231,7 @@ static void sdv_unit_cross(const double *a, const double *b, double parallel, fl
     sdv_make_unit(n, unit);
 }
 
-// Along a x b, tangents that rounding may have turned by 1e-6.
+// Makes the unit normal of tangents a and b, which rounding may have turned by 1e-6.
 static void sdv_unit_normal(const float *a, const float *b, float *normal)
 {
     double x[3] = { (double)a[0], (double)a[1], (double)a[2] };
@@ -5244,9 +5244,9 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
     return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
-// Unit normals for four pairs of tangents, channel by channel. Floats do unless products are too
-// small or too large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin
-// loses digits.
+// Makes the unit normals of four pairs of tangents, channel by channel. Floats suffice unless their
+// products are too small or too large or a and b are almost parallel: n n = a a b b sin^2, and a
+// small sine costs digits.
 SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
 {
     const float least = 1e-30f, least_sin2 = 1.0f / 64;
@@ -5273,8 +5273,8 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four 
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// Writes the normals and tangents of four points, channel by channel, where they stand in the
-// window.
+// Writes the normals and tangents of four points, given channel by channel, to places at, if below
+// count.
 static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
                                   sdv_four *along, sdv_four *across)
 {
@@ -5289,7 +5289,7 @@ static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, i
     sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at, count);
 }
 
-// Writes the points that wait.
+// Writes the normals and tangents of the points that wait.
 static void sdv_flush_tangents(sdv_tangents *tangents)
 {
     for (int i = tangents->count; i % 4 > 0; i++) tangents->at[i] = -1;
@@ -5302,6 +5302,7 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     tangents->count = 0;
 }
 
+// Makes a point wait with its tangents, if the window has it.
 static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across)
 {
     sdv_tangents *tangents = out->tangents;
@@ -5314,7 +5315,7 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
     if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
 }
 
-// The normals of four points that stand one behind the other.
+// Writes the normals of four points that stand one behind the other.
 static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *along,
                             sdv_four *across)
 {
