@@ -5330,10 +5330,10 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
 }
 
 // --------------------------------------------------------------------------------- >>grids
-// The general step: the points of a level from those of the level before, by nothing but masks: in
+// The general step makes the points of a level from those of the level before, by masks alone: in
 // batches of rows and, inside faces, grid by grid.
 
-// The sum of p - p0 for n points. n is a constant where it is called for rows that occur often.
+// Returns the sum of p - p0 over n points. n is a constant in calls for rows that occur often.
 SDV_INLINE sdv_four sdv_run_sum(const int *points, int n, sdv_four p0, const float *work)
 {
     sdv_four sum = sdv_all(0);
@@ -5353,8 +5353,7 @@ SDV_INLINE sdv_four sdv_run_sum(const int *points, int n, sdv_four p0, const flo
     return sum;
 }
 
-// The sum of a row: p0 + w0 (sum of p - p0) + ..., whose rounding errors are those of the
-// differences.
+// Returns the sum of a row as >>rows says: p0 + w0 (sum of p - p0) + ...
 SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, const float *w,
                                   const float *work)
 {
@@ -5369,8 +5368,7 @@ SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, con
     return made;
 }
 
-// The rows of a batch from one up to another. own: each has its weights behind its points; clip:
-// see sdv_window.
+// Makes rows first to end - 1 of a batch. own: rows have their own weights; clip: see sdv_window.
 SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, int n1, int n2,
                             int own, int clip, const float *work, const sdv_window *out)
 {
@@ -5387,7 +5385,7 @@ SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, 
     }
 }
 
-// Shapes that occur often have loops of their own.
+// Makes rows first to end - 1 of a batch. Shapes that occur often have loops of their own.
 static void sdv_make_rows(const sdv_batch *batch, int first, int end, const float *work,
                           const sdv_window *out)
 {
@@ -5407,14 +5405,13 @@ static void sdv_make_rows(const sdv_batch *batch, int first, int end, const floa
     else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
 }
 
-// The limit at a regular smooth vertex. Its weights are a few: of the vertex, of its neighbours,
-// and under Catmull-Clark of the vertices across its faces; of pairs of opposite ones in tangents.
+// The weights of the limit at a regular smooth vertex: for the point, of the vertex, its neighbours
+// and, under Catmull-Clark, the vertices across its faces; for tangents, of pairs of opposite ones.
 typedef struct sdv_ring_weights {
     sdv_four self, edge, face, along[2], across[2];
 } sdv_ring_weights;
 
-// From weights [3][points]: of the vertex, those around it, and those across the faces, both
-// counter-clockwise.
+// Picks a ring's weights from a limit mask [3][points], whose points are in sdv_add_fan's order.
 static sdv_ring_weights sdv_ring_of(const float *w, int loop)
 {
     sdv_ring_weights ring;
@@ -5429,7 +5426,7 @@ static sdv_ring_weights sdv_ring_of(const float *w, int loop)
     return ring;
 }
 
-// sums: of the points p around alone, and two tangents.
+// Adds up the points p[1], p[2], ... around a vertex: their part of its limit point, two tangents.
 SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_four *p,
                                sdv_four *sums)
 {
@@ -5451,7 +5448,7 @@ SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_fo
                        sdv_times(w->across[1], sdv_minus(d0, d1)));
 }
 
-// A row of a limit: its point and two tangents.
+// Makes a limit row: a point and two tangents.
 SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width,
                                    const sdv_ring_weights *ring, const float *work, sdv_four *p,
                                    sdv_four *t0, sdv_four *t1)
@@ -5476,7 +5473,7 @@ SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int 
     *t1 = sums[2];
 }
 
-// The rows of a batch of a limit: points and, if they are wanted, tangents, four at a time.
+// Makes rows first to end - 1 of a batch of limit rows: points and, if wanted, tangents.
 SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
                                   int regular, const float *work, const sdv_window *out)
 {
@@ -5492,6 +5489,7 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
     }
 }
 
+// Makes rows first to end - 1 of a batch of limit rows. Regular ones have loops of their own.
 static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, const float *work,
                                 const sdv_window *out)
 {
@@ -5501,7 +5499,7 @@ static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, cons
     else sdv_limit_rows_of(batch, first, end, width, 0, work, out);
 }
 
-// The first row of a batch that belongs to this face of its block or one behind it.
+// Returns the first row of a batch that belongs to this face of its block or to a later one.
 static int sdv_first_row(const sdv_batch *batch, int face)
 {
     int low = 0, high = batch->rows;
@@ -5513,7 +5511,7 @@ static int sdv_first_row(const sdv_batch *batch, int face)
     return low;
 }
 
-// The rows that belong to cage faces face to end - 1.
+// Makes the rows that belong to cage faces face to end - 1.
 static void sdv_make_batches(const sdv_batches *batches, const float *work, int face, int end,
                              const sdv_window *out)
 {
@@ -5529,29 +5527,32 @@ static void sdv_make_batches(const sdv_batches *batches, const float *work, int 
     }
 }
 
-// Inside a face everything is regular: the points between those of a grid are made row by row,
-// region by region. There points are seen from a corner of the grid, so that sums lose nothing by
-// where the mesh stands.
+// Inside a grid all is regular and smooth: its points are made without rows, region by region.
+//
+//     . o---o---o  top      A region has the points of some cells (o) and, unless the grid begins
+//       |   |   |           there, a row and a column of points before them (.). It makes the next
+//     . o---o---o  bottom   level's points on the cells, but not on the last row and column of o,
+//     . .   .   .           where other regions begin. Points are seen from a corner of the grid,
+//      left   right         the origin, so that sums lose nothing by where the mesh stands.
 #define SDV_REGION 16                     // cells along a side
 
-typedef struct sdv_cells {              // of a grid: those between such rows and columns of points
+typedef struct sdv_cells {              // the cells between such rows and columns of points
     int left, right, bottom, top;
 } sdv_cells;
 
-typedef struct sdv_region {               // the points of some cells and of those around them
+typedef struct sdv_region {               // the points of some cells, with the points before them
     sdv_cells cells;
     int       row, column, width;       // of the first point, and points in a row
     sdv_four *points;
 } sdv_region;
 
-// Where the points go that are made inside a grid from a region seen from origin.
-typedef struct sdv_region_out {
+typedef struct sdv_region_out {         // where the points go that a region makes
     const sdv_window *out;
     int      first, columns, triangle;  // see sdv_inside_point
-    sdv_four origin;
+    sdv_four origin;                    // of the region
 } sdv_region_out;
 
-typedef struct sdv_grid_step {
+typedef struct sdv_grid_step {          // the masks of a step inside grids
     sdv_mask vertex, edge;              // of what is regular and smooth
     float    face;                      // the weight of a face point
     int      loop;
@@ -5573,7 +5574,7 @@ static const sdv_four *sdv_region_at(const sdv_region *region, int row, int colu
     return region->points + (row - region->row) * region->width + (column - region->column);
 }
 
-// The points of a side between two corners, from first up to last, less origin.
+// Loads points first to last of a side, less origin. from, to: the corners at its ends.
 static void sdv_load_side(const sdv_grid *grid, int side, int from, int to, int first, int last,
                           const float *work, sdv_four origin, sdv_four *p)
 {
@@ -5584,7 +5585,7 @@ static void sdv_load_side(const sdv_grid *grid, int side, int from, int to, int 
     }
 }
 
-// Writes count points that stand one behind the other.
+// Writes count points from index on, as far as the window has them.
 static void sdv_put_points(const sdv_window *out, int index, int count, const sdv_four *p)
 {
     int i = index - out->first, skip = i < 0 ? -i : 0;
@@ -5595,15 +5596,14 @@ static void sdv_put_points(const sdv_window *out, int index, int count, const sd
     for (int k = skip; k < count; k++, to += stride) sdv_store_some(to, p[k], out->lanes);
 }
 
-// Points that stand one behind the other as they are made, four lanes each but the last. Where the
-// window or its layout does not allow that, they are made in some room and written when all are
-// there.
+// Writes count points from index on as they are made. Direct: to the window, four lanes each, where
+// the next point overwrites the fourth. Else: to some room, and to the window when all are made.
 typedef struct sdv_points_run {
     const sdv_window *out;
     int       index, count;
     int       direct;
-    float    *to;
-    size_t    step;
+    float    *to;                       // where the next point goes
+    size_t    step;                     // floats from point to point there
     sdv_four *room;
 } sdv_points_run;
 
@@ -5637,18 +5637,17 @@ SDV_INLINE void sdv_put_last(sdv_points_run *run, sdv_four p)
     if (!run->direct) sdv_put_points(run->out, run->index, run->count, run->room);
 }
 
-// The inside of a grid of quads, whose points will stand from target on in rows of so many: first
-// the row of edge points on lines between rows a and b and of face points, then that of vertex
-// points of b and edge points along it, which need the face points on both sides, f and g:
+// Rows a, b and c of points in a region, and the face points f and g between them. Row b becomes a
+// row of vertex points and edge points. Between b and c comes one of edge points and face points:
 //
 //     c   v---e---v           e = self (v + v) + face (f + f)
-//       g |   g   |
+//         e   g   e
 //     b   v---e---v           v = self v + edge (sum of v around) + face (sum of f around)
-//       f e   f   e
-//     a   v---e---v           here a, b, c are at the left, and columns run from first to last
+//         e   f   e
+//     a   v---e---v
 typedef struct sdv_lines {
-    const sdv_four *a, *b, *c, *f, *g;  // f, g: of quads
-    sdv_four origin, self, beside, corner, edge, across;
+    const sdv_four *a, *b, *c, *f, *g;  // of the first column; f, g: of quads
+    sdv_four origin, self, beside, corner, edge, across;        // weights: see sdv_begin_lines
 } sdv_lines;
 
 static sdv_lines sdv_begin_lines(const sdv_grid_step *step, sdv_four origin)
@@ -5675,7 +5674,7 @@ SDV_INLINE void sdv_face_points(const sdv_four *a, const sdv_four *b, int cells,
     }
 }
 
-// Row b, from cell k up to end: before the first cell there is no vertex point if k is 0.
+// Makes the row on b for cells k to end - 1. At cell 0 there is no vertex point: it is on a side.
 SDV_INLINE void sdv_vertex_points(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *a = q->a, *b = q->b, *c = q->c, *f = q->f, *g = q->g;
@@ -5700,7 +5699,7 @@ SDV_INLINE void sdv_vertex_points(const sdv_lines *q, int k, int end, sdv_points
     }
 }
 
-// The row between b and c.
+// Makes the row between b and c for cells k to end - 1.
 SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *b = q->b, *c = q->c, *g = q->g;
@@ -5719,6 +5718,7 @@ SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_r
     }
 }
 
+// Makes the next level's points on the cells of a region of quads.
 static void sdv_refine_quads(const sdv_region *region, const sdv_grid_step *step,
                              const sdv_region_out *to)
 {
@@ -5747,8 +5747,8 @@ static void sdv_refine_quads(const sdv_region *region, const sdv_grid_step *step
     }
 }
 
-// The inside of a triangle, in columns from first to last: on a row of points b vertex points and
-// edge points, between it and the row above, c, the edge points of the two other directions.
+// Makes an edge point inside a triangle. On row b there are vertex points and edge points, between
+// b and the row above, c, the edge points of the two other directions:
 //
 //     c   v---e---v
 //          \  |\  |          e = self (v + v) + face (the two v opposite)
@@ -5763,7 +5763,7 @@ SDV_INLINE sdv_four sdv_triangle_edge(const sdv_lines *q, sdv_four p0, sdv_four 
     return sdv_plus(q->origin, e);
 }
 
-// Row b, from k up to end.
+// Makes the row on b for cells k to end - 1.
 SDV_INLINE void sdv_triangle_vertices(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *a = q->a, *b = q->b, *c = q->c;
@@ -5783,7 +5783,7 @@ SDV_INLINE void sdv_triangle_vertices(const sdv_lines *q, int k, int end, sdv_po
     }
 }
 
-// The row between b and c. whole: behind the last one there is no edge point on a long side.
+// Makes the row between b and c. whole: up to the long side, whose own edge point is not made here.
 SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole,
                                    sdv_points_run *run)
 {
@@ -5806,6 +5806,7 @@ SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole
     }
 }
 
+// Makes the next level's points on the cells of a region of a triangle of n segments a side.
 static void sdv_refine_triangles(const sdv_region *region, int n, const sdv_grid_step *step,
                                  const sdv_region_out *to)
 {
@@ -5831,10 +5832,10 @@ static void sdv_refine_triangles(const sdv_region *region, int n, const sdv_grid
     }
 }
 
-// The inside of a quad of 2 x 2 cells, which is all of a face on level 1:
+// Makes the 9 points of level 2 inside a quad from its points on level 1, p, e and F:
 //
-//     p3---e2---p2      from corners p, edge points e and the face point, 9 points: face points,
-//     |  f3| f2 |       edge points on the four lines between them and the vertex point
+//     p3---e2---p2      face points f, an edge point on each line from F to an e, and the vertex
+//     |  f3| f2 |       point of F
 //     e3---F---e1
 //     |  f0| f1 |
 //     p0---e0---p1
@@ -5852,7 +5853,7 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
         p[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
         e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
     }
-    for (int i = 0; i < 4; i++)         // seen from F, which is 0
+    for (int i = 0; i < 4; i++)         // F is the origin: it adds 0
         face[i] = sdv_times(quarter, sdv_plus(p[i], sdv_plus(e[i], e[(i + 3) & 3])));
     for (int i = 0; i < 4; i++) {
         edge[i] = sdv_plus(sdv_times(half, e[i]),
@@ -5875,8 +5876,8 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     sdv_put_last(&run, sdv_plus(origin, made[8]));
 }
 
-// The face points of the quads of another polygon on level 1, each between a corner, two edge
-// points and the polygon's own face point.
+// Makes the face points of the quads of an n-gon on level 1, each from a vertex of the n-gon, two
+// edge points and the n-gon's face point.
 SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid_step *step,
                                    int target, const float *work, const sdv_window *out)
 {
@@ -5895,8 +5896,8 @@ SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid
     }
 }
 
-// The inside of a triangle of 2 segments a side, which is all of a face on level 1: the edge points
-// of the triangle of edge points e0 e1 e2, whose edges lie across from the corners.
+// Makes the 3 points of level 2 inside a triangle: the edge points of e0 e1 e2, its middle triangle
+// on level 1, whose edges lie across from the face's vertices.
 SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_step *step,
                                  int target, const float *work, const sdv_window *out)
 {
@@ -5916,10 +5917,9 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
     sdv_put_last(&run, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0]));
 }
 
-// The limit of what is regular and smooth. Linear tangents are the edges to points 1 and 2.
-typedef struct sdv_grid_limit {
+typedef struct sdv_grid_limit {         // the limit of what is regular and smooth
     float w[3 * 9];                     // see sdv_ring_of
-    int   linear;
+    int   linear;                       // tangents are the edges to points 1 and 2
 } sdv_grid_limit;
 
 static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
@@ -5938,7 +5938,7 @@ static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
     return limit;
 }
 
-// The limit of a point of row b, between rows a and c, and two tangents.
+// Makes the limit point of b[0], a point of row b between rows a and c, and two tangents.
 SDV_INLINE void sdv_limit_point(const sdv_ring_weights *w, int loop, int linear, const sdv_four *a,
                                 const sdv_four *b, const sdv_four *c, sdv_four *sums)
 {
@@ -5953,8 +5953,8 @@ SDV_INLINE void sdv_limit_point(const sdv_ring_weights *w, int loop, int linear,
     sums[2] = sdv_minus(c[0], b[0]);
 }
 
-// The limit of count points of row b, between rows a and c, which stand from index on: four at a
-// time, and the others wait for more.
+// Makes the limit of count points of row b, which stand from index on: four at a time for normals
+// without tangents; points that are left over wait for more.
 SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, const sdv_four *a,
                                      const sdv_four *b, const sdv_four *c, int count, int index,
                                      sdv_four origin, const sdv_window *out)
@@ -5979,7 +5979,7 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
     }
 }
 
-// The limit points inside a region of a grid of n segments, and their tangents.
+// Makes the limit points of a region of a grid of n segments a side, and their tangents.
 static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_limit *limit,
                              const sdv_region_out *to)
 {
@@ -5998,7 +5998,7 @@ static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_lim
     }
 }
 
-// The limit of face points on level 1, each inside a quad of 2 x 2 cells.
+// Makes the limit of the face points of quads on level 1, each in the middle of 2 x 2 cells.
 static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *order,
                               const float *points, int face, int end, const sdv_window *out)
 {
@@ -6011,7 +6011,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
         int index = sdv_first_inside(order, f);
         const sdv_four p0 = sdv_load(points + 4 * (size_t)index);
         sdv_four p[9], sums[3];
-        for (int i = 0; i < 4; i++) {           // from the right, that is from edge 1 on
+        for (int i = 0; i < 4; i++) {           // counter-clockwise from edge 1, on the right
             p[1 + i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[(i + 1) & 3]), p0);
             p[5 + i] = sdv_minus(sdv_load(points + 4 * (size_t)v[(i + 2) & 3]), p0);
         }
@@ -6026,21 +6026,21 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
     }
 }
 
-// Beyond SDV_FULL_LEVELS, work points are frames alone. The inside of such a grid is made region by
-// region: from the cells of the last whole level that the region needs, level by level, in room
-// that stays in the processor's nearest cache.
-typedef struct sdv_interior {             // makes the points inside grids:
+// Beyond SDV_FULL_LEVELS, grids have frames for work points. A region inside such a grid is made
+// from the cells that it needs of the last whole level, level by level, in room that stays in the
+// processor's nearest cache.
+typedef struct sdv_interior {             // makes the points inside grids
     const subdiv_surface *surface;
     const float *work;
-    int level, full;                    // from a level; the last one that is whole up to there
-    const sdv_grid_limit *limit;        // their limit; NULL: the next level
+    int level, full;                    // made from this level; the last whole level up to it
+    const sdv_grid_limit *limit;        // makes the limit of level; NULL: makes the next level
     sdv_grid_step step;
-    sdv_grid grids[SDV_MOST_LEVELS];    // of levels full to level
+    sdv_grid grids[SDV_MOST_LEVELS];    // one face's, of levels full to level
 } sdv_interior;
 
 enum { SDV_LARGE_REGION = 21, SDV_SMALL_REGION = 13 };              // points along a side
 
-// The cells of a level of n segments from which those of the next one are made.
+// Returns the cells of a level of n segments from which cells of the next level are made.
 static sdv_cells sdv_cells_before(sdv_cells next, int n)
 {
     sdv_cells cells = { (next.left + 1) / 2 - 1, next.right / 2 + 1, (next.bottom + 1) / 2 - 1,
@@ -6052,7 +6052,7 @@ static sdv_cells sdv_cells_before(sdv_cells next, int n)
     return cells;
 }
 
-// Loads the points of a region that are on the grid's sides.
+// Loads the points of a region that are on the grid's sides, up to a last row and column.
 static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four origin,
                            const sdv_region *region, int last_row, int last_column)
 {
@@ -6073,7 +6073,7 @@ static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four o
     else if (first == 0) *p = sdv_minus(sdv_load(points + 4 * (size_t)grid->corner[2]), origin);
 }
 
-// Loads cells of a whole grid.
+// Loads the points of a region of a whole grid.
 static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four origin,
                             sdv_region *region)
 {
@@ -6092,7 +6092,7 @@ static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four 
     sdv_load_sides(grid, points, origin, region, cells.top, cells.right);
 }
 
-// Makes a region from one of the level before.
+// Makes the points of a region inside a grid from a region of the level before, of n segments.
 static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step *step,
                               sdv_region *region)
 {
@@ -6107,6 +6107,7 @@ static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step
     else sdv_refine_quads(from, step, &to);
 }
 
+// Makes the points on cells of level in->level. Regions of earlier levels take turns in two rooms.
 static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_out *to)
 {
     sdv_four large[SDV_LARGE_REGION * SDV_LARGE_REGION], small[SDV_SMALL_REGION * SDV_SMALL_REGION];
@@ -6135,7 +6136,7 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
     else sdv_refine_quads(&region, &in->step, to);
 }
 
-// The points inside grid i of face f.
+// Makes the points inside grid i of face f.
 static void sdv_make_grid(sdv_interior *in, const sdv_order *order, int target, int f, int i,
                           const sdv_window *out)
 {
@@ -6156,8 +6157,8 @@ static void sdv_make_grid(sdv_interior *in, const sdv_order *order, int target, 
         }
 }
 
-// The points inside the grids of cage faces face to end - 1, from a level of the work points to the
-// next one or, if limit is not NULL, to their limit: where an order says, from target on.
+// Makes the points inside the grids of cage faces face to end - 1: of the level after the one given
+// or, if limit is not NULL, of its limit. They go where the order says, from target on.
 static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_grid_limit *limit,
                            const float *work, int face, int end, const sdv_order *order,
                            int target, const sdv_window *out)
@@ -6172,7 +6173,7 @@ static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_g
     in.limit = limit;
     in.step = sdv_regular_masks(&surface->rules);
     if (end > surface->cage_face_count) end = surface->cage_face_count;
-    if (level == 1 && limit) {              // of triangles nothing is inside
+    if (level == 1 && limit) {              // triangles have no points inside
         if (!from->loop) sdv_limit_centres(limit, from, points, face, end, out);
         return;
     }
@@ -6185,9 +6186,8 @@ static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_g
     }
 }
 
-// The face points of the cage, of faces face to end - 1: each the mean of the face's vertices. As
-// work points; as they are all of a result's level 1 that is inside faces, they are copied there
-// later.
+// Makes the face points of cage faces face to end - 1, which are work points. A result of 1 level
+// has no other points inside faces: sdv_copy_face_points copies them.
 static void sdv_make_face_points(const subdiv_surface *surface, float *work, int face, int end)
 {
     const sdv_level *cage = &surface->order.cage;
@@ -6212,7 +6212,7 @@ static void sdv_copy_face_points(const subdiv_surface *surface, const float *wor
         sdv_put_point(out, first + f, sdv_load(from + 4 * (size_t)f));
 }
 
-// A level from the one before, for the points that belong to cage faces face to end - 1.
+// Makes the points of level + 1 that belong to cage faces face to end - 1.
 static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
                              int end, int target, const sdv_window *out)
 {
@@ -6225,7 +6225,7 @@ static void sdv_refine_faces(const subdiv_surface *surface, int level, const flo
     if (!to->frame) sdv_make_grids(surface, level, NULL, work, face, end, to, target, out);
 }
 
-// Cage faces face to end - 1: the points of the result that belong to them.
+// Makes the points of the result that belong to cage faces face to end - 1.
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
 {
@@ -6238,6 +6238,7 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
 }
 
+// Makes the limit points that belong to cage faces face to end - 1, with normals and tangents.
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
                                  int end, const subdiv_limit *limit, int first, int count)
 {
