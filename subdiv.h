@@ -6258,12 +6258,11 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
 }
 
 // -------------------------------------------------------------------------------- >>evaluate
-// Values through the surface: level by level batches and grids make the work points; the last step
-// makes the points of the result, cage face by cage face and in any order, since each point is made
-// once and from work points alone.
+// Takes values through a surface. Batches and grids make the work points, level by level. The last
+// step makes the points of the result, cage face by cage face and in any order, since each point is
+// made once and from work points alone.
 
-// Jobs of an evaluation: each makes a share of its points.
-typedef struct sdv_evaluation {
+typedef struct sdv_evaluation {         // what the jobs of an evaluation share
     const subdiv_surface *surface;
     const subdiv_limit *limit;          // or NULL: then the values go to out
     int          channels;
@@ -6272,19 +6271,20 @@ typedef struct sdv_evaluation {
     float       *work;                  // [4 * work_count] for every four channels
     float       *out;
     size_t       out_stride;
-    int          first_point, end_point;
-    int          first_face, end_face;
-    int          step;
+    int          first_point, end_point;        // of the result: those that are written
+    int          first_face, end_face;          // of the cage: those whose points are made
+    int          step;                  // makes level step + 1; -1: the cage's face points
     int          jobs;
 } sdv_evaluation;
 
+// Runs jobs on the user's threads, or one after the other here.
 static void sdv_run(const subdiv_options *opt, void (*job)(void *, int), void *context, int jobs)
 {
     if (opt && opt->run && jobs > 1) opt->run(opt->user, job, context, jobs);
     else for (int i = 0; i < jobs; i++) job(context, i);
 }
 
-// Job i's share of count things starts here.
+// Returns where job i's share of count things starts.
 static int sdv_share(int count, int i, int jobs)
 {
     return (int)((int64_t)count * i / jobs);
@@ -6295,14 +6295,14 @@ static int sdv_share(int count, int i, int jobs)
 #define SDV_JOB_POINTS 1024
 #endif
 
-// For so much work, and no more for any job than this, if threads are lent.
+// Returns how many jobs to cut work into, each with at least so much; 1 if no threads are lent.
 static int sdv_jobs(const subdiv_options *opt, int64_t work, int64_t least)
 {
     int64_t jobs = opt && opt->run ? work / least : 1;
     return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
-// Job i's share of cage faces first to end - 1, in whole blocks if there are enough, starts here.
+// Returns where job i's share of cage faces first to end - 1 starts, in whole blocks if possible.
 static int sdv_share_faces(int first, int end, int i, int jobs)
 {
     int block = first / SDV_BLOCK_FACES, blocks = (end - 1) / SDV_BLOCK_FACES + 1 - block;
@@ -6311,6 +6311,7 @@ static int sdv_share_faces(int first, int end, int i, int jobs)
     return face < first ? first : face < end ? face : end;
 }
 
+// Makes the work points of level 0: values of the cage's vertices, four channels each.
 static void sdv_input_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6328,7 +6329,7 @@ static void sdv_input_job(void *context, int job)
     }
 }
 
-// A level from the one before or, before all, the face points of the cage; in shares of cage faces.
+// Makes a level from the one before or, at first, the cage's face points, for a share of its faces.
 static void sdv_level_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6344,7 +6345,7 @@ static void sdv_level_job(void *context, int job)
     }
 }
 
-// The work points: those of level 0 from the input, the others level by level.
+// Makes all work points: those of level 0 from the input, the others level by level.
 static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
@@ -6359,6 +6360,7 @@ static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
     }
 }
 
+// Makes the points of the result that belong to a share of the cage's faces.
 static void sdv_face_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6379,7 +6381,7 @@ static void sdv_face_job(void *context, int job)
     }
 }
 
-// Level 0 has no rows: its work points are the result.
+// Copies the work points of level 0, which has no rows, to the result.
 static void sdv_copy_work(const sdv_evaluation *e)
 {
     for (int v = e->first_point; v < e->end_point; v++)
@@ -6389,6 +6391,7 @@ static void sdv_copy_work(const sdv_evaluation *e)
                         4 * (size_t)v + (size_t)(c & 3)];
 }
 
+// Makes the points of the result from the work points.
 static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
@@ -6403,18 +6406,19 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
     sdv_run(opt, sdv_face_job, e, e->jobs);
 }
 
-// What makes the points: the surface, but for a limit on level 0.
+// Returns the surface that makes the points: another one for a limit on level 0.
 static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
 {
     return surface->at_level_1 ? surface->at_level_1 : surface;
 }
 
-// Is there room for so many bytes a channel, on a machine of 32 bits, too?
+// Whether so many bytes a channel are addressable, on a machine of 32 bits, too.
 static int sdv_addressable(int channels, double bytes)
 {
     return ((double)channels + 3) * bytes < (double)(SIZE_MAX / 2);
 }
 
+// Checks the channels and an array, and its stride. A stride of 0 becomes the number of channels.
 static void sdv_check_values(sdv_context *context, const subdiv_surface *surface, int channels,
                              const void *values, int *stride)
 {
@@ -6426,7 +6430,7 @@ static void sdv_check_values(sdv_context *context, const subdiv_surface *surface
                  *stride, channels);
 }
 
-// SUBDIV_EXACT has no points to make.
+// Fails for a surface of SUBDIV_EXACT, which has no points to make.
 static void sdv_check_result(sdv_context *context, const subdiv_surface *surface)
 {
     if (!context->result && surface->exact)
@@ -6434,7 +6438,7 @@ static void sdv_check_result(sdv_context *context, const subdiv_surface *surface
                  "the surface was prepared for SUBDIV_EXACT, for subdiv_evaluate_at");
 }
 
-// Has a surface a mesh to make? And is there what else the call needs?
+// Checks that a surface makes a mesh. others: the call's other arguments are there.
 static void sdv_check_mesh_surface(sdv_context *context, const subdiv_surface *surface, int others)
 {
     if (!others || !surface) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
