@@ -6458,9 +6458,9 @@ static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
 }
 
 // ----------------------------------------------------------------------- >>results-as-meshes
-// Meshes that own their arrays, and what fills them.
+// Makes meshes that own their arrays, and fills these.
 
-// Lays arrays out in one block: first called with base NULL to add up the size.
+// Lays an array out in a block behind the others. With base NULL only adds up the size.
 static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
 {
     char *array = base && count ? base + *size : NULL;
@@ -6468,9 +6468,10 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
-// What a new mesh has besides what its model has: a result, cage_faces; a limit, and normals.
+// The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
 typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
 
+// Lays out the arrays of a mesh with the counts of a model. Returns the size of the block.
 static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base,
                              sdv_extras extras)
 {
@@ -6503,8 +6504,8 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     return size;
 }
 
-// A mesh like the model, with room for positions, faces and extras; what else the model has is
-// copied.
+// Makes a mesh with the counts of a model. Positions, face_vertices, holes and extras get room; all
+// else that the model has is copied.
 static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
                          sdv_extras extras)
 {
@@ -6535,10 +6536,9 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
             sdv_copy(lists[i].to, lists[i].from, lists[i].count, lists[i].item);
 }
 
-// Jobs that write faces: the vertices of each and, unless NULL, the cage face it belongs to.
-typedef struct sdv_faces_out {
+typedef struct sdv_faces_out {          // what the jobs that write fine faces share
     const subdiv_surface *surface;
-    int *face_vertices, *cage_faces;
+    int *face_vertices, *cage_faces;    // cage_faces: or NULL
     int  jobs;
 } sdv_faces_out;
 
@@ -6580,7 +6580,7 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertice
     sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
 }
 
-// The fine faces that are holes, in order.
+// Lists the fine faces that are holes, in order.
 static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
 {
     if (surface->levels == 0) {
@@ -6593,17 +6593,17 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
     }
 }
 
-// Sums of differences of huge coordinates could overflow. So those are made smaller by a power of
-// two, which loses nothing, and the result larger again; it is never larger than the cage.
+// Multiplies values by a factor. Sums of differences of huge coordinates could overflow: a power of
+// two makes these smaller, without loss, and the result larger again, but no larger than the cage.
 static void sdv_multiply(float *values, size_t count, float factor)
 {
     for (size_t i = 0; i < count && factor != 1; i++) {
         double value = (double)values[i] * (double)factor, most = (double)FLT_MAX;
-        values[i] = (float)(value > most ? most : value < -most ? -most : value);    // by rounding
+        values[i] = (float)(value > most ? most : value < -most ? -most : value);   // if rounded up
     }
 }
 
-// Checks the positions of a cage. Of huge ones makes a smaller copy; returns the factor back.
+// Checks the positions of a cage. Makes a smaller copy of huge ones. Returns the factor back.
 static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
                       const float **positions)
 {
@@ -6619,7 +6619,7 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     return 4096;
 }
 
-// UVs and colours of the result.
+// Makes the UVs and colours of the result.
 static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surface,
                                    const subdiv_options *opt)
 {
@@ -6631,8 +6631,8 @@ static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surf
     return result;
 }
 
-// once: the same surface if it makes nothing else, or NULL. What made its points is then freed
-// before the faces are written, so that both are never there together.
+// Makes the result a mesh. once: the same surface if it makes nothing else, or NULL. Its rows are
+// then freed before the faces are written, so that memory never holds both.
 static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
                                    subdiv_surface *once, const float *positions,
                                    const subdiv_options *opt)
@@ -6670,7 +6670,7 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     return context.result;
 }
 
-// A mesh that is to be made of a cage: zero until it is.
+// Checks and zeroes the mesh that is to be made of a cage.
 static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv_mesh *cage)
 {
     if (!fine || fine == cage)
