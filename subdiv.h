@@ -6679,8 +6679,8 @@ static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv
 }
 
 // ----------------------------------------------------------------------------------- >>calls
-// The public functions of >>refine, >>animation and >>limit: all that stands above is called from
-// here. subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
+// The public functions of >>refine, >>animation and >>limit, which call all that stands above.
+// subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
 //
 //     sdv_prepare        the cage's topology (sdv_cage_build), then its rows (sdv_prepare_rows): on
 //                        each level sdv_fill_level > sdv_vertex_row > sdv_vertex_mask
@@ -6716,7 +6716,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     return sdv_prepare(surface, &request);
 }
 
-// The surface of the values is taken from that of the cage.
+// Prepares a surface of the cage with these values for UVs, of which it keeps that of the values.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -6737,7 +6737,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     return SUBDIV_OK;
 }
 
-// The surface is itself the arena's first block, so the arena is taken out before it is freed.
+// Frees a surface. It is itself in the first block of its arena, so the arena is copied first.
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
     if (!surface) return;
@@ -6811,6 +6811,7 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * (size_t)surface->work_count;
 }
 
+// Describes the last step of an evaluation: for these cage faces, to these points of the result.
 static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
                                         const void *scratch, int first_face, int face_count,
                                         int first_point, int point_count)
