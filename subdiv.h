@@ -786,7 +786,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 // ------------------------------------------------------------------------------ >>platform
 
-// What C++ calls old-style or useless is what C needs.
+// Silences the warnings of C++ about casts that C needs.
 #if defined(__GNUC__) && defined(__cplusplus)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
@@ -819,8 +819,8 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #define SUBDIV_ASSERT(condition) assert(condition)
 #endif
 
-// For what an inner loop calls at each point: speed does not depend on what the compiler thinks of
-// it, and arguments that are constants make each call a loop of its own kind.
+// Forces functions inline that inner loops call for each point. Their speed then does not depend on
+// the compiler's judgement, and constant arguments make each call a loop of its own kind.
 #if defined(__GNUC__)
 #define SDV_INLINE static inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
@@ -829,9 +829,10 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #define SDV_INLINE static inline
 #endif
 
-// Four floats at once: all the SIMD there is. Each operation rounds as its scalar twin does, so the
-// bits are the same with and without, unless the compiler fuses multiplications and additions.
-// (32-bit ARM's NEON does not: it has no numbers below FLT_MIN.)
+// sdv_four holds four floats: all the SIMD there is. Below, plain C says what each operation does.
+// SIMD rounds as plain C does, so the results' bits are the same with and without, unless the
+// compiler fuses multiplications and additions. (32-bit ARM goes without: its NEON has no numbers
+// below FLT_MIN.)
 #if defined(SUBDIV_NO_SIMD)
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
@@ -976,7 +977,7 @@ SDV_INLINE sdv_four sdv_sqrt(sdv_four a)
     return a;
 }
 
-// In all lanes?
+// Whether a < b in all four lanes.
 SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
 {
     int less = 1;
@@ -984,7 +985,7 @@ SDV_INLINE int sdv_less(sdv_four a, sdv_four b)
     return less;
 }
 
-// Lane j of vector i becomes lane i of vector j.
+// Transposes four vectors: lane j of vector i becomes lane i of vector j.
 SDV_INLINE void sdv_transpose(sdv_four *a)
 {
     sdv_four from[4] = { a[0], a[1], a[2], a[3] };
@@ -1002,8 +1003,8 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #endif
 }
 
-// Under the address sanitizer each array is a block of its own, so that it sees what is written
-// beside one.
+// SDV_SEPARATE is 1 under the address sanitizer: each array is then a block of its own, so that the
+// sanitizer sees accesses beside it.
 #if defined(__SANITIZE_ADDRESS__)
 #define SDV_SEPARATE 1
 #elif defined(__has_feature)
@@ -1015,25 +1016,27 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #define SDV_SEPARATE 0
 #endif
 
+// Allocates count items of a type from an arena: see sdv_new.
 #define SDV_NEW(context, arena, type, count) \
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
 
 // -------------------------------------------------------------------------------- >>memory
-// Memory comes from arenas, chains of blocks freed together. A failed allocation is remembered in
-// the context, so a function may ask for several arrays and look at context->result once.
+// Arrays come from arenas: chains of blocks that are freed together. The context remembers a failed
+// allocation, so a function may ask for several arrays and look at context->result once.
 
-typedef struct sdv_block {
-    struct sdv_block *next;
-    void *user;
+typedef struct sdv_block {              // the head of a block; the memory to use is behind it
+    struct sdv_block *next;             // of the same arena, or NULL
+    void *user;                         // handed to SUBDIV_FREE
 } sdv_block;
 
 typedef struct sdv_arena {
-    sdv_block *blocks;
-    char      *free;                    // the rest of the first block
-    size_t     left;                    // its size
-    size_t     chunk;                   // blocks are at least that large, and double in size
+    sdv_block *blocks;                  // the newest first
+    char      *free;                    // the unused end of the newest block
+    size_t     left;                    // bytes there
+    size_t     chunk;                   // bytes of the next block at least; doubles with each
 } sdv_arena;
 
+// Returns an empty arena. With chunk 0 each block is just as large as it has to be.
 static sdv_arena sdv_new_arena(size_t chunk)
 {
     sdv_arena arena = { NULL, NULL, 0, 0 };
@@ -1041,22 +1044,22 @@ static sdv_arena sdv_new_arena(size_t chunk)
     return arena;
 }
 
-// For what lives shortly: few and large blocks, which huge pages suit.
+// Returns an empty arena for short-lived arrays: few and large blocks, which suit huge pages.
 static sdv_arena sdv_scratch(void)
 {
     return sdv_new_arena((size_t)1 << 16);
 }
 
-typedef struct sdv_context {            // one call of the library
+typedef struct sdv_context {            // the state of one call of the library
     subdiv_result result;               // the first error; nothing is done after it
-    subdiv_error *error;
-    void         *user;
+    subdiv_error *error;                // opt->error, or NULL
+    void         *user;                 // opt->user
     const char   *name;                 // of the OBJ file, for messages, or NULL
 } sdv_context;
 
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...);
 
-// Linux: asks for huge pages, as touching a large block page by page costs more than filling it.
+// Asks Linux for huge pages: to touch a large block page by page costs more than to fill it.
 #if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
 extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
 
@@ -1080,6 +1083,7 @@ static size_t sdv_bytes(size_t count, size_t item)
     return count <= (size_t)PTRDIFF_MAX / item ? count * item : (size_t)PTRDIFF_MAX;
 }
 
+// Allocates a block with room for size bytes. NULL when out of memory.
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
@@ -1105,7 +1109,7 @@ static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
     arena->left = size;
 }
 
-// Sees to it that the next arrays, so many bytes in all, come from one block.
+// Makes sure that the next arrays of an arena, size bytes in all, come from one block.
 static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 {
     if (SDV_SEPARATE || context->result || size <= arena->left) return;
@@ -1114,7 +1118,7 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
     sdv_add_block(context, arena, size);
 }
 
-// Room for count items, not cleared. Never NULL while context->result is SUBDIV_OK.
+// Allocates count items, not cleared. Never NULL while context->result is SUBDIV_OK.
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
     size_t size = sdv_bytes(count, item);
@@ -1140,8 +1144,8 @@ static void sdv_arena_free(sdv_arena *arena)
     arena->left = 0;
 }
 
-typedef struct sdv_array {              // grows
-    sdv_block *block;
+typedef struct sdv_array {              // an array that grows, in a block of its own
+    sdv_block *block;                   // its items; NULL: none so far
     size_t count, capacity;             // in items
 } sdv_array;
 
@@ -1161,7 +1165,8 @@ static void sdv_array_free(sdv_array *array)
     array->block = NULL;
 }
 
-// Moves the items to where there is room for so many in all.
+// Moves an array to a larger block, with room for capacity items in all. Returns 0 when out of
+// memory.
 static int sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
 {
     sdv_block *block = context->result ? NULL : sdv_allocate(context, sdv_bytes(capacity, item));
@@ -1173,7 +1178,7 @@ static int sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, siz
     return 1;
 }
 
-// A place behind the items, with room for so many more. NULL when out of memory.
+// Returns the place behind the last item, with room for more; NULL when out of memory.
 SDV_INLINE void *sdv_array_room(sdv_context *context, sdv_array *array, size_t more, size_t item)
 {
     if (array->capacity - array->count <= more &&
@@ -1181,7 +1186,7 @@ SDV_INLINE void *sdv_array_room(sdv_context *context, sdv_array *array, size_t m
     return (char *)(array->block + 1) + array->count * item;
 }
 
-// Appends count cleared items.
+// Appends count cleared items and returns the first of them. NULL when out of memory.
 static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, size_t item)
 {
     void *room = sdv_array_room(context, array, count, item);
@@ -1191,6 +1196,7 @@ static void *sdv_append(sdv_context *context, sdv_array *array, size_t count, si
     return room;
 }
 
+// Moves the items of a growing array to an arena and frees the array.
 static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *array, size_t item)
 {
     void *kept = sdv_new(context, arena, array->count, item);
@@ -1199,7 +1205,7 @@ static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *a
     return kept;
 }
 
-// A copy of count items; NULL if they are none or there is no memory.
+// Copies count items to an arena. NULL if from is NULL or there is no memory.
 static void *sdv_duplicate(sdv_context *context, sdv_arena *arena, const void *from, size_t count,
                            size_t item)
 {
@@ -1578,34 +1584,36 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 }
 
 // --------------------------------------------------------------------------------- >>level
-// A level is a mesh and how sharp everything is: all that refinement needs to know, and all that
-// the next level inherits.
+// A level is a mesh with the sharpness of its edges and vertices: all that refinement needs to
+// know, and all that the next level inherits.
 //
 // More words, for the inside:
-//     order       where the points of the result stand, in closed form, on the grids of cage faces
-//     row         the weights of one point; batch: rows of the same shape
-//     work point  a point of any level but the last, or of a limit also that; all in one array
-//     line        the points inside an edge of the cage; grid: those inside a face
-//     frame       the points of a grid beside its sides: all that deep levels keep of it
-//     patch       a regular face, its control points; strips: between semi-sharp creases, a part
-//     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks);
-//                 rough: those among them that are no patch on this level
+//     order       formulas for where each point of the result stands, on the grids of cage faces
+//     row         the points that one new point is made from, with weights; batch: rows alike
+//     work point  a point that later points are made from: of any level before the result
+//     line        the points inside an edge of the cage
+//     grid        the points of a quad or Loop triangle of the cage, in rows and columns; any other
+//                 polygon has one for each vertex
+//     frame       the inner points beside a grid's sides: deep levels keep no other inner points
+//     patch       a regular face with its control points; strip: a part of one between creases
+//     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks)
+//     rough       a face of the core that is no patch on this level
 //     nest        a vertex that stays irregular on every level, and the faces around it
-//     leaf        of SUBDIV_EXACT: a patch or a face of a nest; cell: what finds the one that has
-//                 (face, u, v)
-//     tile        a face with rates of its own; home: of a shared point, the face that makes it
+//     leaf        of SUBDIV_EXACT: a patch or a face of a nest
+//     cell        of SUBDIV_EXACT: a part of a cage face, from which the leaf at (u, v) is found
+//     tile        a face with rates of its own; home: the face that makes a shared point
 //
-// A face-vertex h is a place in face_vertices, and stands for three things: a face, one of its
-// vertices, and the edge that leads on from there to the next vertex. So an edge is a ring of
-// face-vertices, one for each face that has it, in rising order:
+// A face-vertex h is an index into face_vertices. It stands for three things: a face, one of its
+// vertices, and the edge from there to the next vertex, the edge that "leads on". An edge is a ring
+// of face-vertices, one for each face that has it, in rising order:
 //
 //     +---<---+
-//     |   q   |       across[h] = q, across[q] = h; alone on a boundary: across[h] = h;
-//     +--->---+       a ring of three or more where the mesh is non-manifold
-//     |   h   |
+//     |   q   |       between two faces:  across[h] = q, across[q] = h
+//     +--->---+       on a boundary:      across[h] = h
+//     |   h   |       non-manifold:       a ring of three or more
 //     +---<---+
 
-typedef struct sdv_rules {
+typedef struct sdv_rules {              // how every level is refined
     int loop;                           // faces split into 4 triangles, else into quads
     int linear;                         // nothing is smoothed
     int straight;                       // boundaries stay straight
@@ -1614,7 +1622,7 @@ typedef struct sdv_rules {
     subdiv_triangles triangles;
 } sdv_rules;
 
-typedef struct sdv_place {              // of a face on its cage face's grid (see >>order)
+typedef struct sdv_place {              // where a face is on a grid of its cage face (see >>order)
     int h;                              // the cage face-vertex of the grid
     int row, column, step;              // of vertex 0; step -1: a triangle turned by half
 } sdv_place;
@@ -1629,39 +1637,40 @@ typedef struct sdv_level {
     int *across;                        // [face_vertex_count]  the next in the ring of an edge
     int *vertex_first;                  // [vertex_count]       the first face-vertex there, or -1
     int *vertex_next;                   // [face_vertex_count]  the next one at its vertex, or -1
-    int *vertex_faces;                  // [vertex_count]       how many there are
+    int *vertex_faces;                  // [vertex_count]       the number of face-vertices there
     int *face_edges;                    // [face_vertex_count]  numbers of edges: level 0 alone
-    int *edge_first;                    // [edge_count]         their first face-vertices
+    int *edge_first;                    // [edge_count]         the first face-vertex of each edge
     int *edge_at;                       // [vertex_count]       the last edge listed there, or -1
     struct sdv_listed_edge *edges;      // [edge_count]         (both for level 0 of positions)
     int  edge_count;
 
-    // How sharp it is.
+    // The sharpness of edges and vertices.
     float *sharpness;                   // [face_vertex_count]  of the edge that leads on
-    float *half_sharpness;              // [face_vertex_count]  one level down, of the half of that
-                                        //                      edge here; NULL: sdv_fade
+    float *half_sharpness;              // [face_vertex_count]  one level down, of the half of this
+                                        //                      edge at its vertex; NULL: sdv_fade
     float *vertex_sharpness;            // [vertex_count]
     unsigned char *creased;             // [vertex_count]       has a sharp edge
 
-    // How the sharpness of values fades with that of the cage: see >>face-varying.
-    int *partner;                       // [vertex_count]       fades as that vertex does; -1: by
-                                        //                      itself; NULL: all do
+    // The fading of face-varying values along with the cage: see >>face-varying.
+    int *partner;                       // [vertex_count]       the vertex it fades with, or -1;
+                                        //                      NULL: each fades by itself
     float *seam;                        // [vertex_count]       of those with a partner: the largest
                                         //                      sharpness of a semi-sharp seam there
-    int *origin, origin_count;          // [vertex_count]       vertex of the cage, or -1; NULL:
-    float *sums;                        // [2 * origin_count]   not needed
+    int *origin, origin_count;          // [vertex_count]       its vertex of the cage, or -1; NULL:
+    float *sums;                        // [2 * origin_count]   not needed. See sdv_chaikin_sums
 
-    // Where its points are among the work points.
+    // The work points of vertices and faces.
     int    first_point;                 // vertex v is work point first_point + v
-    const struct sdv_order *order;      // of the cage on a later level: its points; else NULL
+    const struct sdv_order *order;      // where the cage's points stand on a later level, or NULL
     int   *face_point;                  // [face_count]         work points of the face points
 
-    // What SUBDIV_EXACT does with its faces.
+    // Faces under SUBDIV_EXACT.
     sdv_place *places;                  // [face_count]         where they are; NULL on level 0
     unsigned char *core;                // [face_count]         becomes leaves
     unsigned char *rough;               // [face_count]         in the core, and not a patch
 } sdv_level;
 
+// A face has the face-vertices from sdv_face_start up to, but without, sdv_face_end.
 static int sdv_face_start(const sdv_level *level, int face)
 {
     return level->face_size ? face * level->face_size : level->face_starts[face];
@@ -1679,7 +1688,7 @@ static int sdv_face_of(const sdv_level *level, int h)
     return level->face_of[h];
 }
 
-// The face-vertices before and after h in its face.
+// Return the face-vertices before and after h in its face: "_any" for faces of any size.
 static int sdv_previous_any(const sdv_level *level, int h)
 {
     int face = sdv_face_of(level, h);
@@ -1706,13 +1715,13 @@ static inline int sdv_next(const sdv_level *level, int h)
     return sdv_next_any(level, h);
 }
 
-// The first face-vertex of the quad of h.
+// Returns the first face-vertex of the quad of h.
 static inline int sdv_quad_start(const sdv_level *level, int h)
 {
     return level->face_size ? h & ~3 : level->face_starts[level->face_of[h]];
 }
 
-// The number of vertices of the face of h.
+// Returns the number of vertices of the face of h.
 static int sdv_size_of(const sdv_level *level, int h)
 {
     if (level->face_size) return level->face_size;
@@ -1727,9 +1736,10 @@ static int sdv_edge_faces(const sdv_level *level, int h)
     return count;
 }
 
-// Where each edge at a vertex is meant once, by the face-vertices h there (outgoing) and those
-// before them, which lead to it: an edge between two faces by the one that leads on from the
-// vertex, any other by the last of its ring.
+// Picks one face-vertex for each edge at a vertex, so that each edge is met once. Ask it for each
+// face-vertex h at the vertex, with outgoing 1: its edge leads on from there; and for the one
+// before each, with outgoing 0: its edge leads to the vertex. An edge between two faces that are
+// wound alike is met where it leads on, any other at the last face-vertex of its ring.
 static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
 {
     int q = level->across[h];
@@ -1738,7 +1748,7 @@ static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
     return q <= h;
 }
 
-// The arrays that each level has besides face_vertices and across; chaikin: and half_sharpness.
+// Allocates what each level has besides face_vertices and across; chaikin: also half_sharpness.
 static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level, int chaikin)
 {
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
@@ -2266,8 +2276,8 @@ static int sdv_counter_clockwise(const sdv_level *level, int h)
 }
 
 // --------------------------------------------------------------------------------- >>masks
-// Every rule of refinement, once. A mask is a set of weights that sum to 1; refinement takes
-// the points around and adds them up with these weights, whatever the points are.
+// Every rule of refinement, once. A mask is a set of weights that sum to 1. Refinement multiplies
+// the points around by these weights and adds them up, whatever the points are.
 //
 //     point = self v + edge (sum of neighbours) + face (sum of face points)
 //                    + crease (sum of the two neighbours along the crease)
@@ -2279,7 +2289,7 @@ typedef struct sdv_mask {
     double crease;                      // on top of edge: the two neighbours along the crease
 } sdv_mask;
 
-// Face point [CC78]: the mean of the face's n vertices.
+// Face point [CC78]: the mean of the face's n vertices. Returns the weight of each.
 //
 //     1/n----1/n
 //      |  F  |               F = (v0 + v1 + ... ) / n
@@ -2289,7 +2299,7 @@ static double sdv_face_weight(int n)
     return 1.0 / n;
 }
 
-// Edge point on a crease or boundary, and everywhere under bilinear: the midpoint.
+// Edge point on a crease or boundary, and any edge point under bilinear: the midpoint.
 //
 //     1/2---E---1/2          E = (a + b) / 2
 static sdv_mask sdv_crease_edge(void)
@@ -2298,8 +2308,8 @@ static sdv_mask sdv_crease_edge(void)
     return mask;
 }
 
-// Smooth edge point, Catmull-Clark [CC78]: the mean of the two ends and the two face points. With
-// any other number of faces the face points share their half [OSD].
+// Smooth edge point, Catmull-Clark [CC78]: the mean of the two ends and the two face points. Where
+// an edge has another number of faces, their points share one half [OSD].
 //
 //        f0
 //     a--E--b                E = (a + b + f0 + f1) / 4
@@ -2310,8 +2320,8 @@ static sdv_mask sdv_catmull_clark_edge(int faces)
     return mask;
 }
 
-// A smooth edge point beside one or two triangles, with the rule "smooth" [OSD]: w = 0.47 for each
-// triangle and 1/4 for each other face; the face points weigh the mean of the two w, the ends the
+// Smooth edge point beside one or two triangles, with SUBDIV_TRIANGLES_SMOOTH [OSD]. A triangle has
+// w = 0.47, another face w = 1/4. Each face point weighs the mean of the two w; the ends share the
 // rest.
 static sdv_mask sdv_smooth_triangle_edge(int triangles)
 {
@@ -2333,7 +2343,7 @@ static sdv_mask sdv_loop_edge(int faces)
     return mask;
 }
 
-// Corner: stays where it is.
+// Vertex point of a corner: the vertex stays where it is.
 static sdv_mask sdv_corner_vertex(void)
 {
     sdv_mask mask = { 1, 0, 0, 0 };
@@ -2349,8 +2359,8 @@ static sdv_mask sdv_crease_vertex(void)
     return mask;
 }
 
-// Smooth vertex point, Catmull-Clark, valence n [CC78]. With F the mean of the face points, R the
-// mean of the edges' midpoints, V = (F + 2R + (n - 3) v) / n. Midpoints are half v:
+// Smooth vertex point, Catmull-Clark, valence n [CC78]: V = (F + 2R + (n - 3) v) / n, with F the
+// mean of the face points and R the mean of the edges' midpoints, (v + e) / 2 each:
 //
 //     f----e----f
 //     |    |    |            V = (n-2)/n v + 1/n^2 (sum of e) + 1/n^2 (sum of f)
@@ -2379,7 +2389,7 @@ static sdv_mask sdv_loop_vertex(int n)
     return mask;
 }
 
-// Between sharp and smooth [DKT98]: linear in the sharpness.
+// Blends a sharp mask with this weight and a smooth one with the rest [DKT98].
 static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
 {
     sdv_mask mask;
@@ -2390,7 +2400,7 @@ static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
     return mask;
 }
 
-// The smooth rules of each scheme; bilinear has those of Catmull-Clark, and does not ask for them.
+// Return the smooth masks of the scheme. (Bilinear has no smooth points and uses neither.)
 static sdv_mask sdv_smooth_vertex(const sdv_rules *rules, int faces)
 {
     return rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
@@ -2401,7 +2411,8 @@ static sdv_mask sdv_smooth_edge(const sdv_rules *rules, int faces)
     return rules->loop ? sdv_loop_edge(faces) : sdv_catmull_clark_edge(faces);
 }
 
-// The mask of a vertex with so many faces: that of its rule, or a blend with that of the next one.
+// Returns the mask of a vertex point: that of its rule or, where the next level has another rule, a
+// blend of the two.
 static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int faces)
 {
     sdv_mask masks[SDV_CORNER + 1];
@@ -2413,8 +2424,9 @@ static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int f
     return sdv_blend(fading.weight, masks[fading.rule], masks[fading.next]);
 }
 
-// The mask of an edge's edge point: sharp while both its halves stay sharp, a blend where one of
-// them turns smooth. triangles: how many of its two faces are, under the rule "smooth"; else 0.
+// Returns the mask of an edge point: sharp while both halves of the edge stay sharp, a blend where
+// one of them turns smooth. triangles: how many of the edge's two faces are triangles, under
+// SUBDIV_TRIANGLES_SMOOTH; else 0.
 static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays_sharp,
                               int faces, int triangles)
 {
@@ -2425,14 +2437,14 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
     return sdv_blend((double)(sharpness < 1 ? sharpness : 1), sdv_crease_edge(), smooth);
 }
 
-// Limit masks: where a vertex ends up when refinement goes on forever, and how the surface lies
-// there. They are the left eigenvectors of one step of refinement around the vertex: of the
-// eigenvalue 1 for the point; of the next ones for tangents, whose weights sum to 0. So they follow
-// from the masks above, whatever weights these have. They are for levels from 1 on, where all faces
-// are quads (Loop: triangles). Sharpness that is left counts as infinite [OSD].
+// Limit masks say where a vertex ends up when refinement goes on forever, and how the surface lies
+// there. They are left eigenvectors of one step of refinement around the vertex: for the point, of
+// the eigenvalue 1; for tangents, whose weights sum to 0, of the next ones. So they follow from the
+// masks above, whatever weights these have. They are for levels from 1 on, where all faces are
+// quads (Loop: triangles). Sharpness that is left counts as infinite [OSD].
 //
-// Smooth, valence n [HKD93], [Loop87]: from the weights of the vertex mask (v.edge, v.face) and of
-// the edge mask (self, face). Regular: 4/9, 1/9, 1/36; Loop 1/2, 1/12.
+// Limit point of a smooth vertex, valence n [HKD93], [Loop87], from the weights of the vertex mask
+// (v.edge, v.face) and of the edge mask (self, face). Regular: 4/9, 1/9, 1/36; Loop 1/2, 1/12.
 //
 //     f----e----f            P = (v + y (sum of e) + z (sum of f)) / (1 + n (y + z))
 //     |    |    |
@@ -2449,7 +2461,7 @@ static sdv_mask sdv_smooth_limit(const sdv_rules *rules, int n)
     return mask;
 }
 
-// On a crease or boundary: the point of the curve along it, a cubic B-spline [HDD94].
+// Limit point on a crease or boundary: on the curve along it, a cubic B-spline [HDD94].
 //
 //     1/6---2/3---1/6        P = (v + y (a + b)) / (1 + 2 y)      y = v.crease / (1 - self)
 static sdv_mask sdv_crease_limit(void)
@@ -2459,9 +2471,9 @@ static sdv_mask sdv_crease_limit(void)
     return mask;
 }
 
-// Waves around a vertex: its neighbours weigh 4 cos(i a), the vertices f across the quads g times
-// the cosines beside them. A step of refinement multiplies them by the eigenvalue L; self and face
-// are the weights of the edge mask:
+// A wave around a vertex is a set of weights that one step of refinement only multiplies, by the
+// eigenvalue L. Neighbour i weighs 4 cos(i a); the vertex f across a quad weighs g times the sum of
+// the cosines beside it. With self and face the weights of the edge mask:
 //
 //     L = (b + sqrt(b^2 - 16 self)) / 8      b = 1 + 4 self + 2 face (1 + cos a)
 //     g = 4 face / (4 L - 1)                 Loop:  L = self + 2 face cos a
@@ -2469,6 +2481,7 @@ typedef struct sdv_wave {
     double factor, face;                // L and g
 } sdv_wave;
 
+// Returns the wave whose neighbours are the angle a apart.
 static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2);
@@ -2480,14 +2493,14 @@ static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
     return wave;
 }
 
-// Tangents t0 t1, each the weights of v, of the e and of the f, counter-clockwise from any e; t0 x
-// t1 is along the normal, their lengths mean nothing. Smooth, a = 2 pi/n [HKD93], [Loop87]:
+// Tangents t0 t1 at a smooth vertex, a = 2 pi/n [HKD93], [Loop87]: weights of v, of each e and of
+// each f, counter-clockwise from any e. t0 x t1 is along the normal; their lengths mean nothing.
 //
 //     t0 = sum of  4 cos(i a) e_i + g (cos(i a) + cos((i+1) a)) f_i       t1: the same with sin
 //
-// f_i stands between e_i and e_(i+1); Loop: the e alone. Valence 2 has no two such waves. Two quads
-// back to back have no tangent plane; e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
-// triangles make a cusp, and have no t1.
+// f_i stands between e_i and e_(i+1); Loop has no f. Valence 2 has only one such wave. Two quads
+// back to back have no tangent plane: e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
+// triangles make a cusp and have no t1.
 static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, double *t1)
 {
     double a = 6.283185307179586477 / n, g = n > 2 ? sdv_wave_of(rules, a).face : 0;
@@ -2502,9 +2515,10 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
     }
 }
 
-// On a crease or boundary, for the side with k faces: e_0 and e_k are along the crease, and
-// t0 = e_0 - e_k; t1 leads across (the faces of [BLZ00] and of [HDD94] refine otherwise). It is
-// half a wave, a = pi/k, with weights x of the two ends and y of v that make it an eigenvector:
+// Tangents at a crease or boundary, for the side with k faces. e_0 and e_k are on the crease, so
+// t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have others, as their faces refine in other
+// ways). It is half a wave, a = pi/k, with weights x of the two ends and y of v that make it an
+// eigenvector:
 //
 //     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i  +  x (e_0 + e_k) + y v
 //
@@ -2513,8 +2527,8 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 //     p = (g / 4 + face) sin a         q = (4 self + 2 face + g / 2) r
 //     Loop:  p = 4 face sin a          q = 4 self r         r = (1 + cos a) / sin a
 //
-// Regular is Catmull-Clark k = 2: 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v, and Loop k = 3. A single face
-// fills a straight angle: t1 = e_0 + e_1 - 2v, how the curve bends.
+// At a regular vertex k = 2, so t1 = 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face
+// fills a straight angle: t1 = e_0 + e_1 - 2v, the way the curve bends.
 static void sdv_crease_tangents(const sdv_rules *rules, int k, double *t0, double *t1)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2), v = sdv_crease_vertex();
@@ -2539,15 +2553,15 @@ static void sdv_crease_tangents(const sdv_rules *rules, int k, double *t0, doubl
     t1[1] = t1[1 + k] = k == 1 ? 1 : (middle * p + v.crease * q) / determinant;
 }
 
-// The limit mask of a rule at a vertex with so many faces. A corner is where it ends up.
+// Returns the limit mask of a vertex that has a rule and so many faces. A corner stays.
 static sdv_mask sdv_limit_mask(const sdv_rules *rules, sdv_rule rule, int faces)
 {
     if (rule == SDV_CORNER || rules->linear) return sdv_corner_vertex();
     return rule == SDV_CREASE ? sdv_crease_limit() : sdv_smooth_limit(rules, faces);
 }
 
-// Whether regular vertices and edges are refined as cubic B-splines and, under Loop, box splines
-// are: SUBDIV_EXACT takes their surface for that.
+// Whether the masks of regular vertices and edges are those of cubic B-splines (Loop: of box
+// splines). SUBDIV_EXACT relies on it: its patches are such splines.
 static int sdv_is_spline(const sdv_rules *rules)
 {
     static const double splines[2][6] = { { 0.5, 0.0625, 0.0625, 0.25, 0.25, 0.125 },
@@ -2560,54 +2574,59 @@ static int sdv_is_spline(const sdv_rules *rules)
 }
 
 // ----------------------------------------------------------------------------------- >>order
-// THE ORDER OF THE RESULT (see the top) as formulas. Every cage face is a grid: a quad or a Loop
-// triangle one of n segments a side, n = 2^levels, any other polygon one quad of m = n / 2 segments
-// for each of its vertices. The points along each side of a grid and those inside it, row by
-// row, are evenly spaced in the result: so an index needs a first one and a step.
+// THE ORDER OF THE RESULT (see the top) as formulas. A cage face has a grid: a quad or a Loop
+// triangle one of n = 2^levels segments a side, any other polygon one of m = n / 2 segments for
+// each of its vertices. Corners and, between them, sides have these numbers:
+//
+//     3---2---2     2            Side 0 is row 0, side 3 is column 0. A triangle has no corner 3
+//     |       |     | \          and no side 2.
+//     3       1     3   1
+//     |       |     |     \      The points inside a side or a row are evenly spaced in the result:
+//     0---0---1     0---0---1    a first index and a step give all of them.
 
-enum { SDV_MOST_LEVELS = 16 };          // of a mesh of 2^31 faces and any level
+enum { SDV_MOST_LEVELS = 16 };          // 0 to 15: level 16 of a quad has 2^32 faces
 #ifndef SDV_FULL_LEVELS                 // (tests ask for fewer)
-#define SDV_FULL_LEVELS 3               // of work points; deeper ones are frames: see >>lines
+#define SDV_FULL_LEVELS 3               // levels up to here keep whole grids, deeper ones frames
 #endif
 
-typedef struct sdv_side {               // of a grid: where point t stands, inside the side
-    int first, step;                    // first + step * t
+typedef struct sdv_side {               // the points inside a side of a grid
+    int first, step;                    // point t has index first + step * t, 0 < t < segments
 } sdv_side;
 
-typedef struct sdv_grid {
+typedef struct sdv_grid {               // the indices of the points of a grid
     int columns, rows;                  // segments along a side
-    int triangle;
-    int inside;                         // the index of (1, 1)
+    int triangle;                       // row r has columns 0 to columns - r
+    int inside;                         // the index of row 1, column 1
     int corner[4];
-    sdv_side side[4];                   // row 0; last column (triangle: the slanted side), by row;
-                                        // last row (quads alone); column 0, by row
-    int frame;                          // of its inside there are only the points beside its sides
+    sdv_side side[4];                   // t is the column on sides 0 and 2, the row on 1 and 3
+    int frame;                          // its inside is a frame: see sdv_frame_point
 } sdv_grid;
 
-typedef struct sdv_order {
+typedef struct sdv_order {              // the indices of all points of a level or of the result
     sdv_level cage;                     // faces and edges alone
     int loop, n, m;
     int first_edge_point, first_face_point;
     int count;                          // of points
-    int frame;                          // all grids are frames: see sdv_frame_point
+    int frame;                          // all grids are frames
     const int *quads;                   // [faces + 1] of frames: how many quads come before each
 } sdv_order;                            // face; NULL: all faces are quads
 
-// A side of size segments whose points stand from first on, seen from its one end or the other.
+// Returns a side of size segments whose points have indices first, first + 1, ..., seen from the
+// end where they begin or, backwards, from the other.
 static inline sdv_side sdv_seen_side(int first, int size, int backwards)
 {
     sdv_side side = { backwards ? first - 1 + size : first - 1, backwards ? -1 : 1 };
     return side;
 }
 
-// A cage edge seen from the end that stands first in the result, or from the other.
+// Returns a cage edge seen from its lower-numbered end or, backwards, from the other.
 static inline sdv_side sdv_seen_edge(const sdv_order *order, int edge, int backwards)
 {
     int n = order->n;
     return sdv_seen_side(order->first_edge_point + edge * (n - 1), n, backwards);
 }
 
-// The cage edge that leads on from face-vertex h, seen from there or from its other end.
+// Returns the cage edge that leads on from face-vertex h, seen from h or from its other end.
 static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 {
     const sdv_level *cage = &order->cage;
@@ -2615,9 +2634,9 @@ static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
     return sdv_seen_edge(order, cage->face_edges[h], (a > b) != backwards);
 }
 
-// The first point inside face f: every face has one centre, and m (m - 1) points for each of its
-// vertices; a triangle under Loop (n - 1)(n - 2) / 2. In a frame a quad has 4 (n - 2), a triangle
-// 3 (n - 3), and an n-gon its centre, the points of its spokes, and the frames of its quads.
+// Returns the first point inside face f. Whole: a face has 1 + m (m - 1) * vertices points inside,
+// a triangle under Loop (n - 1)(n - 2) / 2. Frames: a quad has 4 (n - 2), a triangle 3 (n - 3), any
+// other polygon its centre, the points of its spokes and the frames of its quads.
 static int sdv_first_inside(const sdv_order *order, int f)
 {
     int n = order->n, m = order->m, first = order->first_face_point;
@@ -2628,7 +2647,7 @@ static int sdv_first_inside(const sdv_order *order, int f)
     return first + quads * 4 * (n - 2) + f - quads + (sides - 4 * quads) * (m - 1 + 4 * (m - 2));
 }
 
-// The face that has the point inside it.
+// Returns the cage face that has the point inside it.
 static int sdv_face_inside(const sdv_order *order, int point)
 {
     int low = 0, high = order->cage.face_count;
@@ -2640,20 +2659,21 @@ static int sdv_face_inside(const sdv_order *order, int point)
     return low;
 }
 
+// Whether face f has one grid for each of its vertices.
 static int sdv_is_ngon(const sdv_order *order, int f)
 {
     return !order->loop && sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f) != 4;
 }
 
-// How many grids a face has.
+// Returns how many grids face f has.
 static int sdv_grids_of(const sdv_order *order, int f)
 {
     return sdv_is_ngon(order, f) ? sdv_face_end(&order->cage, f) - sdv_face_start(&order->cage, f)
                                  : 1;
 }
 
-// The grid of the face whose first face-vertex is h. Its sides are edges; the one from its last
-// vertex and, of a quad, the one before are seen from their other ends.
+// Fills in the grid of face f, which has one, from its first face-vertex h on. Its sides are edges:
+// sides 2 and 3 run against the order of the face's vertices.
 static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
@@ -2668,15 +2688,15 @@ static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
     grid->side[3] = sdv_seen_edge(order, e[last], v[last] <= v[0]);
 }
 
-// An n-gon has its centre, then the points inside its spokes, each m segments and seen from its
-// edge, then those inside the quads at its vertices: this is the first one of quad i.
+// Returns the first point inside grid i of a polygon with so many sides. Its centre comes first,
+// then the points inside its spokes, each of m segments, then those inside its grids.
 static int sdv_inside_ngon(int centre, int sides, int m, int i)
 {
     return centre + 1 + sides * (m - 1) + i * (m - 1) * (m - 1);
 }
 
-// Quad i: vertex, middle of the edge, centre, middle of the edge before. The second half of that
-// edge is seen backwards.
+// Fills in grid i of an n-gon. Corners: the vertex, the middle of the edge, the centre, the middle
+// of the edge before. Sides: half of the edge, two spokes, half of the edge before.
 static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int centre, int sides,
                           int m, int i, sdv_grid *grid)
 {
@@ -2694,7 +2714,7 @@ static void sdv_ngon_grid(int vertex, sdv_side edge, sdv_side edge_before, int c
     grid->corner[3] = edge_before.first + edge_before.step * m;
 }
 
-// The first point inside grid i of face f.
+// Returns the first point inside grid i of face f.
 static int sdv_inside_grid(const sdv_order *order, int f, int i)
 {
     const sdv_level *cage = &order->cage;
@@ -2705,6 +2725,7 @@ static int sdv_inside_grid(const sdv_order *order, int f, int i)
                         : sdv_inside_ngon(first, sides, m, i);
 }
 
+// Fills in the grid at face-vertex h: the first one of its face, if the face has a single grid.
 static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
@@ -2722,14 +2743,22 @@ static int sdv_side_index(const sdv_grid *grid, int side, int t)
     return grid->side[side].first + grid->side[side].step * t;
 }
 
-// first: that of (1, 1), from which they follow row by row, each of a triangle one shorter.
+// Returns the index of a point inside a whole grid. Row 1, column 1 has index first, and the others
+// follow row by row; in a triangle each row is one point shorter.
 static int sdv_inside_point(int first, int columns, int triangle, int row, int column)
 {
     int64_t r = row - 1, cut = triangle ? r * row / 2 : 0;
     return (int)(first + r * (columns - 1) - cut) + column - 1;
 }
 
-// The points of a frame stand counter-clockwise, from (1, 1) on.
+// Returns the index of a point of a frame: the ring of points beside a grid's sides. Deep levels
+// keep no other points inside a grid. sdv_frame_rows makes them.
+//
+//     o . . . o
+//     . 6 5 4 .       the frame of a quad with n = 4: points 0 to 4 (n - 2) - 1, counter-clockwise
+//     . 7   3 .       from row 1, column 1 on; that of a triangle has 3 (n - 3) points
+//     . 0 1 2 .
+//     o . . . o
 static int sdv_frame_point(const sdv_grid *grid, int row, int column)
 {
     int n = grid->columns, along = n - 2 - grid->triangle, corner = n - 1;
@@ -2769,7 +2798,7 @@ static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
     return sdv_inside_index(grid, row, column);
 }
 
-// Where the points of a row stand, but those of other sides: first + step * column.
+// Returns the indices of a row as first + step * column. Its two ends may stand elsewhere.
 static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
 {
     sdv_side line = { sdv_inside_index(grid, row, 0), 1 };
@@ -2784,13 +2813,12 @@ static int sdv_grid_index(const sdv_grid *grid, int row, int column)
                           : sdv_quad_index(grid, row, column);
 }
 
-// A row of points, or what lies on it from one column to another: its two ends, and those between
-// on its line.
-typedef struct sdv_row {
-    sdv_side line;
-    int size, left, right;              // columns 0 to size
+typedef struct sdv_row {                // a part of a row of points
+    sdv_side line;                      // the points between its two ends
+    int size, left, right;              // segments; the two ends
 } sdv_row;
 
+// Returns a row from column first to column last.
 static sdv_row sdv_grid_row(const sdv_grid *grid, int row, int first, int last)
 {
     sdv_row points = { sdv_grid_line(grid, row), last - first, 0, 0 };
@@ -2817,8 +2845,9 @@ static int *sdv_put_face4(int *out, int a, int b, int c, int d)
     return out + 4;
 }
 
-// The fine faces between two rows of points, low and high: quads a b c d. First all of them as if
-// the rows' ends, too, stood on their lines; behind the last point numbers may be beyond INT_MAX.
+// Writes the fine faces between two rows of points, low and high: quads a b c d. The loop takes the
+// rows' ends for points of their lines; they are corrected behind it. Its counters are unsigned,
+// as they may step beyond INT_MAX at the end.
 //
 //     d c
 //     a b
@@ -2845,7 +2874,8 @@ static int *sdv_quad_faces(const sdv_row *low, const sdv_row *high, int *out)
     return out;
 }
 
-// Triangles a b d and, turned by half, c d b; the last of a row has no c.
+// Writes the fine faces between two rows of points: triangles a b d, each but the last followed by
+// c d b, turned by half.
 static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out)
 {
     int a = low->left, d = high->left;
@@ -2862,8 +2892,8 @@ static int *sdv_triangle_faces(const sdv_row *low, const sdv_row *high, int *out
     return sdv_put_face3(out, a, low->right, d);
 }
 
-// The fine faces between such rows of points and such columns; in a triangle, where these run
-// along its sides, each row ends one column earlier than the one below.
+// Writes the fine faces between two rows and two columns of points. In a triangle each row ends one
+// column earlier than the one below.
 static int *sdv_grid_faces(const sdv_grid *grid, int bottom, int top, int left, int right,
                            int *out)
 {
@@ -2877,7 +2907,7 @@ static int *sdv_grid_faces(const sdv_grid *grid, int bottom, int top, int left, 
     return out;
 }
 
-// The fine faces of cage face f on level 1: every edge has one point, and there is the centre.
+// Writes the fine faces of cage face f on level 1, where every edge has one point inside.
 static int *sdv_first_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), size = sdv_face_end(&order->cage, f) - start;
@@ -2904,7 +2934,7 @@ static int *sdv_first_faces(const sdv_order *order, int f, int *out)
     return out;
 }
 
-// The fine faces of cage face f.
+// Writes the fine faces of cage face f. Returns the place behind them.
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), grids = sdv_grids_of(order, f);
@@ -2918,9 +2948,9 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 }
 
 // ---------------------------------------------------------------------------------- >>rows
-// Masks written out: which points to add with which weights. All points that are ever looked at, of
-// all levels, stand in one array, the work points: level 0, then level 1, and so on. So a row's
-// points are work points, and evaluation need not know what a level is.
+// A row is a mask written out: the index of the point it makes (the target), the work points to add
+// up, and their weights. The work points of all levels stand in one array: level 0, then level 1,
+// and so on. So to evaluate a row, one need not know about levels.
 //
 // As weights sum to 1, a row's sum is
 //
@@ -2929,29 +2959,29 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 // whose rounding errors are those of the small differences: exact wherever the mesh stands. Most
 // masks have one or two weights beside the first: p0 + w ((p1 - p0) + (p2 - p0) + ..).
 //
-// Rows stand in batches of those that look alike, whose loop needs no branch for a point and keeps
-// its weights in registers. Batches stand in blocks, each of the rows of so many cage faces, so
+// Rows of the same shape stand in a batch, whose loop needs no branch for a point and keeps weights
+// in registers. Batches stand in blocks. A block has the rows of SDV_BLOCK_FACES cage faces, so
 // that any range of faces can be made alone.
 
 // Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
 enum { SDV_RUNS = 4 };
 
-typedef struct sdv_runs {
+typedef struct sdv_runs {               // the weights of a row, each for a run of its points
     float weight[SDV_RUNS];
-    int   count[SDV_RUNS];
+    int   count[SDV_RUNS];              // points of each run
     int   blend;                        // of two rules, by weights that hardly any other row has
 } sdv_runs;
 
 enum { SDV_BLOCK_FACES = 128 };
 
-typedef struct sdv_shape {
+typedef struct sdv_shape {              // how rows of a batch look
     int   count[3];                     // behind the first point so many points of each weight
     float weight[3];
     int   own;                          // each row has weights of its own behind its points
     int   regular;                      // of a limit: smooth, with the regular number of faces
 } sdv_shape;
 
-typedef struct sdv_batch {
+typedef struct sdv_batch {              // rows of the same shape
     sdv_shape shape;
     int       rows;
     const int *items;                   // of each row the target, the points, three floats if own
@@ -2959,41 +2989,39 @@ typedef struct sdv_batch {
     const float *limit;                 // [3][points] of a limit: weights of the point and of two
 } sdv_batch;                            // tangents; else NULL
 
-typedef struct sdv_batches {
+typedef struct sdv_batches {            // the rows of one step of refinement, or of the limit
     int        rows, blocks;
     int       *starts;                  // [blocks + 1] the first batch of each block
     sdv_batch *items;
 } sdv_batches;
 
-// A batch that rows are added to, emptied at the end of each block.
-typedef struct sdv_open_batch {
+typedef struct sdv_open_batch {         // a batch being written, emptied behind each block
     sdv_shape shape;
-    const float *limit;
+    const float *limit;                 // see sdv_batch
     int   stride;                       // ints of a row
-    int   rows, room;                   // and how many there is room for
+    int   rows, room;                   // rows there, and rows that there is room for
     int  *items;
     unsigned char *faces;
 } sdv_open_batch;
 
-// Writes rows: one at a time into points, and from there into the batch of its shape.
-typedef struct sdv_writer {
+typedef struct sdv_writer {             // writes rows into batches
     sdv_context *context;
-    sdv_arena   *arena;                 // what is written goes there
+    sdv_arena   *arena;                 // finished batches go there
     sdv_arena    scratch;               // of open batches
-    sdv_array    open;                  // sdv_open_batch: one of each shape that there was
-    int          known[256];            // numbers of these by the hash of their shape, or -1
+    sdv_array    open;                  // sdv_open_batch: one for each shape so far
+    int          known[256];            // numbers of open batches by the hash of their shape, or -1
     sdv_array    batches, starts;       // sdv_batch, int
     sdv_array    strips;                // sdv_strips: of SUBDIV_EXACT, see >>patches
-    int          rows, face;            // face: the rows that follow belong to it
-    int         *points;                // room for those of a row
+    int          rows, face;            // rows written; the cage face that new rows belong to
+    int         *points;                // room for the points of a row
     sdv_shape    shape;                 // of the last row that was looked up
     int         *smooth;                // [most + 1] open batches of smooth vertices with so many
-    int          most;                  // faces; or -1
-    int          crease, corner, middle;        // the same for vertices and edges that stay sharp,
-    int          smooth_edge;                   // and for edges of the cage that are smooth
+    int          most;                  // faces, or -1; the most faces at a vertex or sides
+    int          crease, corner, middle;        // open batches of vertices and edges that stay
+    int          smooth_edge;                   // sharp and of smooth edges of the cage, or -1
 } sdv_writer;
 
-// For rows of a cage, or of levels that are made of it.
+// Begins a writer of rows for a cage and the levels that are made of it.
 static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
                            sdv_writer *writer)
 {
@@ -3028,8 +3056,8 @@ static int sdv_same_shape(const sdv_shape *a, const sdv_shape *b)
            (a->own || memcmp(a->weight, b->weight, sizeof a->weight) == 0);
 }
 
-// The number of the open batch for rows of a shape or, with limit, of these weights. A shape whose
-// place is taken takes it over. -1: out of memory.
+// Returns the number of the open batch for rows of a shape and, of a limit, of these weights. Makes
+// one where none is known: of shapes with the same hash, only the latest is. -1: out of memory.
 static int sdv_find_open(sdv_writer *writer, const sdv_shape *shape, const float *limit)
 {
     uint32_t bits[3] = { 0, 0, 0 }, hash = 0;
@@ -3061,7 +3089,7 @@ static void sdv_grow_open(sdv_writer *writer, sdv_open_batch *open)
     open->room = (int)room;
 }
 
-// Adds a row to an open batch: where it goes; and returns the place for its points.
+// Adds a row with this target to an open batch. Returns the place for its points.
 SDV_INLINE int *sdv_put_row(sdv_writer *writer, int number, int target)
 {
     if (number < 0) return writer->points;
@@ -3074,7 +3102,7 @@ SDV_INLINE int *sdv_put_row(sdv_writer *writer, int number, int target)
     return row + 1;
 }
 
-// Adds a row of a shape, whose points are in writer->points, to its open batch.
+// Adds a row of a shape, whose points are in writer->points, to an open batch.
 static void sdv_copy_row(sdv_writer *writer, int number, const sdv_shape *shape, int target)
 {
     int points = sdv_row_points(shape), *row = sdv_put_row(writer, number, target);
@@ -3083,8 +3111,7 @@ static void sdv_copy_row(sdv_writer *writer, int number, const sdv_shape *shape,
     if (shape->own) memcpy(row + points, shape->weight, sizeof shape->weight);
 }
 
-// Adds the row whose points are in writer->points to the open batch of a shape. Returns the number
-// of the batch.
+// Adds the row whose points are in writer->points to the open batch of a shape. Returns its number.
 static int sdv_add_shape(sdv_writer *writer, const sdv_shape *shape, const float *limit,
                          int target)
 {
@@ -3093,7 +3120,7 @@ static int sdv_add_shape(sdv_writer *writer, const sdv_shape *shape, const float
     return number;
 }
 
-// From a row's runs to its shape: the first point apart, runs of the same weight together.
+// Returns the shape of a row: its runs without the first point, joined where weights are equal.
 static sdv_shape sdv_shape_of(const sdv_runs *runs)
 {
     sdv_shape shape;
@@ -3118,14 +3145,14 @@ static sdv_shape sdv_shape_of(const sdv_runs *runs)
     return shape;
 }
 
-// Adds the row whose points are in writer->points. Returns the number of its batch.
+// Adds the row whose points are in writer->points. Returns the number of its open batch.
 static int sdv_add_runs(sdv_writer *writer, const sdv_runs *runs, int target)
 {
     writer->shape = sdv_shape_of(runs);
     return sdv_add_shape(writer, &writer->shape, NULL, target);
 }
 
-// Writes the batches of a block.
+// Copies open batches to the batches of a new block and empties them.
 static void sdv_end_block(sdv_writer *writer)
 {
     sdv_context *context = writer->context;
@@ -3153,13 +3180,14 @@ static void sdv_end_block(sdv_writer *writer)
     }
 }
 
-// The rows that follow belong to this cage face.
+// Says that the rows added from now on belong to a cage face; ends a block where a new one begins.
 static void sdv_batch_face(sdv_writer *writer, int face)
 {
     if (face / SDV_BLOCK_FACES != writer->face / SDV_BLOCK_FACES) sdv_end_block(writer);
     writer->face = face;
 }
 
+// Ends the last block and hands all batches over. The writer can then begin with others.
 static void sdv_end_batches(sdv_writer *writer, sdv_batches *made)
 {
     sdv_context *context = writer->context;
@@ -3183,6 +3211,7 @@ static void sdv_writer_free(sdv_writer *writer)
 }
 
 #if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
+// Adds the row that makes point target, the face point of f.
 static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *writer)
 {
     int start = sdv_face_start(level, f), end = sdv_face_end(level, f);
@@ -3194,7 +3223,7 @@ static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *
 }
 #endif
 
-// From weights of face points to weights of what they are the mean of.
+// Replace a mask's weights of face points by weights of the vertices of these faces, all quads.
 static sdv_mask sdv_spread_vertex(sdv_mask mask, int faces)
 {
     mask.self += faces * mask.face / 4;
@@ -3210,7 +3239,7 @@ static sdv_mask sdv_spread_edge(sdv_mask mask, int faces)
     return mask;
 }
 
-// The point inside face f that is next to its vertex i; if there is one only, that.
+// Returns the point inside face f that is next to its vertex i; on level 1 the centre.
 static int sdv_inside_corner(const sdv_order *order, int f, int i)
 {
     int inside = sdv_first_inside(order, f), n = order->n;
@@ -3220,7 +3249,7 @@ static int sdv_inside_corner(const sdv_order *order, int f, int i)
     return inside + (i >= 2 ? (n - 2) * (n - 1) : 0) + (i == 1 || i == 2 ? n - 2 : 0);
 }
 
-// The points next to the vertex of h: along the edge that leads on, along the one before, and
+// Return a point next to the vertex of h: along the edge that leads on, along the one before, or
 // across the face.
 static int sdv_point_ahead(const sdv_level *level, int h)
 {
@@ -3245,8 +3274,8 @@ static int sdv_point_across(const sdv_level *level, int h)
                                  level->face_vertices[across]);
 }
 
-// Adds the neighbours of v along the edges that are sharp: now, or on the next level where a
-// corner turns into a crease. Or along the others.
+// Appends the neighbours of v along its sharp edges (sharp 1) or along the others (0). An edge is
+// sharp if it is so now or, where a corner turns into a crease, on the next level.
 static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int sharp, int *point)
 {
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
@@ -3261,7 +3290,7 @@ static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int
     return point;
 }
 
-// Where the number of the batch of such vertices is kept; NULL: of a blend of two rules.
+// Returns where the writer keeps the open batch for a vertex's rule; NULL where two rules blend.
 static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
 {
     if (fading.rule < SDV_CREASE) return &writer->smooth[faces];
@@ -3269,7 +3298,7 @@ static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
     return fading.rule == SDV_CREASE ? &writer->crease : &writer->corner;
 }
 
-// The points around a smooth vertex: its neighbours, then those of its faces.
+// Writes the points around a smooth vertex: its neighbours, then a point for each of its faces.
 static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
 {
     const int *vertices = level->face_vertices;
@@ -3288,8 +3317,8 @@ static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
     }
 }
 
-// Adds the row that makes point target from vertex v and the points around. Without a crease each
-// edge at v lies between two faces. The cage on a later level has no face points: see >>lines.
+// Adds the row that makes point target from vertex v and the points around it. Without a crease
+// each edge at v lies between two faces. Later levels have no face points: see >>lines.
 static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v, int target,
                            sdv_writer *writer)
 {
@@ -3331,8 +3360,8 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
 
-// Adds the row that makes point target from the edge of h: its ends, then on each side the face
-// point or, under Loop, the vertex opposite.
+// Adds the row that makes point target from the edge of h: from its ends and, on each side, from
+// the face point or, under Loop, the vertex opposite.
 static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, int target,
                          sdv_writer *writer)
 {
@@ -3367,8 +3396,8 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 }
 
 // --------------------------------------------------------------------------------- >>lines
-// From level 1 on nothing has to be found any more. The points of a level stand in THE ORDER OF THE
-// RESULT, and what lies around each follows from where it stands:
+// From level 1 on, topology is arithmetic. The points of a level stand in THE ORDER OF THE RESULT,
+// and the neighbours of each follow from where it stands:
 //
 //     inside a face      on its grid, where all is regular and smooth: see >>grids
 //     on an edge         a line of points, between the rows of points beside it
@@ -3378,49 +3407,44 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 //     v-o-o-o-v   line                                            v-o-o-o-v
 //     . . . . .   right                                            . . . .     right
 //
-// Such rows need no face points: a face point is the mean of four points, a corner of the face
-// each, so that a mask is as well one of the points at the edges' ends and of those across the
-// faces.
+// These rows need no face points. A face point is the mean of its face's four vertices, so its
+// weight in a mask goes to them in equal parts: to ends of edges and to points across faces.
 //
 // The next level's lines follow from this level's lines and the points beside them, and so do the
-// points beside the next level's lines. So that is all that deep levels keep: frames.
+// points beside the next level's lines. So deep levels keep lines and frames alone.
 
-// A row on an edge that is sharp, or was: most are like the last one.
-typedef struct sdv_last_row {
-    float     key[5];                   // what it depends on
+typedef struct sdv_last_row {           // of a line that is or was sharp: most rows are like it
+    float     key[5];                   // all that the shape depends on
     sdv_shape shape;
     int       batch;                    // -1: none yet
 } sdv_last_row;
 
-// The rows from one level to the next.
-typedef struct sdv_filler {
+typedef struct sdv_filler {             // writes the rows from one level to the next
     sdv_writer  writer;
     sdv_level   *level;                 // the cage, with the sharpness that is left on this level
     const sdv_rules *rules;
-    sdv_order    from, to;
-    int          base;                  // where the points of this level start, and those of the
-    int          target;                // next
-    int         *line, *left, *right;   // [n + 1]
-    int         *made;                  // [2 n + 1]
-    int          odd, even;             // batches of the points on smooth edges, of face points,
-    int          face;
-    sdv_last_row sharp[2];              // the last odd and even one
-    int          edges;                 // that have their rows; faces meet them in this order
+    sdv_order    from, to;              // of this level, of the next one
+    int          base;                  // where the points of this level start,
+    int          target;                // where those of the next one start
+    int         *line, *left, *right;   // [n + 1] the points of a line and those beside it
+    int         *made;                  // [2 n + 1] points of the next level, beside a line of it
+    int          odd, even;             // open batches: of edge and vertex points on smooth lines,
+    int          face;                  // of face points
+    sdv_last_row sharp[2];              // of edge points, of vertex points
+    int          edges;                 // edges that have rows so far; faces meet them in order
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
-// The sharpness of edges piece by piece, of this level and the next.
-typedef struct sdv_pieces {
-    int   *number;                      // [edges] among those that are semi-sharp, or -1
-    int    count;
-    float *now, *next;                  // [n * count], [2 n * count]
+typedef struct sdv_pieces {             // the sharpness of semi-sharp edges, piece by piece
+    int   *number;                      // [edges] the number of an edge among these, or -1
+    int    count;                       // of these edges; each has n pieces on this level
+    float *now, *next;                  // [n * count] on this level, [2 n * count] on the next
 } sdv_pieces;
 
-// An edge and its pieces.
-typedef struct sdv_edge_line {
+typedef struct sdv_edge_line {          // the edge of face-vertex h, cut into n pieces
     int h, n;
-    float sharpness;                    // of all pieces, if it is 0 or forever;
-    const float *now, *next;            // else that of each, and of its halves; or NULL
+    float sharpness;                    // of every piece, if it is 0 or forever;
+    const float *now, *next;            // else of each piece, and of each half; or NULL
 } sdv_edge_line;
 
 static sdv_edge_line sdv_line_at(const sdv_filler *fill, int h)
@@ -3434,7 +3458,7 @@ static sdv_edge_line sdv_line_at(const sdv_filler *fill, int h)
     return line;
 }
 
-// Where point t beside a side stands on its grid.
+// Finds the row and column of point t beside a side of a grid, counter-clockwise.
 static void sdv_beside_side(int n, int triangle, int side, int t, int *row, int *column)
 {
     int last = n - 1, back = triangle ? last - t : n - t;
@@ -3444,7 +3468,8 @@ static void sdv_beside_side(int n, int triangle, int side, int t, int *row, int 
     else *row = back, *column = 1;
 }
 
-// The points beside a side of a grid whose inside starts at a point, step by step from at on.
+// Writes the points beside a side of a grid, counter-clockwise, point t to at[step * t]. inside:
+// the first point inside the grid.
 static void sdv_put_beside(const sdv_order *order, int n, int inside, int side, int step, int *at)
 {
     int triangle = order->loop, last = n - 1 - triangle, row, column;
@@ -3458,10 +3483,11 @@ static void sdv_put_beside(const sdv_order *order, int n, int inside, int side, 
         sdv_beside_side(n, 1, side, t, &row, &column);
         at[step * t] = sdv_inside_point(inside, n, 1, row, column);
     }
-    if (order->frame && side == 3 - triangle) at[step * last] = inside;        // all around
+    if (order->frame && side == 3 - triangle) at[step * last] = inside;        // the ring closes
 }
 
-// The points in the row beside the edge of h inside its face, as seen from there or backwards.
+// Writes the points inside the face of h that are beside its edge, from h on or backwards, and at
+// both ends those on the edges before and after it. n + 1 points; Loop: n.
 static void sdv_points_beside(const sdv_order *order, int base, int h, int backwards, int *out)
 {
     const sdv_level *cage = &order->cage;
@@ -3484,7 +3510,7 @@ static void sdv_points_beside(const sdv_order *order, int base, int h, int backw
     sdv_put_beside(order, m, base + sdv_inside_grid(order, f, next), 3, step, at + step * m);
 }
 
-// The points of the edge of h.
+// Writes the n + 1 points of the edge of h, with its ends.
 static void sdv_points_on_edge(const sdv_order *order, int base, int h, int *out)
 {
     const sdv_level *cage = &order->cage;
@@ -3494,7 +3520,7 @@ static void sdv_points_on_edge(const sdv_order *order, int base, int h, int *out
     out[order->n] = base + cage->face_vertices[sdv_next(cage, h)];
 }
 
-// Piece j of a line and what is beside it.
+// Writes the points at piece j of a line: its ends, then the points beside it.
 SDV_INLINE void sdv_points_at_piece(const sdv_filler *fill, int loop, int j, int *points)
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
@@ -3507,7 +3533,7 @@ SDV_INLINE void sdv_points_at_piece(const sdv_filler *fill, int loop, int j, int
     points[5] = right[j + 1];
 }
 
-// Point t of a line and those around it: along it, beside it, and across the faces there.
+// Writes point t of a line and those around it: along it, beside it, and across the faces there.
 SDV_INLINE void sdv_points_around(const sdv_filler *fill, int loop, int t, int *points)
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
@@ -3523,7 +3549,7 @@ SDV_INLINE void sdv_points_around(const sdv_filler *fill, int loop, int t, int *
     points[8] = right[t + 1];
 }
 
-// The odd and even points of a smooth line: those of its pieces and those that it has.
+// Adds the rows of a smooth line: of the odd points, one on each piece, and of the even ones.
 SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side target)
 {
     int at = target.first + target.step;
@@ -3534,7 +3560,7 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
         sdv_points_around(fill, loop, t, sdv_put_row(&fill->writer, fill->even, at));
 }
 
-// Adds a row on a sharp edge that is not like the last one, and remembers it.
+// Adds a row on a sharp edge that is not like the last one, and keeps it as the last one.
 static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
 {
     memcpy(row->key, key, sizeof row->key);
@@ -3542,7 +3568,7 @@ static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *
     sdv_copy_row(&fill->writer, row->batch, &row->shape, target);
 }
 
-// The odd points of a line that is sharp, or was.
+// Add the rows of odd and of even points of a line that is or was sharp.
 static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
 {
     int loop = fill->rules->loop, at = target.first + target.step;
@@ -3596,7 +3622,7 @@ static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side 
     }
 }
 
-// The rows of the points inside the edge of h, which is its first face-vertex.
+// Adds the rows of the points inside an edge, h being its first face-vertex.
 static void sdv_line_rows(sdv_filler *fill, int h)
 {
     sdv_edge_line line = sdv_line_at(fill, h);
@@ -3617,8 +3643,8 @@ static void sdv_line_rows(sdv_filler *fill, int h)
     }
 }
 
-// A polygon that is no quad: the lines of points from the middles of its edges to its centre, the
-// spokes, and the centre. Spoke i is between the quads at vertices i and i + 1.
+// Finds the points of spoke i of an n-gon, from the middle of edge i to the centre, and those
+// beside it: left in the grid at vertex i, right in the grid at vertex i + 1.
 static void sdv_spoke_points(sdv_filler *fill, int f, int i)
 {
     const sdv_order *order = &fill->from;
@@ -3634,6 +3660,7 @@ static void sdv_spoke_points(sdv_filler *fill, int f, int i)
     }
 }
 
+// Adds the rows of the points inside the spokes of an n-gon, and of its centre.
 static void sdv_spoke_rows(sdv_filler *fill, int f)
 {
     const sdv_level *cage = &fill->from.cage;
@@ -3657,8 +3684,8 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
     sdv_add_runs(&fill->writer, &runs, centre);
 }
 
-// Points first to last of the row that comes between a line and the row beside it: they are face
-// points and edge points or, under Loop, edge points alone. made: where they stand; -1: not wanted.
+// Adds the rows of points first to last between a line and the points beside it: face points and
+// edge points or, under Loop, edge points alone. Row t makes point fill->made[t]; -1: no row.
 static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int last)
 {
     const int *line = fill->line, *made = fill->made;
@@ -3678,7 +3705,7 @@ static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int 
     }
 }
 
-// The frame of face f on the next level.
+// Adds the rows that make the frames of face f on the next level: beside its edges and its spokes.
 static void sdv_frame_rows(sdv_filler *fill, int f)
 {
     const sdv_order *from = &fill->from, *to = &fill->to;
@@ -3985,14 +4012,13 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
 
 // ------------------------------------------------------------------------------- >>prepare
 
-// The mask of a limit row: see >>limit-rows.
-typedef struct sdv_limit_weights {
+typedef struct sdv_limit_weights {      // the mask of a limit row: see >>limit-rows
     int    count;                       // points
     float *weights;                     // [3][count] for the position, then for either tangent
 } sdv_limit_weights;
 
-// What makes a surface for SUBDIV_EXACT and begins its evaluation. A program that does not ask for
-// such surfaces is not given their code: nothing else names these functions.
+// The functions that prepare and evaluate a surface for SUBDIV_EXACT. Only calls that may make such
+// a surface name them, so programs without these calls do not get their code.
 typedef struct sdv_exact_calls {
     void (*create)(sdv_context *context, subdiv_surface *surface);
     void (*prepare)(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
@@ -4005,48 +4031,48 @@ typedef struct sdv_exact_calls {
 static const sdv_exact_calls *sdv_find_exact_calls(void);       // NULL under SUBDIV_NO_EXACT
 
 struct subdiv_surface {
-    // Of every surface.
+    // Every surface.
     sdv_arena arena;                    // its first block holds this struct
-    sdv_arena points;                   // of what makes points alone: rows, patches
+    sdv_arena points;                   // holds what only makes points: rows, patches
     int       levels;
     sdv_rules rules;
     sdv_order order;                    // of the result, and the topology of the cage
     int       cage_vertex_count, cage_face_count;
     int       face_count;               // of the cage, also faces without values
     int      *cage_face;                // [face_count] the user's face; NULL: the same
-    int       borrows;                  // the cage's faces, as the cage outlives the surface; it
-                                        // is the library's own: nobody asks it for locations
+    int       borrows;                  // the faces are the user's, not copied, and no locations
+                                        // are looked up: the surface lives for a single call
 
-    // What makes its points; from level 1 on.
+    // Making the points, from level 1 on.
     int       work_count;               // work points
-    sdv_batches *refine;                // [levels] the rows to each next level; of SUBDIV_EXACT
-                                        // [2 levels]: to face points, to the others
-    sdv_order *orders;                  // [levels + 1] of the work points; not of SUBDIV_EXACT
-    int      *bases;                    // [levels + 2] where levels start among them
+    sdv_batches *refine;                // [levels] the rows to each next level; SUBDIV_EXACT:
+                                        // [2 levels] the rows of face points, of other points
+    sdv_order *orders;                  // [levels + 1] of each level; not of SUBDIV_EXACT
+    int      *bases;                    // [levels + 2] the first work point of each level
     int      *quads;                    // see sdv_order
-    sdv_batches limit_rows;             // of a limit: from the last level to it
-    subdiv_surface *at_level_1;         // of a limit on level 0: what makes its points
+    sdv_batches limit_rows;             // from the last level to the limit
+    subdiv_surface *at_level_1;         // makes the limit of level 0; else NULL
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     const struct sdv_exact_calls *exact_calls;
 
-    // What is known of the result before its points are made; not of SUBDIV_EXACT.
+    // The result before its points are made; not of SUBDIV_EXACT.
     subdiv_mesh fine;                   // without positions; without faces if levels > 0
     unsigned char *hole;                // [face_count]
-    int      *first_face;               // [face_count + 1] of each one's fine faces; NULL: none are
-                                        // left out, see sdv_first_fine_face
+    int      *first_face;               // [face_count + 1] the first fine face of each face; NULL:
+                                        // none are left out, see sdv_first_fine_face
 
-    // What the result carries along.
+    // Data that the result carries along.
     subdiv_surface *uv;                 // UVs: a surface of their own; or NULL
     float    *uvs, *colors;             // of the cage
 
-    // Of a surface of values.
+    // Surfaces of face-varying values alone.
     int       is_values;                // made by subdiv_prepare_face_varying
     int      *source;                   // [cage_vertex_count] which of the user's values each
                                         // vertex takes; NULL: the same
     int      *own_face;                 // [face_count] the face of order, -1: without values; NULL:
 };                                      // the same
 
-// Cuts faces into fans around vertex 0: what each face-vertex has.
+// Cuts faces into fans around vertex 0. v has one item for each face-vertex, out three a triangle.
 static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
 {
     for (int f = 0; f < cage->face_count; f++) {
@@ -4060,8 +4086,8 @@ static void sdv_cut(const subdiv_mesh *cage, const int *v, int *out)
     }
 }
 
-// The faces of the cage, copied or borrowed; under Loop cut into triangles when the options ask for
-// it: fans around vertex 0, a choice that needs no positions. cage_face says what each is cut from.
+// Gives work the faces of the cage, copied or borrowed. Under Loop, larger faces are cut into fans
+// around vertex 0, a choice that needs no positions; cage_face says what each is cut from.
 static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                            const subdiv_mesh *cage)
 {
@@ -4096,7 +4122,7 @@ static void sdv_copy_faces(sdv_context *context, subdiv_surface *surface, subdiv
             surface->cage_face[work->face_count++] = f;
 }
 
-// Holes of faces that were cut: all their triangles.
+// Makes all triangles of a hole holes, if faces were cut.
 static void sdv_cut_holes(sdv_context *context, subdiv_surface *surface, subdiv_mesh *work,
                           const subdiv_mesh *cage)
 {
@@ -4122,7 +4148,7 @@ static void sdv_check_triangles(sdv_context *context, const subdiv_mesh *cage)
         }
 }
 
-// Does a result of so many levels fit? Asked before anything is built; edges < 0: not known yet.
+// Fails if a result of so many levels is too large. edges: of the cage; -1: not counted yet.
 static void sdv_check_size(sdv_context *context, const subdiv_mesh *work, int levels, int edges)
 {
     uint64_t face_vertices = sdv_face_vertex_count(work), faces = (uint64_t)work->face_count;
@@ -4144,13 +4170,13 @@ static void sdv_check_size(sdv_context *context, const subdiv_mesh *work, int le
                  "%d levels of this mesh make more than %d vertices", levels, INT_MAX);
 }
 
-// Sharpness that is left on the result and not implied by its shape.
+// Whether the result lists a sharpness: some is left, and it is not implied by the mesh's shape.
 static int sdv_survives(float sharpness)
 {
     return sharpness > 0 && sharpness <= SUBDIV_INFINITE;
 }
 
-// Has the edge a face that is not left out of the result?
+// Whether edge e has a face that is not left out of the result.
 static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage, int e)
 {
     int seen = surface->fine.hole_count > 0, first = cage->edge_first[e], h = first;
@@ -4160,26 +4186,26 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
 }
 
 // ------------------------------------------------------------------------------ >>limit-rows
-// Rows that make points of the limit and their tangents from the last level.
+// A limit row makes a point of the limit and its two tangents from points of the last level.
 
-// What the weights of a limit row depend on, with the number of faces: all those around a smooth
-// vertex; those between the two edges of a crease; of a corner none. Tips have the tangents of one
-// face's edges: a corner and, loose, a crease or smooth vertex whose faces are no such fan, which
-// takes a non-manifold crease or a vertex that is twice in a face.
+// The weights of a limit row depend on its kind and on the number of faces. A ring is a smooth
+// vertex with all its faces, a span a crease with the faces on one side, a tip a corner: its
+// tangents are two edges of a face. A loose crease or ring has the tangents of a tip, as its faces
+// are no such fan: a crease is non-manifold or a vertex is twice in a face.
 typedef enum sdv_limit_kind {
     SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING, SDV_LIMIT_KINDS
 } sdv_limit_kind;
 
-// Writes limit rows. Masks are found by kind and number of faces.
-typedef struct sdv_limit_writer {
+typedef struct sdv_limit_writer {       // writes limit rows
     sdv_writer *writer;
     const sdv_level *level;             // the last
     const sdv_rules *rules;
-    sdv_array   masks;                  // sdv_limit_weights
+    sdv_array   masks;                  // sdv_limit_weights, one for each kind and number of faces
     int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
-    double     *tangents;               // [2 * (2 most + 2)]
+    double     *tangents;               // [2 * (2 most + 2)] room for those of a mask
 } sdv_limit_writer;
 
+// Makes the mask of a kind. Its points are in the order of sdv_add_fan or sdv_add_tip.
 static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
     static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER, SDV_CREASE,
@@ -4208,7 +4234,7 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     return made;
 }
 
-// The number of a mask.
+// Returns the number of the mask of a kind, and makes it the first time.
 static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
     int *known = &limit->known[(int)kind * (limit->writer->most + 1) + faces];
@@ -4221,8 +4247,8 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
     return *known = (int)limit->masks.count++;
 }
 
-// The points of count faces from h on, counter-clockwise: the neighbours, of a crease also the one
-// behind the last face, then the vertices across.
+// Appends the points of count faces from h on, counter-clockwise: the neighbours (at a crease also
+// the one behind the last face), then the vertices across the faces.
 static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
 {
     int *across = point + count + crease;
@@ -4235,8 +4261,8 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
     return across;
 }
 
-// The faces on one side of a crease at the vertex of h: how many, and the first of them. 0 if they
-// close to a ring or the same edge bounds them twice.
+// Counts the faces on the side of a crease where h is, and finds the first of them. 0 if they close
+// to a ring or the same edge bounds them twice.
 static int sdv_find_span(const sdv_level *level, int h, int *first)
 {
     int count = 1, last = h, at;
@@ -4247,8 +4273,8 @@ static int sdv_find_span(const sdv_level *level, int h, int *first)
     return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
 }
 
-// A tip: the two neighbours in the face of h; then, for the position, those along the crease, or
-// all.
+// Appends the points of a tip: for the tangents, the two neighbours in the face of h; for the
+// position of a loose crease, those along it; of a loose ring, all around.
 static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
 {
     int v = level->face_vertices[h];
@@ -4263,7 +4289,7 @@ static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int 
     return point;
 }
 
-// A row of the limit whose points are there already.
+// Adds a limit row whose points are in limit->writer->points.
 static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, int faces, int target)
 {
     int number = sdv_find_limit_mask(limit, kind, faces);
@@ -4276,9 +4302,9 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
     sdv_add_shape(limit->writer, &shape, mask->weights, target);
 }
 
-// The row of the vertex of h: a mask, a point of the result, and the points that the mask weighs:
-// the vertex, its neighbours and, under Catmull-Clark, the vertices across its faces. h is the face
-// whose surface counts at a crease and whose edges at a corner.
+// Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
+// the vertices across its faces. A crease gets the limit of the side where h is, a corner the
+// tangents of the face of h.
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
@@ -4315,10 +4341,10 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
 }
 
 // ------------------------------------------------------------------------------------ >>fill
-// The rows of all levels: of the cage's vertices and edges, then of lines and vertices level by
-// level, and those of the limit.
+// Makes the rows of a surface: those of the cage's vertices and edges, then level by level those of
+// vertices and lines, and finally those of the limit.
 
-// Where the points of a level stand, for a cage that is known.
+// Returns the order of the points of a level.
 static sdv_order sdv_order_at(const subdiv_surface *surface, int level, int frame)
 {
     sdv_order order = surface->order;
@@ -4353,14 +4379,15 @@ static void sdv_count_quads(sdv_context *context, subdiv_surface *surface)
     surface->quads = quads;
 }
 
-// The face points of the cage are work points, as edge and vertex points are made from them: the
-// first one. They stand where they do on level 1 or, if that is the result, behind level 0.
+// Returns the first of the cage's face points. They are work points, as edge and vertex points are
+// made from them: on level 1, at their places there or, if level 1 is the result, behind level 0.
 static int sdv_first_face_point(const subdiv_surface *surface)
 {
     int last = surface->levels == 1 && !surface->rules.limit;
     return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1, 0).first_face_point);
 }
 
+// Gives the semi-sharp edges of the cage their pieces: on level 0 one each.
 static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_level *cage, int n,
                            sdv_pieces *pieces)
 {
@@ -4379,8 +4406,7 @@ static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_lev
     }
 }
 
-// The creases of the result on an edge, piece by piece; while there is no room they are only
-// counted.
+// Adds the creases of the result on edge e, piece by piece. Without room in fine only counts them.
 static void sdv_add_creases(subdiv_mesh *fine, const sdv_order *order, const sdv_level *cage, int e,
                             const sdv_pieces *pieces, size_t *count)
 {
@@ -4434,8 +4460,8 @@ static void sdv_surviving_sharpness(sdv_context *context, subdiv_surface *surfac
     }
 }
 
-// From a level to the next: the halves of the pieces are its pieces. Those at an edge's ends fade
-// as the vertex there says, others by their neighbours.
+// Goes on to the next level: halves become pieces, and the halves of these are found. Those at an
+// edge's ends fade as the vertex there says, others by their neighbours.
 static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
 {
     float *swap = pieces->now;
@@ -4457,7 +4483,7 @@ static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
     }
 }
 
-// The cage with the sharpness that is left on the next level, at the ends of its edges.
+// Gives the cage the sharpness that is left on the next level, at the ends of its edges.
 static void sdv_fade_cage(sdv_level *level)
 {
     for (int v = 0; v < level->vertex_count; v++) {
@@ -4469,6 +4495,7 @@ static void sdv_fade_cage(sdv_level *level)
     if (level->sums) level->sums += 2 * (size_t)level->origin_count;
 }
 
+// Begins the rows from one level to the next: finds the open batches of smooth points.
 static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int level, int last)
 {
     int loop = surface->rules.loop;
@@ -4495,8 +4522,8 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
-// The rows that make a level from the one before, face by face: of the vertices and edges that no
-// face before it has, and those inside it that are not on a grid.
+// Adds the rows that make level + 1, face by face: those of the vertices and edges that no earlier
+// face has, and those of points inside the face that no grid makes.
 static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
 {
     sdv_writer *writer = &fill->writer;
@@ -4524,8 +4551,8 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
     sdv_end_batches(writer, &surface->refine[level]);
 }
 
-// The limit of point t of a line: on a crease that of the surface on its left; linear, where the
-// tangents are two edges.
+// Adds the limit row of point t of a line. A crease (sharp 2) gets the limit of the side to its
+// left. Linear surfaces have two edges for tangents.
 static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, int t, int sharp,
                                int target)
 {
@@ -4551,6 +4578,8 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
     sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
 }
 
+// Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
+// centre.
 static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
 {
     const sdv_level *level = fill->level;
@@ -4583,7 +4612,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
         points[1 + i] = fill->line[m - 1];
         points[1 + sides + i] = fill->right[m - 1];
     }
-    if (fill->rules->linear) {              // of the quad at vertex 0
+    if (fill->rules->linear) {              // two edges of the quad at vertex 0
         points[2] = points[1];
         points[1] = points[sides];
     }
@@ -4591,6 +4620,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
     else sdv_limit_batch_row(limit, SDV_RING, sides, centre);
 }
 
+// Adds all limit rows. Vertices without faces stay where they are.
 static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
 {
     static const float stay[3] = { 1, 0, 0 };
@@ -4624,6 +4654,7 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
     sdv_array_free(&limit.masks);
 }
 
+// Whether any sharpness of the cage is semi-sharp.
 static int sdv_is_semi(const sdv_level *cage)
 {
     int semi = 0;
@@ -4635,8 +4666,8 @@ static int sdv_is_semi(const sdv_level *cage)
     return semi;
 }
 
-// Where each level starts among the work points. The last one is there for a limit alone. whole: if
-// none were a frame.
+// Finds the first work point of each level. The last level has work points for a limit alone.
+// whole: with whole grids on all levels, no frames.
 static int *sdv_find_bases(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
                            int whole)
 {
@@ -4655,7 +4686,7 @@ static int *sdv_find_bases(sdv_context *context, sdv_arena *arena, const subdiv_
     return bases;
 }
 
-// sharpness: the result has what is left of the cage's.
+// Makes all rows of a surface. sharpness: the result lists the creases and corners that are left.
 static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                              int sharpness, sdv_arena *scratch)
 {
@@ -4676,7 +4707,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
     surface->orders = SDV_NEW(context, &surface->points, sdv_order, (size_t)levels + 1);
-    for (int i = 0; i <= levels && !context->result; i++)      // beyond some level, in frames
+    for (int i = 0; i <= levels && !context->result; i++)      // deep levels have frames
         surface->orders[i] = sdv_order_at(surface, i, i > SDV_FULL_LEVELS);
     surface->bases = sdv_find_bases(context, &surface->points, surface, 0);
     surface->work_count = context->result ? 0 : surface->bases[levels + 1];
@@ -4694,16 +4725,16 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     sdv_writer_free(&fill.writer);
 }
 
-// The first fine face of face f, or how many there are before any.
+// Returns the first fine face of face f; of the face behind the last one, how many there are.
 static int sdv_first_fine_face(const subdiv_surface *surface, int f)
 {
     const sdv_order *order = &surface->order;
     if (surface->first_face) return surface->first_face[f];
-    int64_t n = order->n, m = order->m;         // of no faces any number of levels fits
+    int64_t n = order->n, m = order->m;         // without faces n may be 2^30
     return (int)(order->loop ? f * n * n : sdv_face_start(&order->cage, f) * m * m);
 }
 
-// The faces of the result.
+// Counts the faces of the result, and those that are holes.
 static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, int keep_holes)
 {
     subdiv_mesh *fine = &surface->fine;
@@ -4725,7 +4756,7 @@ static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, 
     surface->first_face = first_face;
 }
 
-// SUBDIV_EXACT has no result: no points, no faces.
+// Empties the result of a surface for SUBDIV_EXACT, which has no points and no faces.
 static void sdv_no_result(subdiv_surface *surface)
 {
     surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
@@ -4733,24 +4764,22 @@ static void sdv_no_result(subdiv_surface *surface)
 }
 
 // ---------------------------------------------------------------------------------- >>create
-// A surface, from the cage and what the options say.
+// Makes a surface from a cage and options.
 
-// Values at the vertices of faces that are to be refined along.
-typedef struct sdv_values {
+typedef struct sdv_values {             // face-varying values to refine
     int        count;
     const int *indices;                 // [face-vertices] -1: none
     subdiv_uv_rule rule;
 } sdv_values;
 
-// What a surface is to be made from.
-typedef struct sdv_request {
+typedef struct sdv_request {            // says what surface to make
     const subdiv_mesh *cage;
     int                levels;
     const subdiv_options *opt;
     const sdv_exact_calls *exact;       // NULL: SUBDIV_EXACT is no number of levels
     int                borrows;         // see subdiv_surface
-    int                alone;           // only values are asked for, and the cage's UVs are not:
-    sdv_values         values;          // these
+    int                alone;           // of these values alone, not of positions and UVs
+    sdv_values         values;
 } sdv_request;
 
 static sdv_request sdv_request_of(const subdiv_mesh *cage, int levels,
@@ -4767,6 +4796,7 @@ static sdv_request sdv_request_of(const subdiv_mesh *cage, int levels,
     return request;
 }
 
+// Checks a request and the topology of its cage.
 static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
                               const sdv_request *r)
 {
@@ -4780,7 +4810,7 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
         sdv_check_triangles(context, cage);
 }
 
-// The values that go with the positions, or instead of them.
+// Checks the values that go with the positions, or instead of them.
 static void sdv_check_carried(sdv_context *context, const sdv_request *r)
 {
     const subdiv_mesh *cage = r->cage;
@@ -4814,7 +4844,7 @@ static subdiv_surface *sdv_new_surface(sdv_context *context, const sdv_request *
     return surface;
 }
 
-// Takes the cage over, as work: its faces, perhaps cut; and begins the surface of the values.
+// Copies the cage to work, its faces cut if need be. Begins the surface of its values.
 static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const sdv_request *request,
                           subdiv_mesh *work, sdv_values *values)
 {
@@ -4835,7 +4865,7 @@ static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const s
     values->indices = indices;
 }
 
-// The rules that all values share with the positions, and the faces that they are seen on.
+// Gives a surface of values the rules and fine faces of the surface of positions.
 static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_surface *surface)
 {
     made->rules = surface->rules;
@@ -4850,7 +4880,7 @@ static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_su
         made->first_face[f] = sdv_first_fine_face(surface, f);
 }
 
-// A surface of values over a surface that is being prepared from a cage.
+// Prepares a surface of values that goes with a surface of positions.
 static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
                                const subdiv_surface *surface, const subdiv_mesh *work,
                                const sdv_cage *cage, const sdv_values *values)
@@ -4877,7 +4907,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->cage_face_count = seams.level.face_count;
     made->order.cage = seams.level;
     made->rules.linear |= values->rule == SUBDIV_UV_ALL;
-    // In the limit the points inside straight edges need no care: they are on a straight crease.
+    // The exact limit needs no rule for straight edges: their points are on a straight crease.
     made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES && !made->exact;
     made->rules.limit = 0;
     sdv_set_order(made);
@@ -4890,7 +4920,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     sdv_arena_free(&scratch);
 }
 
-// Level 0 of values: as they are.
+// Prepares level 0 of values: a copy of their indices.
 static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const subdiv_mesh *work,
                             const sdv_values *values)
 {
@@ -4906,7 +4936,7 @@ static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const su
                                                      (size_t)work->face_count, sizeof(int));
 }
 
-// Level 0: everything as it is.
+// Prepares level 0: a copy of the cage.
 static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *work,
                              const sdv_values *values)
 {
@@ -4930,7 +4960,8 @@ static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, cons
     if (surface->uv && !context->result) sdv_copy_values(context, surface->uv, work, values);
 }
 
-// Statements stand before the first fine face of their face, or of the next one that has any.
+// Copies the statements. Each stands before the first fine face of its face, or of the next face
+// that has any.
 static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
                                 const subdiv_mesh *cage)
 {
@@ -4952,7 +4983,7 @@ static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
     }
 }
 
-// UVs, colours and statements go with the surface.
+// Copies the UVs, colours and statements that go with the surface.
 static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage)
 {
     size_t uvs = 2 * (size_t)cage->uv_count;
@@ -4968,7 +4999,7 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
     sdv_keep_statements(context, surface, cage);
 }
 
-// The cage's rules, and what the result will be.
+// Sets the rules of a surface from the cage and the options, and counts what the result will have.
 static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
                           const sdv_request *request, const sdv_cage *built)
 {
@@ -5034,15 +5065,15 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
 }
 
 // --------------------------------------------------------------------------------- >>results
-// Where the points of a result go, four channels at a time.
+// Writes the points of a result, four channels at a time.
 
-typedef struct sdv_window {             // a part of the result, four channels of it or fewer
-    float *values;                      // of point first; NULL: not wanted
+typedef struct sdv_window {             // the points to write, up to four channels of each
+    float *values;                      // where point first goes; NULL: not wanted
     size_t stride;                      // floats from point to point
     int    lanes;                       // 1 to 4 channels
-    int    first, count;                // so many points are written
-    int    clip;                        // others come, too, and are left out
-    struct sdv_tangents *tangents;      // of a limit: what else there is of each point, or NULL
+    int    first, count;                // points first to first + count - 1 are written
+    int    clip;                        // points outside this range come, too, and are left out
+    struct sdv_tangents *tangents;      // of a limit: where normals and tangents go, or NULL
     sdv_four origin;                    // from where points are seen: see sdv_find_origin
     sdv_four near;                      // 1 in channels where that is 0, else 0
 } sdv_window;
@@ -5077,7 +5108,7 @@ SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
     }
 }
 
-// Writes a point that is seen from 0, if it is in the window.
+// Writes point index of the result, if the window wants it.
 SDV_INLINE void sdv_put_whole(const sdv_window *out, int index, sdv_four a)
 {
     int i = index - out->first;
@@ -5091,8 +5122,8 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     sdv_put_whole(out, index, sdv_plus(out->origin, a));
 }
 
-// Writes four points, of which lane i of x[k] is channel k of point i, to where they stand in the
-// window, if they do.
+// Writes four points to places at in the window, if below count. Lane i of x[k] is channel k of
+// point i.
 SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
                                 const int *at, int count)
 {
@@ -5103,16 +5134,16 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
-// What a limit's points have besides their place: tangents, which rows and grids have weights for,
-// and normals.
+// Writes the normals and tangents of the limit's points. Rows and grids make the tangents; normals
+// are made from these, four at a time.
 
-enum { SDV_WAITING = 16 };              // points that wait at most: fours of them
+enum { SDV_WAITING = 16 };              // points that wait at most; a multiple of 4
 
-typedef struct sdv_tangents {           // a part of the result, that of its sdv_window
-    float *normals, *tangents;          // or NULL
+typedef struct sdv_tangents {           // goes with an sdv_window and has the same points
+    float *normals, *tangents;          // where they go, or NULL
     size_t stride, tangent_stride;      // floats from point to point
-    int      count;                     // points that wait, as normals are made four at a time:
-    int      at[SDV_WAITING];           // where in the part they stand,
+    int      count;                     // points that wait until there are enough;
+    int      at[SDV_WAITING];           // their places in the window
     sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents
 } sdv_tangents;
 
@@ -5128,15 +5159,15 @@ static void sdv_cross(const double *a, const double *b, double *n)
     n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// A vector made 1 long, or 0.
+// Scales a vector to length 1. The vector 0 stays.
 SDV_INLINE void sdv_make_unit(const double *n, float *unit)
 {
     double squares = sdv_dot3(n, n), scale = squares > 0 ? 1 / sqrt(squares) : 0;
     for (int k = 0; k < 3; k++) unit[k] = scale > 0 ? (float)(n[k] * scale) : 0;
 }
 
-// a x b made 1 long or, if that is rounding alone, 0: if the square of the sine is no more than
-// this. In doubles, whose range holds the squares of products of all floats.
+// Scales a x b to length 1 or, where it is no more than rounding, to 0: parallel is the largest
+// squared sine of such an angle. Doubles hold the squares of products of all floats.
 static void sdv_unit_cross(const double *a, const double *b, double parallel, float *unit)
 {
     double n[3];
@@ -5145,7 +5176,7 @@ static void sdv_unit_cross(const double *a, const double *b, double parallel, fl
     sdv_make_unit(n, unit);
 }
 
-// Along a x b, tangents that rounding may have turned by 1e-6.
+// Makes the unit normal of tangents a and b, which rounding may have turned by 1e-6.
 static void sdv_unit_normal(const float *a, const float *b, float *normal)
 {
     double x[3] = { (double)a[0], (double)a[1], (double)a[2] };
@@ -5158,9 +5189,9 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
     return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
-// Unit normals for four pairs of tangents, channel by channel. Floats do unless products are too
-// small or too large for them, or a and b are almost parallel: n n = a a b b sin^2, and a b / sin
-// loses digits.
+// Makes the unit normals of four pairs of tangents, channel by channel. Floats suffice unless their
+// products are too small or too large or a and b are almost parallel: n n = a a b b sin^2, and a
+// small sine costs digits.
 SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
 {
     const float least = 1e-30f, least_sin2 = 1.0f / 64;
@@ -5187,8 +5218,8 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four 
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// Writes the normals and tangents of four points, channel by channel, where they stand in the
-// window.
+// Writes the normals and tangents of four points, given channel by channel, to places at, if below
+// count.
 static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
                                   sdv_four *along, sdv_four *across)
 {
@@ -5203,7 +5234,7 @@ static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, i
     sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at, count);
 }
 
-// Writes the points that wait.
+// Writes the normals and tangents of the points that wait.
 static void sdv_flush_tangents(sdv_tangents *tangents)
 {
     for (int i = tangents->count; i % 4 > 0; i++) tangents->at[i] = -1;
@@ -5216,6 +5247,7 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     tangents->count = 0;
 }
 
+// Makes a point wait with its tangents, if the window has it.
 static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across)
 {
     sdv_tangents *tangents = out->tangents;
@@ -5228,7 +5260,7 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
     if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
 }
 
-// The normals of four points that stand one behind the other.
+// Writes the normals of four points that stand one behind the other.
 static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *along,
                             sdv_four *across)
 {
@@ -5243,10 +5275,10 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
 }
 
 // --------------------------------------------------------------------------------- >>grids
-// The general step: the points of a level from those of the level before, by nothing but masks: in
+// The general step makes the points of a level from those of the level before, by masks alone: in
 // batches of rows and, inside faces, grid by grid.
 
-// The sum of p - p0 for n points. n is a constant where it is called for rows that occur often.
+// Returns the sum of p - p0 over n points. n is a constant in calls for rows that occur often.
 SDV_INLINE sdv_four sdv_run_sum(const int *points, int n, sdv_four p0, const float *work)
 {
     sdv_four sum = sdv_all(0);
@@ -5266,8 +5298,7 @@ SDV_INLINE sdv_four sdv_run_sum(const int *points, int n, sdv_four p0, const flo
     return sum;
 }
 
-// The sum of a row: p0 + w0 (sum of p - p0) + ..., whose rounding errors are those of the
-// differences.
+// Returns the sum of a row as >>rows says: p0 + w0 (sum of p - p0) + ...
 SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, const float *w,
                                   const float *work)
 {
@@ -5282,8 +5313,7 @@ SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, con
     return made;
 }
 
-// The rows of a batch from one up to another. own: each has its weights behind its points; clip:
-// see sdv_window.
+// Makes rows first to end - 1 of a batch. own: rows have their own weights; clip: see sdv_window.
 SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, int n1, int n2,
                             int own, int clip, const float *work, const sdv_window *out)
 {
@@ -5301,7 +5331,7 @@ SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, 
     }
 }
 
-// Shapes that occur often have loops of their own.
+// Makes rows first to end - 1 of a batch. Shapes that occur often have loops of their own.
 static void sdv_make_rows(const sdv_batch *batch, int first, int end, const float *work,
                           const sdv_window *out)
 {
@@ -5321,14 +5351,13 @@ static void sdv_make_rows(const sdv_batch *batch, int first, int end, const floa
     else sdv_rows_of(batch, first, end, n[0], n[1], 0, 0, 0, work, out);
 }
 
-// The limit at a regular smooth vertex. Its weights are a few: of the vertex, of its neighbours,
-// and under Catmull-Clark of the vertices across its faces; of pairs of opposite ones in tangents.
+// The weights of the limit at a regular smooth vertex: for the point, of the vertex, its neighbours
+// and, under Catmull-Clark, the vertices across its faces; for tangents, of pairs of opposite ones.
 typedef struct sdv_ring_weights {
     sdv_four self, edge, face, along[2], across[2];
 } sdv_ring_weights;
 
-// From weights [3][points]: of the vertex, those around it, and those across the faces, both
-// counter-clockwise.
+// Picks a ring's weights from a limit mask [3][points], whose points are in sdv_add_fan's order.
 static sdv_ring_weights sdv_ring_of(const float *w, int loop)
 {
     sdv_ring_weights ring;
@@ -5343,7 +5372,7 @@ static sdv_ring_weights sdv_ring_of(const float *w, int loop)
     return ring;
 }
 
-// sums: of the points p around alone, and two tangents.
+// Adds up the points p[1], p[2], ... around a vertex: their part of its limit point, two tangents.
 SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_four *p,
                                sdv_four *sums)
 {
@@ -5365,7 +5394,7 @@ SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_fo
                        sdv_times(w->across[1], sdv_minus(d0, d1)));
 }
 
-// A row of a limit: its point and two tangents.
+// Makes a limit row: a point and two tangents.
 SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width,
                                    const sdv_ring_weights *ring, const float *work, sdv_four *p,
                                    sdv_four *t0, sdv_four *t1)
@@ -5390,7 +5419,7 @@ SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int 
     *t1 = sums[2];
 }
 
-// The rows of a batch of a limit: points and, if they are wanted, tangents, four at a time.
+// Makes rows first to end - 1 of a batch of limit rows: points and, if wanted, tangents.
 SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
                                   int regular, const float *work, const sdv_window *out)
 {
@@ -5406,6 +5435,7 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
     }
 }
 
+// Makes rows first to end - 1 of a batch of limit rows. Regular ones have loops of their own.
 static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, const float *work,
                                 const sdv_window *out)
 {
@@ -5415,7 +5445,7 @@ static void sdv_make_limit_rows(const sdv_batch *batch, int first, int end, cons
     else sdv_limit_rows_of(batch, first, end, width, 0, work, out);
 }
 
-// The first row of a batch that belongs to this face of its block or one behind it.
+// Returns the first row of a batch that belongs to this face of its block or to a later one.
 static int sdv_first_row(const sdv_batch *batch, int face)
 {
     int low = 0, high = batch->rows;
@@ -5427,7 +5457,7 @@ static int sdv_first_row(const sdv_batch *batch, int face)
     return low;
 }
 
-// The rows that belong to cage faces face to end - 1.
+// Makes the rows that belong to cage faces face to end - 1.
 static void sdv_make_batches(const sdv_batches *batches, const float *work, int face, int end,
                              const sdv_window *out)
 {
@@ -5443,29 +5473,32 @@ static void sdv_make_batches(const sdv_batches *batches, const float *work, int 
     }
 }
 
-// Inside a face everything is regular: the points between those of a grid are made row by row,
-// region by region. There points are seen from a corner of the grid, so that sums lose nothing by
-// where the mesh stands.
+// Inside a grid all is regular and smooth: its points are made without rows, region by region.
+//
+//     . o---o---o  top      A region has the points of some cells (o) and, unless the grid begins
+//       |   |   |           there, a row and a column of points before them (.). It makes the next
+//     . o---o---o  bottom   level's points on the cells, but not on the last row and column of o,
+//     . .   .   .           where other regions begin. Points are seen from a corner of the grid,
+//      left   right         the origin, so that sums lose nothing by where the mesh stands.
 enum { SDV_REGION = 16 };               // cells along a side
 
-typedef struct sdv_cells {              // of a grid: those between such rows and columns of points
+typedef struct sdv_cells {              // the cells between such rows and columns of points
     int left, right, bottom, top;
 } sdv_cells;
 
-typedef struct sdv_region {               // the points of some cells and of those around them
+typedef struct sdv_region {               // the points of some cells, with the points before them
     sdv_cells cells;
     int       row, column, width;       // of the first point, and points in a row
     sdv_four *points;
 } sdv_region;
 
-// Where the points go that are made inside a grid from a region seen from origin.
-typedef struct sdv_region_out {
+typedef struct sdv_region_out {         // where the points go that a region makes
     const sdv_window *out;
     int      first, columns, triangle;  // see sdv_inside_point
-    sdv_four origin;                    // also of out
+    sdv_four origin;                    // of the region or, when its points are written, of these
 } sdv_region_out;
 
-typedef struct sdv_grid_step {
+typedef struct sdv_grid_step {          // the masks of a step inside grids
     sdv_mask vertex, edge;              // of what is regular and smooth
     float    face;                      // the weight of a face point
     int      loop;
@@ -5487,7 +5520,7 @@ static const sdv_four *sdv_region_at(const sdv_region *region, int row, int colu
     return region->points + (row - region->row) * region->width + (column - region->column);
 }
 
-// The points of a side between two corners, from first up to last, less origin.
+// Loads points first to last of a side, less origin. from, to: the corners at its ends.
 static void sdv_load_side(const sdv_grid *grid, int side, int from, int to, int first, int last,
                           const float *work, sdv_four origin, sdv_four *p)
 {
@@ -5498,7 +5531,7 @@ static void sdv_load_side(const sdv_grid *grid, int side, int from, int to, int 
     }
 }
 
-// Writes count points that stand one behind the other.
+// Writes count points from index on, as far as the window has them.
 static void sdv_put_points(const sdv_window *out, int index, int count, const sdv_four *p)
 {
     int i = index - out->first, skip = i < 0 ? -i : 0;
@@ -5509,15 +5542,14 @@ static void sdv_put_points(const sdv_window *out, int index, int count, const sd
     for (int k = skip; k < count; k++, to += stride) sdv_store_some(to, p[k], out->lanes);
 }
 
-// Points that stand one behind the other as they are made, four lanes each but the last. Where the
-// window or its layout does not allow that, they are made in some room and written when all are
-// there.
+// Writes count points from index on as they are made. Direct: to the window, four lanes each, where
+// the next point overwrites the fourth. Else: to some room, and to the window when all are made.
 typedef struct sdv_points_run {
     const sdv_window *out;
     int       index, count;
     int       direct;
-    float    *to;
-    size_t    step;
+    float    *to;                       // where the next point goes
+    size_t    step;                     // floats from point to point there
     sdv_four *room;
 } sdv_points_run;
 
@@ -5551,18 +5583,17 @@ SDV_INLINE void sdv_put_last(sdv_points_run *run, sdv_four p)
     if (!run->direct) sdv_put_points(run->out, run->index, run->count, run->room);
 }
 
-// The inside of a grid of quads, whose points will stand from target on in rows of so many: first
-// the row of edge points on lines between rows a and b and of face points, then that of vertex
-// points of b and edge points along it, which need the face points on both sides, f and g:
+// Rows a, b and c of points in a region, and the face points f and g between them. Row b becomes a
+// row of vertex points and edge points. Between b and c comes one of edge points and face points:
 //
 //     c   v---e---v           e = self (v + v) + face (f + f)
-//       g |   g   |
+//         e   g   e
 //     b   v---e---v           v = self v + edge (sum of v around) + face (sum of f around)
-//       f e   f   e
-//     a   v---e---v           here a, b, c are at the left, and columns run from first to last
+//         e   f   e
+//     a   v---e---v
 typedef struct sdv_lines {
-    const sdv_four *a, *b, *c, *f, *g;  // f, g: of quads
-    sdv_four origin, self, beside, corner, edge, across;
+    const sdv_four *a, *b, *c, *f, *g;  // of the first column; f, g: of quads
+    sdv_four origin, self, beside, corner, edge, across;        // weights: see sdv_begin_lines
 } sdv_lines;
 
 static sdv_lines sdv_begin_lines(const sdv_grid_step *step, sdv_four origin)
@@ -5589,7 +5620,7 @@ SDV_INLINE void sdv_face_points(const sdv_four *a, const sdv_four *b, int cells,
     }
 }
 
-// Row b, from cell k up to end: before the first cell there is no vertex point if k is 0.
+// Makes the row on b for cells k to end - 1. At cell 0 there is no vertex point: it is on a side.
 SDV_INLINE void sdv_vertex_points(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *a = q->a, *b = q->b, *c = q->c, *f = q->f, *g = q->g;
@@ -5614,7 +5645,7 @@ SDV_INLINE void sdv_vertex_points(const sdv_lines *q, int k, int end, sdv_points
     }
 }
 
-// The row between b and c.
+// Makes the row between b and c for cells k to end - 1.
 SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *b = q->b, *c = q->c, *g = q->g;
@@ -5633,6 +5664,7 @@ SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_r
     }
 }
 
+// Makes the next level's points on the cells of a region of quads.
 static void sdv_refine_quads(const sdv_region *region, const sdv_grid_step *step,
                              const sdv_region_out *to)
 {
@@ -5661,8 +5693,8 @@ static void sdv_refine_quads(const sdv_region *region, const sdv_grid_step *step
     }
 }
 
-// The inside of a triangle, in columns from first to last: on a row of points b vertex points and
-// edge points, between it and the row above, c, the edge points of the two other directions.
+// Makes an edge point inside a triangle. On row b there are vertex points and edge points, between
+// b and the row above, c, the edge points of the two other directions:
 //
 //     c   v---e---v
 //          \  |\  |          e = self (v + v) + face (the two v opposite)
@@ -5677,7 +5709,7 @@ SDV_INLINE sdv_four sdv_triangle_edge(const sdv_lines *q, sdv_four p0, sdv_four 
     return sdv_plus(q->origin, e);
 }
 
-// Row b, from k up to end.
+// Makes the row on b for cells k to end - 1.
 SDV_INLINE void sdv_triangle_vertices(const sdv_lines *q, int k, int end, sdv_points_run *run)
 {
     const sdv_four *a = q->a, *b = q->b, *c = q->c;
@@ -5697,7 +5729,7 @@ SDV_INLINE void sdv_triangle_vertices(const sdv_lines *q, int k, int end, sdv_po
     }
 }
 
-// The row between b and c. whole: behind the last one there is no edge point on a long side.
+// Makes the row between b and c. whole: up to the long side, whose own edge point is not made here.
 SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole,
                                    sdv_points_run *run)
 {
@@ -5720,6 +5752,7 @@ SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole
     }
 }
 
+// Makes the next level's points on the cells of a region of a triangle of n segments a side.
 static void sdv_refine_triangles(const sdv_region *region, int n, const sdv_grid_step *step,
                                  const sdv_region_out *to)
 {
@@ -5745,10 +5778,10 @@ static void sdv_refine_triangles(const sdv_region *region, int n, const sdv_grid
     }
 }
 
-// The inside of a quad of 2 x 2 cells, which is all of a face on level 1:
+// Makes the 9 points of level 2 inside a quad from its points on level 1, p, e and F:
 //
-//     p3---e2---p2      from corners p, edge points e and the face point, 9 points: face points,
-//     |  f3| f2 |       edge points on the four lines between them and the vertex point
+//     p3---e2---p2      face points f, an edge point on each line from F to an e, and the vertex
+//     |  f3| f2 |       point of F
 //     e3---F---e1
 //     |  f0| f1 |
 //     p0---e0---p1
@@ -5766,7 +5799,7 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
         p[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
         e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
     }
-    for (int i = 0; i < 4; i++)         // seen from F, which is 0
+    for (int i = 0; i < 4; i++)         // F is the origin: it adds 0
         face[i] = sdv_times(quarter, sdv_plus(p[i], sdv_plus(e[i], e[(i + 3) & 3])));
     for (int i = 0; i < 4; i++) {
         edge[i] = sdv_plus(sdv_times(half, e[i]),
@@ -5790,8 +5823,8 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     sdv_put_last(&run, made[8]);
 }
 
-// The face points of the quads of another polygon on level 1, each between a corner, two edge
-// points and the polygon's own face point.
+// Makes the face points of the quads of an n-gon on level 1, each from a vertex of the n-gon, two
+// edge points and the n-gon's face point.
 SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid_step *step,
                                    int target, const float *work, const sdv_window *out)
 {
@@ -5810,8 +5843,8 @@ SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid
     }
 }
 
-// The inside of a triangle of 2 segments a side, which is all of a face on level 1: the edge points
-// of the triangle of edge points e0 e1 e2, whose edges lie across from the corners.
+// Makes the 3 points of level 2 inside a triangle: the edge points of e0 e1 e2, its middle triangle
+// on level 1, whose edges lie across from the face's vertices.
 SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_step *step,
                                  int target, const float *work, const sdv_window *out)
 {
@@ -5832,10 +5865,9 @@ SDV_INLINE void sdv_refine_three(const sdv_order *order, int f, const sdv_grid_s
     sdv_put_last(&run, sdv_plus(all, sdv_triangle_edge(&q, e[2], e[1], d[2], e[0])));
 }
 
-// The limit of what is regular and smooth. Linear tangents are the edges to points 1 and 2.
-typedef struct sdv_grid_limit {
+typedef struct sdv_grid_limit {         // the limit of what is regular and smooth
     float w[3 * 9];                     // see sdv_ring_of
-    int   linear;
+    int   linear;                       // tangents are the edges to points 1 and 2
 } sdv_grid_limit;
 
 static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
@@ -5854,7 +5886,7 @@ static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
     return limit;
 }
 
-// The limit of a point of row b, between rows a and c, and two tangents.
+// Makes the limit point of b[0], a point of row b between rows a and c, and two tangents.
 SDV_INLINE void sdv_limit_point(const sdv_ring_weights *w, int loop, int linear, const sdv_four *a,
                                 const sdv_four *b, const sdv_four *c, sdv_four *sums)
 {
@@ -5869,8 +5901,8 @@ SDV_INLINE void sdv_limit_point(const sdv_ring_weights *w, int loop, int linear,
     sums[2] = sdv_minus(c[0], b[0]);
 }
 
-// The limit of count points of row b, between rows a and c, which stand from index on: four at a
-// time, and the others wait for more.
+// Makes the limit of count points of row b, which stand from index on: four at a time for normals
+// without tangents; points that are left over wait for more.
 SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, const sdv_four *a,
                                      const sdv_four *b, const sdv_four *c, int count, int index,
                                      sdv_four origin, const sdv_window *out)
@@ -5895,7 +5927,7 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
     }
 }
 
-// The limit points inside a region of a grid of n segments, and their tangents.
+// Makes the limit points of a region of a grid of n segments a side, and their tangents.
 static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_limit *limit,
                              const sdv_region_out *to)
 {
@@ -5914,7 +5946,7 @@ static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_lim
     }
 }
 
-// The limit of face points on level 1, each inside a quad of 2 x 2 cells.
+// Makes the limit of the face points of quads on level 1, each in the middle of 2 x 2 cells.
 static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *order,
                               const float *points, int face, int end, const sdv_window *out)
 {
@@ -5927,7 +5959,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
         int index = sdv_first_inside(order, f);
         const sdv_four p0 = sdv_load(points + 4 * (size_t)index);
         sdv_four p[9], sums[3];
-        for (int i = 0; i < 4; i++) {           // from the right, that is from edge 1 on
+        for (int i = 0; i < 4; i++) {           // counter-clockwise from edge 1, on the right
             p[1 + i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[(i + 1) & 3]), p0);
             p[5 + i] = sdv_minus(sdv_load(points + 4 * (size_t)v[(i + 2) & 3]), p0);
         }
@@ -5942,21 +5974,21 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
     }
 }
 
-// Beyond SDV_FULL_LEVELS, work points are frames alone. The inside of such a grid is made region by
-// region: from the cells of the last whole level that the region needs, level by level, in room
-// that stays in the processor's nearest cache.
-typedef struct sdv_interior {             // makes the points inside grids:
+// Beyond SDV_FULL_LEVELS, grids have frames for work points. A region inside such a grid is made
+// from the cells that it needs of the last whole level, level by level, in room that stays in the
+// processor's nearest cache.
+typedef struct sdv_interior {             // makes the points inside grids
     const subdiv_surface *surface;
     const float *work;
-    int level, full;                    // from a level; the last one that is whole up to there
-    const sdv_grid_limit *limit;        // their limit; NULL: the next level
+    int level, full;                    // made from this level; the last whole level up to it
+    const sdv_grid_limit *limit;        // makes the limit of level; NULL: makes the next level
     sdv_grid_step step;
-    sdv_grid grids[SDV_MOST_LEVELS];    // of levels full to level
+    sdv_grid grids[SDV_MOST_LEVELS];    // one face's, of levels full to level
 } sdv_interior;
 
 enum { SDV_LARGE_REGION = 21, SDV_SMALL_REGION = 13 };              // points along a side
 
-// The cells of a level of n segments from which those of the next one are made.
+// Returns the cells of a level of n segments from which cells of the next level are made.
 static sdv_cells sdv_cells_before(sdv_cells next, int n)
 {
     sdv_cells cells = { (next.left + 1) / 2 - 1, next.right / 2 + 1, (next.bottom + 1) / 2 - 1,
@@ -5968,7 +6000,7 @@ static sdv_cells sdv_cells_before(sdv_cells next, int n)
     return cells;
 }
 
-// Loads the points of a region that are on the grid's sides.
+// Loads the points of a region that are on the grid's sides, up to a last row and column.
 static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four origin,
                            const sdv_region *region, int last_row, int last_column)
 {
@@ -5989,7 +6021,7 @@ static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four o
     else if (first == 0) *p = sdv_minus(sdv_load(points + 4 * (size_t)grid->corner[2]), origin);
 }
 
-// Loads cells of a whole grid.
+// Loads the points of a region of a whole grid.
 static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four origin,
                             sdv_region *region)
 {
@@ -6008,7 +6040,7 @@ static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four 
     sdv_load_sides(grid, points, origin, region, cells.top, cells.right);
 }
 
-// Makes a region from one of the level before.
+// Makes the points of a region inside a grid from a region of the level before, of n segments.
 static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step *step,
                               sdv_region *region)
 {
@@ -6023,6 +6055,7 @@ static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step
     else sdv_refine_quads(from, step, &to);
 }
 
+// Makes the points on cells of level in->level. Regions of earlier levels take turns in two rooms.
 static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_out *to)
 {
     sdv_four large[SDV_LARGE_REGION * SDV_LARGE_REGION], small[SDV_SMALL_REGION * SDV_SMALL_REGION];
@@ -6052,7 +6085,7 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
     else sdv_refine_quads(&region, &in->step, to);
 }
 
-// The points inside grid i of face f.
+// Makes the points inside grid i of face f.
 static void sdv_make_grid(sdv_interior *in, const sdv_order *order, int target, int f, int i,
                           const sdv_window *out)
 {
@@ -6073,8 +6106,8 @@ static void sdv_make_grid(sdv_interior *in, const sdv_order *order, int target, 
         }
 }
 
-// The points inside the grids of cage faces face to end - 1, from a level of the work points to the
-// next one or, if limit is not NULL, to their limit: where an order says, from target on.
+// Makes the points inside the grids of cage faces face to end - 1: of the level after the one given
+// or, if limit is not NULL, of its limit. They go where the order says, from target on.
 static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_grid_limit *limit,
                            const float *work, int face, int end, const sdv_order *order,
                            int target, const sdv_window *out)
@@ -6089,7 +6122,7 @@ static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_g
     in.limit = limit;
     in.step = sdv_regular_masks(&surface->rules);
     if (end > surface->cage_face_count) end = surface->cage_face_count;
-    if (level == 1 && limit) {              // of triangles nothing is inside
+    if (level == 1 && limit) {              // triangles have no points inside
         if (!from->loop) sdv_limit_centres(limit, from, points, face, end, out);
         return;
     }
@@ -6102,9 +6135,8 @@ static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_g
     }
 }
 
-// The face points of the cage, of faces face to end - 1: each the mean of the face's vertices. As
-// work points; as they are all of a result's level 1 that is inside faces, they are copied there
-// later.
+// Makes the face points of cage faces face to end - 1, which are work points. A result of 1 level
+// has no other points inside faces: sdv_copy_face_points copies them.
 static void sdv_make_face_points(const subdiv_surface *surface, float *work, int face, int end)
 {
     const sdv_level *cage = &surface->order.cage;
@@ -6133,7 +6165,7 @@ static void sdv_copy_face_points(const subdiv_surface *surface, const float *wor
                            sdv_plus(out->origin, sdv_load(from)), out->lanes);
 }
 
-// A level from the one before, for the points that belong to cage faces face to end - 1.
+// Makes the points of level + 1 that belong to cage faces face to end - 1.
 static void sdv_refine_faces(const subdiv_surface *surface, int level, const float *work, int face,
                              int end, int target, const sdv_window *out)
 {
@@ -6146,7 +6178,7 @@ static void sdv_refine_faces(const subdiv_surface *surface, int level, const flo
     if (!to->frame) sdv_make_grids(surface, level, NULL, work, face, end, to, target, out);
 }
 
-// Cage faces face to end - 1: the points of the result that belong to them.
+// Makes the points of the result that belong to cage faces face to end - 1.
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
 {
@@ -6159,6 +6191,7 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
 }
 
+// Makes the limit points that belong to cage faces face to end - 1, with normals and tangents.
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
                                  int end, const subdiv_limit *limit, int first, int count)
 {
@@ -6179,12 +6212,11 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
 }
 
 // -------------------------------------------------------------------------------- >>evaluate
-// Values through the surface: level by level batches and grids make the work points; the last step
-// makes the points of the result, cage face by cage face and in any order, since each point is made
-// once and from work points alone.
+// Takes values through a surface. Batches and grids make the work points, level by level. The last
+// step makes the points of the result, cage face by cage face and in any order, since each point is
+// made once and from work points alone.
 
-// Jobs of an evaluation: each makes a share of its points.
-typedef struct sdv_evaluation {
+typedef struct sdv_evaluation {         // what the jobs of an evaluation share
     const subdiv_surface *surface;
     const subdiv_limit *limit;          // or NULL: then the values go to out
     int          channels;
@@ -6193,19 +6225,20 @@ typedef struct sdv_evaluation {
     float       *work;                  // [4 * work_count + 4] for every four channels: their work
     float       *out;                   // points, seen from the point behind all these
     size_t       out_stride;
-    int          first_point, end_point;
-    int          first_face, end_face;
-    int          step;
+    int          first_point, end_point;        // of the result: those that are written
+    int          first_face, end_face;          // of the cage: those whose points are made
+    int          step;                  // makes level step + 1; -1: the cage's face points
     int          jobs;
 } sdv_evaluation;
 
+// Runs jobs on the user's threads, or one after the other here.
 static void sdv_run(const subdiv_options *opt, void (*job)(void *, int), void *context, int jobs)
 {
     if (opt && opt->run && jobs > 1) opt->run(opt->user, job, context, jobs);
     else for (int i = 0; i < jobs; i++) job(context, i);
 }
 
-// Job i's share of count things starts here.
+// Returns where job i's share of count things starts.
 static int sdv_share(int count, int i, int jobs)
 {
     return (int)((int64_t)count * i / jobs);
@@ -6216,14 +6249,14 @@ enum { SDV_MOST_JOBS = 256 };
 #define SDV_JOB_POINTS 1024
 #endif
 
-// For so much work, and no more for any job than this, if threads are lent.
+// Returns how many jobs to cut work into, each with at least so much; 1 if no threads are lent.
 static int sdv_jobs(const subdiv_options *opt, int64_t work, int64_t least)
 {
     int64_t jobs = opt && opt->run ? work / least : 1;
     return jobs > SDV_MOST_JOBS ? SDV_MOST_JOBS : jobs < 1 ? 1 : (int)jobs;
 }
 
-// Job i's share of cage faces first to end - 1, in whole blocks if there are enough, starts here.
+// Returns where job i's share of cage faces first to end - 1 starts, in whole blocks if possible.
 static int sdv_share_faces(int first, int end, int i, int jobs)
 {
     int block = first / SDV_BLOCK_FACES, blocks = (end - 1) / SDV_BLOCK_FACES + 1 - block;
@@ -6232,12 +6265,13 @@ static int sdv_share_faces(int first, int end, int i, int jobs)
     return face < first ? first : face < end ? face : end;
 }
 
+// The work points of a channel and the three after it.
 static float *sdv_work_of(const sdv_evaluation *e, int channel)
 {
     return e->work + (size_t)channel * ((size_t)e->surface->work_count + 1);
 }
 
-// The values of vertex v, four channels from c on, of which so many are left.
+// Loads four channels of vertex v from c on; left: how many there are.
 SDV_INLINE sdv_four sdv_input(const sdv_evaluation *e, int v, int c, int left)
 {
     int from = e->surface->source ? e->surface->source[v] : v;
@@ -6245,9 +6279,9 @@ SDV_INLINE sdv_four sdv_input(const sdv_evaluation *e, int v, int c, int left)
     return sdv_of(in[0], left > 1 ? in[1] : 0, left > 2 ? in[2] : 0, left > 3 ? in[3] : 0);
 }
 
-// Finds from where four channels are seen, so that sums lose nothing where a cage is small and far
-// away: from its first vertex in channels where others, a thousand of them, are much nearer to that
-// than to 0; else from 0.
+// Finds the point from which four channels are seen, so that sums lose nothing where a cage is
+// small and far away: in channels where the vertices, a thousand of them, are much nearer to the
+// first vertex than to 0, that vertex; else 0.
 static void sdv_find_origin(const sdv_evaluation *e, int c)
 {
     int count = e->surface->cage_vertex_count, step = count / 1024 + 1, seen = 0;
@@ -6264,6 +6298,7 @@ static void sdv_find_origin(const sdv_evaluation *e, int c)
     memcpy(sdv_work_of(e, c) + 4 * (size_t)e->surface->work_count, first, sizeof first);
 }
 
+// Makes the work points of level 0: values of the cage's vertices, four channels each.
 static void sdv_input_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6278,7 +6313,7 @@ static void sdv_input_job(void *context, int job)
     }
 }
 
-// A level from the one before or, before all, the face points of the cage; in shares of cage faces.
+// Makes a level from the one before or, at first, the cage's face points, for a share of its faces.
 static void sdv_level_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6294,7 +6329,7 @@ static void sdv_level_job(void *context, int job)
     }
 }
 
-// The work points: those of level 0 from the input, the others level by level.
+// Makes all work points: those of level 0 from the input, the others level by level.
 static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
@@ -6310,6 +6345,7 @@ static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
     }
 }
 
+// Makes the points of the result that belong to a share of the cage's faces.
 static void sdv_face_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
@@ -6332,7 +6368,7 @@ static void sdv_face_job(void *context, int job)
     }
 }
 
-// Level 0 has no rows: its work points are the result.
+// Copies the work points of level 0, which has no rows, to the result.
 static void sdv_copy_work(const sdv_evaluation *e)
 {
     for (int c = 0; c < e->channels; c += 4) {
@@ -6346,6 +6382,7 @@ static void sdv_copy_work(const sdv_evaluation *e)
     }
 }
 
+// Makes the points of the result from the work points.
 static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
@@ -6360,18 +6397,19 @@ static void sdv_make_points(sdv_evaluation *e, const subdiv_options *opt)
     sdv_run(opt, sdv_face_job, e, e->jobs);
 }
 
-// What makes the points: the surface, but for a limit on level 0.
+// Returns the surface that makes the points: another one for a limit on level 0.
 static const subdiv_surface *sdv_maker(const subdiv_surface *surface)
 {
     return surface->at_level_1 ? surface->at_level_1 : surface;
 }
 
-// Is there room for so many bytes a channel, on a machine of 32 bits, too?
+// Whether so many bytes a channel are addressable, on a machine of 32 bits, too.
 static int sdv_addressable(int channels, double bytes)
 {
     return ((double)channels + 3) * bytes < (double)(SIZE_MAX / 2);
 }
 
+// Checks the channels and an array, and its stride. A stride of 0 becomes the number of channels.
 static void sdv_check_values(sdv_context *context, const subdiv_surface *surface, int channels,
                              const void *values, int *stride)
 {
@@ -6383,7 +6421,7 @@ static void sdv_check_values(sdv_context *context, const subdiv_surface *surface
                  *stride, channels);
 }
 
-// SUBDIV_EXACT has no points to make.
+// Fails for a surface of SUBDIV_EXACT, which has no points to make.
 static void sdv_check_result(sdv_context *context, const subdiv_surface *surface)
 {
     if (!context->result && surface->exact)
@@ -6391,7 +6429,7 @@ static void sdv_check_result(sdv_context *context, const subdiv_surface *surface
                  "the surface was prepared for SUBDIV_EXACT, for subdiv_evaluate_at");
 }
 
-// Has a surface a mesh to make? And is there what else the call needs?
+// Checks that a surface makes a mesh. others: the call's other arguments are there.
 static void sdv_check_mesh_surface(sdv_context *context, const subdiv_surface *surface, int others)
 {
     if (!others || !surface) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
@@ -6411,9 +6449,9 @@ static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
 }
 
 // ----------------------------------------------------------------------- >>results-as-meshes
-// Meshes that own their arrays, and what fills them.
+// Makes meshes that own their arrays, and fills these.
 
-// Lays arrays out in one block: first called with base NULL to add up the size.
+// Lays an array out in a block behind the others. With base NULL only adds up the size.
 static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
 {
     char *array = base && count ? base + *size : NULL;
@@ -6421,9 +6459,10 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
-// What a new mesh has besides what its model has: a result, cage_faces; a limit, and normals.
+// The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
 typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
 
+// Lays out the arrays of a mesh with the counts of a model. Returns the size of the block.
 static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base,
                              sdv_extras extras)
 {
@@ -6456,8 +6495,8 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     return size;
 }
 
-// A mesh like the model, with room for positions, faces and extras; what else the model has is
-// copied.
+// Makes a mesh with the counts of a model. Positions, face_vertices, holes and extras get room; all
+// else that the model has is copied.
 static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
                          sdv_extras extras)
 {
@@ -6488,10 +6527,9 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
             sdv_copy(lists[i].to, lists[i].from, lists[i].count, lists[i].item);
 }
 
-// Jobs that write faces: the vertices of each and, unless NULL, the cage face it belongs to.
-typedef struct sdv_faces_out {
+typedef struct sdv_faces_out {          // what the jobs that write fine faces share
     const subdiv_surface *surface;
-    int *face_vertices, *cage_faces;
+    int *face_vertices, *cage_faces;    // cage_faces: or NULL
     int  jobs;
 } sdv_faces_out;
 
@@ -6533,7 +6571,7 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertice
     sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
 }
 
-// The fine faces that are holes, in order.
+// Lists the fine faces that are holes, in order.
 static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
 {
     if (surface->levels == 0) {
@@ -6546,17 +6584,17 @@ static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
     }
 }
 
-// Sums of differences of huge coordinates could overflow. So those are made smaller by a power of
-// two, which loses nothing, and the result larger again; it is never larger than the cage.
+// Multiplies values by a factor. Sums of differences of huge coordinates could overflow: a power of
+// two makes these smaller, without loss, and the result larger again, but no larger than the cage.
 static void sdv_multiply(float *values, size_t count, float factor)
 {
     for (size_t i = 0; i < count && factor != 1; i++) {
         double value = (double)values[i] * (double)factor, most = (double)FLT_MAX;
-        values[i] = (float)(value > most ? most : value < -most ? -most : value);    // by rounding
+        values[i] = (float)(value > most ? most : value < -most ? -most : value);   // if rounded up
     }
 }
 
-// Checks the positions of a cage. Of huge ones makes a smaller copy; returns the factor back.
+// Checks the positions of a cage. Makes a smaller copy of huge ones. Returns the factor back.
 static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
                       const float **positions)
 {
@@ -6572,7 +6610,7 @@ static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surfa
     return 4096;
 }
 
-// UVs and colours of the result.
+// Makes the UVs and colours of the result.
 static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surface,
                                    const subdiv_options *opt)
 {
@@ -6584,8 +6622,8 @@ static subdiv_result sdv_make_data(subdiv_mesh *made, const subdiv_surface *surf
     return result;
 }
 
-// once: the same surface if it makes nothing else, or NULL. What made its points is then freed
-// before the faces are written, so that both are never there together.
+// Makes the result a mesh. once: the same surface if it makes nothing else, or NULL. Its rows are
+// then freed before the faces are written, so that memory never holds both.
 static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surface,
                                    subdiv_surface *once, const float *positions,
                                    const subdiv_options *opt)
@@ -6623,7 +6661,7 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     return context.result;
 }
 
-// A mesh that is to be made of a cage: zero until it is.
+// Checks and zeroes the mesh that is to be made of a cage.
 static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv_mesh *cage)
 {
     if (!fine || fine == cage)
@@ -6632,8 +6670,8 @@ static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv
 }
 
 // ----------------------------------------------------------------------------------- >>calls
-// The public functions of >>refine, >>animation and >>limit: all that stands above is called from
-// here. subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
+// The public functions of >>refine, >>animation and >>limit, which call all that stands above.
+// subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
 //
 //     sdv_prepare        the cage's topology (sdv_cage_build), then its rows (sdv_prepare_rows): on
 //                        each level sdv_fill_level > sdv_vertex_row > sdv_vertex_mask
@@ -6669,7 +6707,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     return sdv_prepare(surface, &request);
 }
 
-// The surface of the values is taken from that of the cage.
+// Prepares a surface of the cage with these values for UVs, of which it keeps that of the values.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -6690,7 +6728,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
     return SUBDIV_OK;
 }
 
-// The surface is itself the arena's first block, so the arena is taken out before it is freed.
+// Frees a surface. It is itself in the first block of its arena, so the arena is copied first.
 SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 {
     if (!surface) return;
@@ -6765,6 +6803,7 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * ((size_t)surface->work_count + 1);
 }
 
+// Describes the last step of an evaluation: for these cage faces, to these points of the result.
 static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
                                         const void *scratch, int first_face, int face_count,
                                         int first_point, int point_count)
