@@ -2605,7 +2605,7 @@ typedef struct sdv_grid {               // the indices of the points of a grid
 typedef struct sdv_order {              // the indices of all points of a level or of the result
     sdv_level cage;                     // faces and edges alone
     int loop, n, m;
-    int first_edge_point, first_face_point;
+    int first_edge_point, first_inside_point;
     int count;                          // of points
     int frame;                          // all grids are frames
     const int *quads;                   // [faces + 1] of frames: how many quads come before each
@@ -2639,7 +2639,7 @@ static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 // other polygon its centre, the points of its spokes and the frames of its quads.
 static int sdv_first_inside(const sdv_order *order, int f)
 {
-    int n = order->n, m = order->m, first = order->first_face_point;
+    int n = order->n, m = order->m, first = order->first_inside_point;
     if (order->loop) return first + f * (order->frame ? 3 * (n - 3) : (n - 1) * (n - 2) / 2);
     int sides = sdv_face_start(&order->cage, f);
     if (!order->frame) return first + f + sides * (m * (m - 1));
@@ -2908,7 +2908,7 @@ static int *sdv_grid_faces(const sdv_grid *grid, int bottom, int top, int left, 
 }
 
 // Writes the fine faces of cage face f on level 1, where every edge has one point inside.
-static int *sdv_first_faces(const sdv_order *order, int f, int *out)
+static int *sdv_level_1_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), size = sdv_face_end(&order->cage, f) - start;
     const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
@@ -2938,7 +2938,7 @@ static int *sdv_first_faces(const sdv_order *order, int f, int *out)
 static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), grids = sdv_grids_of(order, f);
-    if (order->n == 2) return sdv_first_faces(order, f, out);
+    if (order->n == 2) return sdv_level_1_faces(order, f, out);
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid;
         sdv_grid_at(order, h, &grid);
@@ -3017,7 +3017,7 @@ typedef struct sdv_writer {             // writes rows into batches
     sdv_shape    shape;                 // of the last row that was looked up
     int         *smooth;                // [most + 1] open batches of smooth vertices with so many
     int          most;                  // faces, or -1; the most faces at a vertex or sides
-    int          crease, corner, middle;        // open batches of vertices and edges that stay
+    int          crease, corner, sharp_edge;        // open batches of vertices and edges that stay
     int          smooth_edge;                   // sharp and of smooth edges of the cage, or -1
 } sdv_writer;
 
@@ -3040,7 +3040,7 @@ static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_lev
     // A vertex, its faces and, on a crease or not manifold, up to twice as many neighbours.
     writer->points = SDV_NEW(context, &writer->scratch, int, 16 + 4 * (size_t)most);
     writer->smooth = SDV_NEW(context, &writer->scratch, int, (size_t)most + 1);
-    writer->crease = writer->corner = writer->middle = writer->smooth_edge = -1;
+    writer->crease = writer->corner = writer->sharp_edge = writer->smooth_edge = -1;
     for (int i = 0; i < 256; i++) writer->known[i] = -1;
     for (int i = 0; i <= most && !context->result; i++) writer->smooth[i] = -1;
 }
@@ -3370,7 +3370,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
     float sharpness = level->sharpness[h];
     int stays_sharp = sharpness > 0 && sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     sdv_runs runs = { { 0, 0, 0, 0 }, { 2, 0, 0, 0 }, sharpness > 0 && !stays_sharp };
-    if (stays_sharp) known = &writer->middle;
+    if (stays_sharp) known = &writer->sharp_edge;
     if (sharpness <= 0 && !smooth_triangles && !rules->linear) known = &writer->smooth_edge;
     if (known && *known >= 0) {
         point = sdv_put_row(writer, *known, target);
@@ -4353,7 +4353,7 @@ static sdv_order sdv_order_at(const subdiv_surface *surface, int level, int fram
     order.n = n;
     order.m = n / 2;
     order.first_edge_point = vertices;
-    order.first_face_point = vertices + order.cage.edge_count * (n - 1);
+    order.first_inside_point = vertices + order.cage.edge_count * (n - 1);
     order.frame = frame;
     order.quads = surface->quads;
     order.count = order.cage.face_count && level ? sdv_first_inside(&order, order.cage.face_count)
@@ -4384,7 +4384,7 @@ static void sdv_count_quads(sdv_context *context, subdiv_surface *surface)
 static int sdv_first_face_point(const subdiv_surface *surface)
 {
     int last = surface->levels == 1 && !surface->rules.limit;
-    return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1, 0).first_face_point);
+    return surface->bases[1] + (last ? 0 : sdv_order_at(surface, 1, 0).first_inside_point);
 }
 
 // Gives the semi-sharp edges of the cage their pieces: on level 0 one each.
@@ -4655,7 +4655,7 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
 }
 
 // Whether any sharpness of the cage is semi-sharp.
-static int sdv_is_semi(const sdv_level *cage)
+static int sdv_has_semi_sharp(const sdv_level *cage)
 {
     int semi = 0;
     for (int v = 0; v < cage->vertex_count; v++) {
@@ -4711,7 +4711,8 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
         surface->orders[i] = sdv_order_at(surface, i, i > SDV_FULL_LEVELS);
     surface->bases = sdv_find_bases(context, &surface->points, surface, 0);
     surface->work_count = context->result ? 0 : surface->bases[levels + 1];
-    int semi = sdv_is_semi(cage), point = context->result ? 0 : sdv_first_face_point(surface);
+    int semi = sdv_has_semi_sharp(cage);
+    int point = context->result ? 0 : sdv_first_face_point(surface);
     for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = point + f;
     for (int i = 0; i < levels && !context->result; i++) {
         if (semi) sdv_level_fade(cage);
@@ -4757,7 +4758,7 @@ static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, 
 }
 
 // Empties the result of a surface for SUBDIV_EXACT, which has no points and no faces.
-static void sdv_no_result(subdiv_surface *surface)
+static void sdv_clear_result(subdiv_surface *surface)
 {
     surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
     surface->first_face = NULL;
@@ -4866,7 +4867,8 @@ static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const s
 }
 
 // Gives a surface of values the rules and fine faces of the surface of positions.
-static void sdv_like(sdv_context *context, subdiv_surface *made, const subdiv_surface *surface)
+static void sdv_share_rules(sdv_context *context, subdiv_surface *made,
+                            const subdiv_surface *surface)
 {
     made->rules = surface->rules;
     made->order = surface->order;
@@ -4893,7 +4895,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.values = values->indices;
     seams.value_count = values->count;
     seams.rule = values->rule;
-    sdv_like(context, made, surface);
+    sdv_share_rules(context, made, surface);
     if (!context->result)
         sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
@@ -4912,7 +4914,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->rules.limit = 0;
     sdv_set_order(made);
     if (made->exact) {
-        sdv_no_result(made);
+        sdv_clear_result(made);
         made->exact_calls->prepare(context, made, &seams.level, cage->hole, &scratch);
         return;
     }
@@ -5046,7 +5048,7 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
     if (levels != 0 && made->uv && !context.result)
         sdv_prepare_values(&context, made->uv, made, &work, &built, &values);
     if (exact && !request->alone && !context.result) {
-        sdv_no_result(made);
+        sdv_clear_result(made);
         made->exact_calls->prepare(&context, made, &built.level, built.hole, &scratch);
     } else if (levels != 0 && !request->alone && !context.result) {
         sdv_prepare_rows(&context, made, &built.level, work.crease_count || work.corner_count,
@@ -6572,7 +6574,7 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertice
 }
 
 // Lists the fine faces that are holes, in order.
-static void sdv_fill_holes(const subdiv_surface *surface, int *holes)
+static void sdv_list_holes(const subdiv_surface *surface, int *holes)
 {
     if (surface->levels == 0) {
         sdv_copy(holes, surface->fine.holes, (size_t)surface->fine.hole_count, sizeof(int));
@@ -6595,7 +6597,7 @@ static void sdv_multiply(float *values, size_t count, float factor)
 }
 
 // Checks the positions of a cage. Makes a smaller copy of huge ones. Returns the factor back.
-static float sdv_tame(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+static float sdv_shrink_huge(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
                       const float **positions)
 {
     size_t count = 3 * (size_t)surface->cage_vertex_count;
@@ -6636,7 +6638,7 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     subdiv_mesh made;
     memset(&made, 0, sizeof made);
     sdv_arena arena = sdv_scratch();
-    float factor = sdv_tame(&context, &arena, surface, &positions);
+    float factor = sdv_shrink_huge(&context, &arena, surface, &positions);
     int limit = surface->rules.limit;
     if (!context.result)
         sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
@@ -6654,7 +6656,7 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
         sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
         sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
         if (surface->uv) sdv_make_fine_faces(surface->uv, made.face_uvs, NULL, opt);
-        sdv_fill_holes(surface, made.holes);
+        sdv_list_holes(surface, made.holes);
     }
     if (context.result) subdiv_mesh_free(&made);
     else *fine = made;
@@ -10069,7 +10071,7 @@ static int sdv_whole_point(const sdv_stencil_maker *make, int point)
     const sdv_order *from = &surface->orders[level];
     int base = make->bases[level];
     point -= surface->bases[level];
-    if (!from->frame || point < from->first_face_point) return base + point;
+    if (!from->frame || point < from->first_inside_point) return base + point;
     sdv_order to = sdv_order_at(surface, level, 0);
     int f = sdv_face_inside(from, point);
     if (point < sdv_inside_grid(from, f, 0))                   // the centre, or on a spoke
@@ -10313,7 +10315,7 @@ static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, s
     int at = last ? make->work_count + index : make->bases[level] + index;
     if (make->rows[at]) sdv_batch_row(make, make->batches[at], make->rows[at], out);
     else if (level > 1) sdv_grid_row_of(make, level, index, out);
-    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1, 0).first_face_point, out);
+    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1, 0).first_inside_point, out);
 }
 
 // The row of a work point, in the room of its step.
@@ -11745,7 +11747,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
     t.opt = opt;
     t.arena = sdv_scratch();
     t.triangles = how->triangles || surface->rules.loop;
-    float factor = sdv_tame(&context, &t.arena, surface, &positions);
+    float factor = sdv_shrink_huge(&context, &t.arena, surface, &positions);
     if (!context.result) sdv_tessellate(&context, &t, positions, factor);
     if (!context.result) *fine = t.mesh;
     sdv_arena_free(&t.arena);
@@ -13968,13 +13970,13 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
 {
     sdv_context *context = out->context;
     subdiv_mesh fine = surface->fine;
-    float factor = sdv_tame(context, arena, surface, &positions);
+    float factor = sdv_shrink_huge(context, arena, surface, &positions);
     int *row = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
     int *uvs = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
     fine.holes = SDV_NEW(context, arena, int, fine.hole_count);
     const float *values = sdv_join_colors(context, arena, surface, positions);
     if (context->result) return;
-    sdv_fill_holes(surface, fine.holes);
+    sdv_list_holes(surface, fine.holes);
     sdv_stream_points(out, arena, surface, "v", surface->colors ? 6 : 3, values, factor);
     if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1);
     sdv_stream_faces(out, surface, row, uvs);
