@@ -5077,7 +5077,7 @@ typedef struct sdv_window {             // the points to write, up to four chann
     int    clip;                        // points outside this range come, too, and are left out
     struct sdv_tangents *tangents;      // of a limit: where normals and tangents go, or NULL
     sdv_four origin;                    // from where points are seen: see sdv_find_origin
-    sdv_four near;                      // 1 in channels where that is 0, else 0
+    sdv_four unmoved;                   // 1 in channels where that is 0, else 0
 } sdv_window;
 
 static sdv_window sdv_window_of(float *values, size_t stride, int lanes, int first, int count,
@@ -5090,10 +5090,10 @@ static sdv_window sdv_window_of(float *values, size_t stride, int lanes, int fir
 // Points that will be written are seen from origin [4].
 static void sdv_see_from(sdv_window *window, const float *origin)
 {
-    float near[4];
-    for (int k = 0; k < 4; k++) near[k] = fabsf(origin[k]) > 0 ? 0 : 1;
+    float unmoved[4];
+    for (int k = 0; k < 4; k++) unmoved[k] = fabsf(origin[k]) > 0 ? 0 : 1;
     window->origin = sdv_load(origin);
-    window->near = sdv_load(near);
+    window->unmoved = sdv_load(unmoved);
 }
 
 SDV_INLINE void sdv_store_some(float *p, sdv_four a, int lanes)
@@ -6060,7 +6060,7 @@ static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step
 // Makes the points on cells of level in->level. Regions of earlier levels take turns in two rooms.
 static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_out *to)
 {
-    sdv_four large[SDV_LARGE_REGION * SDV_LARGE_REGION], small[SDV_SMALL_REGION * SDV_SMALL_REGION];
+    sdv_four room[SDV_LARGE_REGION * SDV_LARGE_REGION], other[SDV_SMALL_REGION * SDV_SMALL_REGION];
     sdv_cells needed[SDV_MOST_LEVELS];
     sdv_region region, before;
     int last = in->level - in->full;
@@ -6068,15 +6068,15 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
     for (int i = last; i > 0; i--)
         needed[i - 1] = sdv_cells_before(needed[i], in->grids[i - 1].columns);
     const float *points = in->work + 4 * (size_t)in->surface->bases[in->full];
-    to->origin = sdv_times(to->out->near, sdv_load(points + 4 * (size_t)in->grids[0].corner[0]));
+    to->origin = sdv_times(to->out->unmoved, sdv_load(points + 4 * (size_t)in->grids[0].corner[0]));
     region.cells = needed[0];
-    region.points = last % 2 ? small : large;
+    region.points = last % 2 ? other : room;
     sdv_load_region(&in->grids[0], points, to->origin, &region);
     for (int i = 1; i <= last; i++) {
         const sdv_grid *grid = &in->grids[i];
         before = region;
         region.cells = needed[i];
-        region.points = (last - i) % 2 ? small : large;
+        region.points = (last - i) % 2 ? other : room;
         sdv_refine_region(&before, grid->columns / 2, &in->step, &region);
         sdv_load_sides(grid, in->work + 4 * (size_t)in->surface->bases[in->full + i], to->origin,
                        &region, 2 * before.cells.top, 2 * before.cells.right);
