@@ -2129,7 +2129,8 @@ static float sdv_sharpness_before(const sdv_level *level, int before)
 // the vertex of h from the one before.
 static float sdv_half(const sdv_level *level, int h)
 {
-    return level->half_sharpness ? level->half_sharpness[h] : sdv_fade(level->sharpness[h]);
+    float s = level->sharpness[h];
+    return level->half_sharpness && sdv_is_semi_sharp(s) ? level->half_sharpness[h] : sdv_fade(s);
 }
 
 static float sdv_half_before(const sdv_level *level, int before)
@@ -2680,6 +2681,7 @@ static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
     int last = order->loop ? 2 : 3;
     grid->columns = grid->rows = order->n;
     grid->triangle = order->loop;
+    grid->frame = order->frame;
     grid->inside = sdv_first_inside(order, f);
     for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
     grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
@@ -9317,7 +9319,7 @@ static size_t sdv_exact_size(const subdiv_surface *surface, int channels)
     sdv_exact_memory memory;
     double doubles = (double)surface->work_count + (double)sdv_exact_kept_count(exact) +
                      (double)exact->most_work;
-    double floats = SDV_SLOTS * (double)sdv_exact_polynomial_count(exact);
+    double floats = (double)SDV_SLOTS * (double)sdv_exact_polynomial_count(exact);
     if (!sdv_addressable(channels, sizeof(double) * doubles + sizeof(float) * floats))
         return SIZE_MAX;
     return sdv_carve_exact(surface, channels, NULL, &memory);
@@ -10923,6 +10925,7 @@ static sdv_grid sdv_tile_grid(const sdv_tile *tile, int i)
     grid.columns = tile->grid->columns;
     grid.rows = tile->grid->rows;
     grid.triangle = tile->loop;
+    grid.frame = 0;
     grid.inside = tile->inside;
     for (int k = 0; k <= last; k++) {
         grid.corner[k] = tile->vertices[k];

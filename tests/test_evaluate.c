@@ -5,12 +5,16 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-static int allocations;
+#include <string.h>
+
+static int allocations, filling;      // each byte of what is allocated is this
 
 static void *count_malloc(size_t size)
 {
+    void *memory = malloc(size);
     allocations++;
-    return malloc(size);
+    if (memory) memset(memory, filling, size);
+    return memory;
 }
 
 #define SUBDIV_MALLOC(size, user)  ((void)(user), count_malloc(size))
@@ -304,6 +308,37 @@ static void check_bilinear(const subdiv_mesh *m, const prepared *p)
 static void test_linear_is_bilinear(void)
 {
     for_cages(200, check_bilinear);
+}
+
+// ------------------------------------------------------------------------- what is not written
+
+// A result does not depend on what was in the memory that it was made in.
+static void check_filling(const subdiv_mesh *m, const prepared *p)
+{
+    static const int fillings[3] = { 0, 0x3f, 0xbf };         // floats: 0, 0.75, -0.37
+    subdiv_mesh fine[3];
+    subdiv_stencils stencils = {0};
+    for (int i = 0; i < 3; i++) {
+        filling = fillings[i];
+        CHECK_EQUAL(subdiv_refine(&fine[i], m, p->levels, &p->opt), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_refined_stencils(&stencils, p->surface, 0, p->points, NULL), SUBDIV_OK);
+        subdiv_stencils_free(&stencils);
+        CHECK(i == 0 || same_mesh(&fine[0], &fine[i]));
+    }
+    for (int i = 0; i < 3; i++) subdiv_mesh_free(&fine[i]);
+    for (int i = 0; i < 3; i++) {
+        subdiv_tessellation how = {0};
+        how.rate = 3;
+        filling = fillings[i];
+        CHECK_EQUAL(subdiv_tessellate(&fine[i], m, &how, NULL), SUBDIV_OK);
+        CHECK(i == 0 || same_mesh(&fine[0], &fine[i]));
+    }
+    for (int i = 0; i < 3; i++) subdiv_mesh_free(&fine[i]);
+}
+
+static void test_filling(void)
+{
+    for_cages(300, check_filling);
 }
 
 // ---------------------------------------------------------------------------------- deep levels
@@ -993,6 +1028,7 @@ int main(void)
     RUN(test_channels);
     RUN(test_linear_is_straight);
     RUN(test_linear_is_bilinear);
+    RUN(test_filling);
     RUN(test_deep_levels);
     RUN(test_scratch_size);
     RUN(test_ranges);
