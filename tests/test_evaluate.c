@@ -338,7 +338,7 @@ static void check_filling(const subdiv_mesh *m, const prepared *p)
 
 static void test_filling(void)
 {
-    for_cages(300, check_filling);
+    for_cages(100, check_filling);
 }
 
 // ---------------------------------------------------------------------------------- deep levels
@@ -410,8 +410,8 @@ static void check_deep(const subdiv_mesh *m, const prepared *p)
 static void test_deep_levels(void)
 {
     compared = 0;
-    for_cages(150, check_deep);
-    CHECK(compared >= 140);
+    for_cages(80, check_deep);
+    CHECK(compared >= 75);
 }
 
 // In the end each level doubles the scratch memory, as it does the points on the edges of the cage.
@@ -430,7 +430,7 @@ static void check_scratch_size(const subdiv_mesh *m, const prepared *p)
 
 static void test_scratch_size(void)
 {
-    for_cages(60, check_scratch_size);
+    for_cages(20, check_scratch_size);
 }
 
 // ------------------------------------------------------------------------- ranges and windows
