@@ -160,8 +160,8 @@
 // the full compile time and code size each saves (gcc -O2):
 //
 //     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (34 %)
-//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (11 %)
-//     SUBDIV_NO_OBJ                  >>obj                                          (11 %)
+//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
+//     SUBDIV_NO_OBJ                  >>obj                                          (10 %)
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
 
