@@ -11406,7 +11406,7 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
     int most = tile->grid->columns > tile->grid->rows ? tile->grid->columns : tile->grid->rows;
     for (int i = 0; i < tile->sides; i++) {
-        int rate = (sdv_edge_rate(tile, i) + tile->ngon) / (1 + tile->ngon);
+        int rate = (sdv_edge_rate(tile, i) - 1) / (1 + tile->ngon) + 1;
         if (rate > most) most = rate;
     }
     sdv_area area = sdv_nest_area(tile, face, 0, 0);
