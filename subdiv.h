@@ -159,7 +159,7 @@
 // Define these to leave whole sections out, declarations included. The percentages say how much of
 // the full compile time and code size each saves (gcc -O2):
 //
-//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (34 %)
+//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (36 %)
 //     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
 //     SUBDIV_NO_OBJ                  >>obj                                          (10 %)
 
@@ -2125,8 +2125,8 @@ static float sdv_sharpness_before(const sdv_level *level, int before)
     return level->across[q] == before ? level->sharpness[q] : level->sharpness[before];
 }
 
-// One level down: the half, here, of the edge that leads on from h; and of the one that leads to
-// the vertex of h from the one before.
+// The sharpness that an edge has one level down, in its half at one vertex. sdv_half: the edge that
+// leads on from h, at the vertex of h; sdv_half_before: the edge of before, where it ends.
 static float sdv_half(const sdv_level *level, int h)
 {
     float s = level->sharpness[h];
@@ -2199,7 +2199,7 @@ static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edg
     return fading;
 }
 
-// What is left, one level down, of the seam at a vertex with a partner.
+// The sharpness that is left, one level down, of the seam at a vertex with a partner.
 static float sdv_seam_left(const sdv_level *level, int v)
 {
     float s = level->seam[v];
@@ -2278,7 +2278,9 @@ static int sdv_counter_clockwise(const sdv_level *level, int h)
 
 // --------------------------------------------------------------------------------- >>masks
 // Every rule of refinement, once. A mask is a set of weights that sum to 1. Refinement multiplies
-// the points around by these weights and adds them up, whatever the points are.
+// the points around by these weights and adds them up, whatever the points are. Change a weight
+// here, and every point, limit, stencil and explanation follows; SUBDIV_EXACT refuses a mask that
+// makes no spline.
 //
 //     point = self v + edge (sum of neighbours) + face (sum of face points)
 //                    + crease (sum of the two neighbours along the crease)
@@ -3857,7 +3859,7 @@ static void sdv_seam_edges(sdv_seams *seams)
     }
 }
 
-// What the rule looks at, around a vertex of the cage.
+// The values and faces around a vertex of the cage, by which a rule decides.
 typedef struct sdv_surroundings {
     int values;                         // how many different ones
     int faces, all;                     // those with values, and all
@@ -6156,6 +6158,7 @@ static void sdv_make_face_points(const subdiv_surface *surface, float *work, int
     }
 }
 
+// Copies the face points of cage faces face to end - 1 to a result of 1 level.
 static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face,
                                  int end, const sdv_window *out)
 {
@@ -7072,7 +7075,7 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
                             (rules->loop ? 3 : 2) * sdv_edge_faces(level, h));
 }
 
-// What only surfaces of values have: partners and origins, of vertex points alone.
+// Splits partners and origins, which only surfaces of values have: only vertex points get them.
 static void sdv_split_partners(sdv_context *context, sdv_arena *arena, const sdv_level *level,
                                const sdv_split *split, sdv_level *next)
 {
@@ -7242,7 +7245,7 @@ typedef struct sdv_patch {
     int polynomial;                     // of SUBDIV_EXACT: the number of its first polynomial
 } sdv_patch;
 
-// Which control points the vertices of a face are (see the gathering functions).
+// The places of a face's own vertices among the control points of its patch.
 static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
 
 typedef struct sdv_patches {            // of one level
@@ -7457,8 +7460,8 @@ static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, 
     return sdv_sharp_kind(level, rules, v, dependent);
 }
 
-// Where a face stands among the faces between two sharp edges at its vertex, or without any: in a
-// ring; first, in the middle or last along a crease, counter-clockwise; alone in a corner.
+// A face's place among the faces at its vertex: in a ring without sharp edges; between two sharp
+// edges first, in the middle or last, counter-clockwise; alone in a corner.
 typedef enum sdv_fan { SDV_FAN_ROUGH, SDV_FAN_RING, SDV_FAN_FIRST, SDV_FAN_MIDDLE, SDV_FAN_LAST,
                        SDV_FAN_CORNER } sdv_fan;
 
@@ -7969,9 +7972,9 @@ static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rul
     kind->patches = made;
 }
 
-// Of the two triangles around a vertex of valence 2, each has an edge of its own across from it,
-// not one that both and their neighbours share as in the cage of a mesh. The pairs are that edge's
-// face-vertices in the faces of sdv_nest_mesh.
+// Parts the two triangles around a vertex of valence 2: gives each an edge of its own across from
+// the vertex, where a mesh would have one that both and their neighbours share. The pairs are that
+// edge's face-vertices in the faces of sdv_nest_mesh.
 static void sdv_part_triangles(sdv_level *level, int dart)
 {
     static const int pairs[2][2] = { { 1, 5 }, { 13, 17 } };
@@ -8304,8 +8307,7 @@ SDV_INLINE float sdv_on_face(float u)
     return u < 1 ? u : 1;
 }
 
-// Where a patch is: number i of its level. Patches of all levels are numbered one level after the
-// other.
+// A patch: number i of its level. Patches of all levels are numbered one level after the other.
 typedef struct sdv_patch_at {
     int level, i;
 } sdv_patch_at;
@@ -8413,13 +8415,13 @@ enum { SDV_CELL_LEVELS = 4 };           // of two grids
 #define SDV_CELL_NONE 0xfffffffeu       // the face has no surface
 #define SDV_CELL_FAR 1u                 // what a look-up of many locations has no polynomial for
 
-// Of more polynomials than a cell can number, the last ones are left to their leaves. (Tests ask
-// for fewer.)
+// How many polynomials a cell can number; locations on later ones are looked up by their leaves.
+// (Tests ask for fewer.)
 #ifndef SDV_CELL_POLYNOMIALS
 #define SDV_CELL_POLYNOMIALS (SDV_CELL_LEAF >> SDV_CELL_BITS)
 #endif
 
-// Which cells of a grid are the children, and their children, of its face.
+// The cells of a grid that the children of its face's children have, child by child.
 static const unsigned char sdv_grid_cells[2][16] = {
     { 0, 1, 5, 4, 2, 3, 7, 6, 10, 11, 15, 14, 8, 9, 13, 12 },
     { 0, 1, 4, 15, 2, 3, 6, 13, 8, 9, 12, 7, 10, 11, 14, 5 } };
@@ -8993,7 +8995,7 @@ SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
     return sdv_minus(sdv_plus(edge, edge), inside);
 }
 
-// What lies beyond sharp edges is mirrored: first to the left and right in all rows that are known,
+// Mirrors control points over sharp edges: first to the left and right in all rows that are known,
 // then below and above.
 static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
 {
@@ -9024,9 +9026,9 @@ static void sdv_quad_polynomial(const sdv_four *p, int linear, sdv_polynomial *q
     }
 }
 
-// What lies beyond sharp edges follows from a + b - inside. Around vertex v, counter-clockwise,
-// stand r[0] and r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4];
-// r[5] across the edge after.
+// Mirrors control points over sharp edges: beyond edge a-b lies a + b - the vertex inside. Around
+// vertex v, counter-clockwise, stand r[0] and r[1], the other vertices of the face; r[2] across the
+// edge before; r[3], r[4]; r[5] across the edge after.
 static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
 {
     for (int i = 0; i < 3; i++) {
@@ -9361,13 +9363,13 @@ static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, d
     }
 }
 
-// Where polynomial number i is, from channel c on.
+// Finds polynomial number i, from channel c on.
 static float *sdv_polynomial_at(const sdv_exact_evaluation *e, size_t i, int c)
 {
     return e->memory.polynomials + SDV_SLOTS * ((size_t)e->channels * i + (size_t)c);
 }
 
-// Where the kept state of a nest is, of channels from c on.
+// Finds the kept state of a nest, of channels from c on.
 static double *sdv_kept_nest(const sdv_exact_evaluation *e, int number, int c)
 {
     const sdv_exact *exact = e->surface->exact;
@@ -9497,7 +9499,7 @@ static const sdv_exact_calls *sdv_find_exact_calls(void)
 // ------------------------------------------------------------------------------- >>samples
 // Samples: which polynomial a location is on, and what that has there; or down into a nest.
 
-// Where a location is on a polynomial: sx times u and sy times v, less where that starts.
+// A location's place on a polynomial: sx times u and sy times v, less where the polynomial starts.
 typedef struct sdv_where {
     float x, y, sx, sy;
 } sdv_where;
@@ -10039,7 +10041,7 @@ typedef struct sdv_stencil_maker {
     sdv_array  indices, weights;        // ints, floats [parts] each
 } sdv_stencil_maker;
 
-// Where point index of an order is that stands inside a grid: returns the grid's face-vertex.
+// Finds the grid, row and column of a point inside a grid. Returns the grid's face-vertex.
 static int sdv_find_on_grid(const sdv_order *order, int index, int *row, int *column)
 {
     const sdv_level *cage = &order->cage;
@@ -10426,8 +10428,8 @@ static void sdv_balance(double *weights, int count, int stride, double total)
     *largest += total;
 }
 
-// What is no more than rounding of the largest weight becomes 0. Of more than 16 weights it is
-// less, as what is left out adds up: to less than 2e-6 of the largest.
+// Makes weights 0 that are no more than rounding of the largest one. Among more than 16 weights the
+// limit is lower, so that all weights left out add up to less than 2e-6 of the largest.
 static void sdv_clean_part(sdv_stencil_maker *make, int part)
 {
     double *sums = make->sums + part, largest = 0;
@@ -10935,7 +10937,7 @@ static sdv_grid sdv_tile_grid(const sdv_tile *tile, int i)
     return grid;
 }
 
-// Where faces are written; they are only counted where an array is NULL.
+// The place where faces are written; if an array is NULL, they are only counted.
 typedef struct sdv_faces_at {
     int  triangles;                     // quads are cut
     int *vertices, *sizes;
@@ -11120,7 +11122,7 @@ typedef struct sdv_area {
     double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
 } sdv_area;                             // where t is from 0 to 1 along a side of the grid
 
-// What makes the points of a tiling. Each job has a copy.
+// The maker of a tiling's points. Each job has a copy.
 typedef struct sdv_leaf_points {
     const sdv_tiling *tiling;
     const sdv_exact_work *source;
@@ -11171,7 +11173,7 @@ static sdv_area sdv_area_of_part(sdv_area area, const sdv_double_patch *patch, i
     return made;
 }
 
-// What is left of a nest is the plane of its vertex.
+// Makes the polynomial of a nest's innermost faces: the plane of its vertex.
 static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
 {
     sdv_nest_vertex(vertex);
@@ -11412,7 +11414,7 @@ static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
     sdv_area area = sdv_nest_area(tile, face, 0, 0);
     int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
     int corner = (x == 0 || x == units) && (y == 0 || y == units), depth = 0;
-    // Of two halves of an edge one has its middle.
+    // The middle of an edge belongs to one of its two halves.
     for (; units < most || (units == most && (!corner || units <= 2)); units *= 2) depth++;
     return depth;
 }
@@ -11516,7 +11518,7 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
 // --------------------------------------------------------------------------- >>tessellator
 // From rates to a mesh.
 
-// What a tessellation works on.
+// A tessellation at work.
 typedef struct sdv_tessellator {
     const subdiv_surface *surface;
     const subdiv_tessellation *how;
@@ -12849,7 +12851,7 @@ enum { SDV_CREASES, SDV_CORNERS, SDV_HOLES, SDV_LISTS, SDV_RULES = 4 };
 static const char *const sdv_list_tags[SDV_LISTS] = { "t crease 2/1/0", "t corner 1/1/0",
                                                       "t hole 1/0/0" };
 
-// Of the rules of a mesh: boundary, uv_rule, creasing, triangles. values: in the order of the enum.
+// The tags of a mesh's rules: boundary, uv_rule, creasing, triangles. values: in the enum's order.
 static const struct { const char *text, *values[7]; } sdv_rule_tags[SDV_RULES] = {
     { "t interpolateboundary 1/0/0 ", { "2", "1", "0" } },
     { "t facevaryinginterpolateboundary 1/0/0 ", { "1", "2", "3", "4", "5", "0" } },
@@ -12997,8 +12999,8 @@ static void sdv_fail_line(const sdv_obj *obj, subdiv_result code, const char *fo
     va_end(args);
 }
 
-// Where the last whole statement in the text ends, looking at what is behind first: behind a line
-// end without a backslash. Whether a CR at the very end is one, or half of one, is yet to be seen.
+// Finds where the last whole statement in the text ends, from first on: after a line end without a
+// backslash. A CR at the very end does not count, as an LF may follow it. 0: there is none.
 static size_t sdv_find_complete(const char *text, size_t first, size_t count)
 {
     for (size_t i = count; i-- > first;) {
@@ -13739,7 +13741,7 @@ static void sdv_flush(sdv_output *out)
     out->used = 0;
 }
 
-// Where SDV_PIECE_SIZE bytes can be written; sdv_end says how many were.
+// Returns room for SDV_PIECE_SIZE bytes; sdv_end says how many of them were written.
 static char *sdv_room(sdv_output *out)
 {
     if (out->used > SDV_OUTPUT_SIZE - SDV_PIECE_SIZE) sdv_flush(out);

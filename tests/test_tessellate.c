@@ -447,10 +447,18 @@ static void test_edges(void)
     }
 }
 
+static void build_square(test_cage *c)
+{
+    static const int quad[4] = { 0, 1, 2, 3 };
+    cage_clear(c, SUBDIV_CATMULL_CLARK);
+    for (int k = 0; k < 4; k++) cage_vertex(c, k == 1 || k == 2, k >= 2, 0);
+    cage_face(c, 4, quad);
+}
+
 // The picture in the header, face by face.
 static void test_picture(void)
 {
-    static const int rates[4] = { 3, 4, 4, 4 }, quad[4] = { 0, 1, 2, 3 };
+    static const int rates[4] = { 3, 4, 4, 4 };
     static const int sizes[21] = { 4, 4, 4, 4, 3, 3, 3, 3, 3, 3, 4, 4, 3, 3, 4, 4, 3, 3, 4, 4, 3 };
     static const int faces[] = {
         15, 16, 19, 18,  16, 17, 20, 19,  18, 19, 22, 21,  19, 20, 23, 22,
@@ -461,9 +469,7 @@ static void test_picture(void)
     test_cage c;
     subdiv_mesh fine;
     subdiv_tessellation how = {0};
-    cage_clear(&c, SUBDIV_CATMULL_CLARK);
-    for (int k = 0; k < 4; k++) cage_vertex(&c, k == 1 || k == 2, k >= 2, 0);
-    cage_face(&c, 4, quad);
+    build_square(&c);
     how.edge_rates = rates;
     CHECK_EQUAL(subdiv_tessellate(&fine, &c.mesh, &how, NULL), SUBDIV_OK);
     CHECK_EQUAL(fine.vertex_count, 24);
@@ -483,16 +489,14 @@ static void test_rate_of_one(void)
 {
     static const int rates[][4] = { { 4, 1, 5, 1 }, { 1, 5, 1, 4 }, { 100, 1, 101, 1 },
                                     { 1, 4, 1, 1 }, { 1, 1, 4, 1 }, { 3, 1, 1, 1 } };
-    static const int triangles[] = { 9, 9, 201, 5, 5, 4 }, quad[4] = { 0, 1, 2, 3 };
+    static const int triangles[] = { 9, 9, 201, 5, 5, 4 };
     for (int i = 0; i < 12; i++) {
         const int *r = rates[i % 6], face_rate = 3;
         test_cage c;
         plan p;
         subdiv_mesh fine;
         subdiv_tessellation how = {0};
-        cage_clear(&c, SUBDIV_CATMULL_CLARK);
-        for (int k = 0; k < 4; k++) cage_vertex(&c, k == 1 || k == 2, k >= 2, 0);
-        cage_face(&c, 4, quad);
+        build_square(&c);
         how.edge_rates = r;
         how.triangles = 1;
         if (i >= 6) how.face_rates = &face_rate;

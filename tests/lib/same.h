@@ -2,6 +2,8 @@
 #ifndef SAME_H
 #define SAME_H
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static inline int mesh_is_zero(const subdiv_mesh *m)
@@ -37,7 +39,7 @@ static int same_statements(const subdiv_mesh *a, const subdiv_mesh *b)
 
 // Bit by bit the same cage, however the sizes of its faces are stored. Normals are not compared:
 // they are not read from files.
-static int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
+static inline int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
 {
     if (a->vertex_count != b->vertex_count || a->face_count != b->face_count ||
         a->crease_count != b->crease_count || a->corner_count != b->corner_count ||
@@ -60,6 +62,44 @@ static int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
            same_bytes(a->face_uvs, b->face_uvs, a->uv_count ? total : 0, sizeof(int)) &&
            same_bytes(a->colors, b->colors, a->colors ? 3 * a->vertex_count : 0, sizeof(float)) &&
            same_statements(a, b);
+}
+
+static inline int by_value(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+// How far points [dimensions * count] lie along a direction, sorted.
+static inline float *sorted_along(const float *points, int count, int dimensions,
+                                  const float *direction)
+{
+    float *along = (float *)malloc(sizeof *along * ((size_t)count + 1));
+    if (!along) abort();
+    for (int i = 0; i < count; i++) {
+        double sum = 0;
+        for (int k = 0; k < dimensions; k++)
+            sum += (double)points[dimensions * i + k] * (double)direction[k];
+        along[i] = (float)sum;
+    }
+    qsort(along, (size_t)count, sizeof *along, by_value);
+    return along;
+}
+
+// The largest difference between two lists of points along three directions, each list sorted: no
+// more than that between the points themselves, in whatever order each list has them.
+static inline double points_apart(const float *a, const float *b, int count, int dimensions)
+{
+    static const float directions[3][3] = { { 1, 0.3f, -0.7f }, { -0.2f, 1, 0.6f },
+                                            { 0.5f, -0.4f, 1 } };
+    double worst = 0;
+    for (int k = 0; k < 3; k++) {
+        float *x = sorted_along(a, count, dimensions, directions[k]);
+        float *y = sorted_along(b, count, dimensions, directions[k]);
+        for (int i = 0; i < count; i++) worst = fmax(worst, fabs((double)x[i] - (double)y[i]));
+        free(x), free(y);
+    }
+    return worst;
 }
 
 #endif
