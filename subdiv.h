@@ -112,9 +112,11 @@
    WHERE IT DIFFERS FROM OPENSUBDIV
    * Chaikin creasing: where an end of a crease turns smooth, the crease rule is weighted by the
      sharpness, but at most by 1. OpenSubdiv has no such bound: above 1, it extrapolates.
-   * Limit: OpenSubdiv leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents
-     at a crease or boundary are wrong unless there are 1 or 2 faces (Loop: 1 to 3) on that side.
-     It writes them out of bounds where a vertex has more faces than edges.
+   * Limit: in OpenSubdiv, sharpness that is left on the last level counts as infinite and a dart as
+     smooth, so it is not where refinement leads. A smooth Catmull-Clark vertex of valence 2 stays
+     where it is. Its tangents at a crease or boundary are wrong unless there are 1 or 2 faces
+     (Loop: 1 to 3) on that side, and those of a corner are two edges. It writes them out of bounds
+     where a vertex has more faces than edges.
    * UVs: where values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
    * Defaults: the boundary is "edge", not "none"; the rule for UVs is "corners only", not "all".
      Indices are checked. Valence has no limit.
@@ -411,16 +413,14 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // meshes, and every evaluation of it gives limit values, of any channels. UVs of such a mesh stay
 // those of the refined mesh. Do not use it as a cage: its points belong to an endlessly fine mesh.
 //
-// In two cases, as in OpenSubdiv, this limit differs from the true one, which >>exact and
-// >>tessellation give. Sharpness that is left on the last level (of 0 levels: on level 1) counts as
-// infinite: for a crease of 2.5, ask for 3 levels or more. A dart counts as smooth: at the end of
-// an infinite crease it is only near the true limit, and nearer with each level.
+// It is the surface that >>exact and >>tessellation give, with the same points and normals on every
+// level: sharpness that is left on the last level fades on the way to the limit.
 //
-// A point has one normal and two tangents, the same in every call. On a crease they belong to the
-// surface on one side. At a corner, and where non-manifold faces are no fan between two creases,
-// they are those of two edges of one face. The normal is 0 where there is none: without faces,
-// between two triangles back to back, where a tangent is 0, and where both are parallel to within
-// 1e-6.
+// A point has one normal and two tangents. On a crease they belong to the side of the first face
+// there that is no hole. A corner with more than 2 faces (Loop: 3) between its creases, or without
+// creases, is a spike: it has no tangent plane, and its normal is a mean of those around. The normal
+// is 0 where there is none: without faces, between two triangles back to back, where a tangent is 0
+// and where both are parallel, to within rounding.
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -597,9 +597,9 @@ typedef struct subdiv_tessellation {
 //     any other polygon        a quad at each vertex, with r / 2 pieces a side, rounded up
 //
 // If all edges are cut like the sides of the grid, the faces are those of the grid. So one rate 2^k
-// makes the faces of subdiv_refine by k levels with opt->limit. Its points are equal to rounding,
-// too, except where >>limit differs from the true limit or keeps points without a surface. (The
-// other polygons need even rates for this; at rate 1 they are fans around their centres.)
+// makes the faces of subdiv_refine by k levels with opt->limit, and where there is a surface its
+// points and normals, to rounding. (The other polygons need even rates for this; at rate 1 they are
+// fans around their centres.)
 //
 // Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost ones.
 // Strips join what remains with each edge; they follow its faces, from edge 0-1 on. They consist of
@@ -617,8 +617,8 @@ typedef struct subdiv_tessellation {
 //     | / \ /   \ / \ |
 //     o----o-----o----o
 //
-// A point of a vertex or edge is computed on the first face that has it and is no hole: on a crease
-// its normal belongs to that side. Where boundary "none" drops the surface, only vertices are left.
+// On a crease, a normal belongs to the side that >>limit names. Where boundary "none" drops the
+// surface, only vertices are left.
 SUBDIV_DEF subdiv_result subdiv_tessellate(subdiv_mesh *fine, const subdiv_mesh *cage,
                                            const subdiv_tessellation *how,
                                            const subdiv_options *opt);
@@ -2199,6 +2199,16 @@ static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edg
     return fading;
 }
 
+// Is nothing at a vertex semi-sharp?
+static int sdv_vertex_settled(const sdv_level *level, int v)
+{
+    int semi = sdv_is_semi_sharp(level->vertex_sharpness[v]);
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
+        semi |= sdv_is_semi_sharp(level->sharpness[h]) ||
+                sdv_is_semi_sharp(level->sharpness[sdv_previous(level, h)]);
+    return !semi;
+}
+
 // The sharpness that is left, one level down, of the seam at a vertex with a partner.
 static float sdv_seam_left(const sdv_level *level, int v)
 {
@@ -2248,19 +2258,20 @@ static int sdv_ring_closes(const sdv_level *level, int h)
     return sdv_around(level, at) == h;
 }
 
+static int sdv_same_edge(const sdv_level *level, int h, int other)
+{
+    int k = h;
+    while (k != other && level->across[k] != h) k = level->across[k];
+    return k == other;
+}
+
+#if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
 // The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
 // back. -1 across a sharp edge.
 static int sdv_across(const sdv_level *level, int h)
 {
     int q = level->across[h];
     return level->sharpness[h] > 0 || q == h ? -1 : q;
-}
-
-static int sdv_same_edge(const sdv_level *level, int h, int other)
-{
-    int k = h;
-    while (k != other && level->across[k] != h) k = level->across[k];
-    return k == other;
 }
 
 // The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
@@ -2275,6 +2286,7 @@ static int sdv_counter_clockwise(const sdv_level *level, int h)
     int before = sdv_previous(level, h), q = level->across[before];
     return q == before || sdv_sharpness_before(level, before) > 0 ? -1 : q;
 }
+#endif
 
 // --------------------------------------------------------------------------------- >>masks
 // Every rule of refinement, once. A mask is a set of weights that sum to 1. Refinement multiplies
@@ -2444,7 +2456,7 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
 // there. They are left eigenvectors of one step of refinement around the vertex: for the point, of
 // the eigenvalue 1; for tangents, whose weights sum to 0, of the next ones. So they follow from the
 // masks above, whatever weights these have. They are for levels from 1 on, where all faces are
-// quads (Loop: triangles). Sharpness that is left counts as infinite [OSD].
+// quads (Loop: triangles), and for vertices where nothing fades any more: see >>limit-rows.
 //
 // Limit point of a smooth vertex, valence n [HKD93], [Loop87], from the weights of the vertex mask
 // (v.edge, v.face) and of the edge mask (self, face). Regular: 4/9, 1/9, 1/36; Loop 1/2, 1/12.
@@ -2518,7 +2530,7 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
     }
 }
 
-// Tangents at a crease or boundary, for the side with k faces. e_0 and e_k are on the crease, so
+// Tangents at a crease or boundary, for the side with k faces, from the mask of its vertex point. e_0 and e_k are on the crease, so
 // t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have others, as their faces refine in other
 // ways). It is half a wave, a = pi/k, with weights x of the two ends and y of v that make it an
 // eigenvector:
@@ -2532,28 +2544,36 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 //
 // At a regular vertex k = 2, so t1 = 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face
 // fills a straight angle: t1 = e_0 + e_1 - 2v, the way the curve bends.
-static void sdv_crease_tangents(const sdv_rules *rules, int k, double *t0, double *t1)
+//
+// The same goes for a corner between two creases, with the mask of its vertex point. Where the wave
+// shrinks faster than the creases, their plane is left: t1 = e_0 + e_k - 2v. Where it shrinks as
+// fast, L = c, it turns to that plane by the same bit on each level; then t1 is what is there after
+// a thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent plane;
+// t0 and t1 span the mean of its faces' planes.
+static void sdv_crease_tangents(const sdv_rules *rules, sdv_mask v, int k, double *t0, double *t1)
 {
-    sdv_mask edge = sdv_smooth_edge(rules, 2), v = sdv_crease_vertex();
+    sdv_mask edge = sdv_smooth_edge(rules, 2);
     double a = 3.14159265358979323846 / k, r = (1 + cos(a)) / sin(a), c = sdv_crease_edge().self;
     sdv_wave wave = sdv_wave_of(rules, a);
     double g = wave.face, end = wave.factor - c, middle = wave.factor - v.self;
+    int corner = v.crease <= 0, plane = k == 1 || (corner && end < -1e-9);
+    if (corner && end < 0.001) end = 0.001;
     double p = rules->loop ? 4 * edge.face * sin(a) : (g / 4 + edge.face) * sin(a);
     double q = (rules->loop ? 4 * edge.self : 4 * edge.self + 2 * edge.face + g / 2) * r;
     double determinant = end * middle - 2 * c * v.crease;
     for (int i = 0; i <= k; i++) {
         t0[1 + i] = 0;
-        t1[1 + i] = 4 * sin(i * a);
+        t1[1 + i] = plane ? 0 : 4 * sin(i * a);
     }
     for (int i = 0; i < k && !rules->loop; i++) {
         t0[2 + k + i] = 0;
-        t1[2 + k + i] = k > 1 ? g * (sin(i * a) + sin((i + 1) * a)) : 0;
+        t1[2 + k + i] = plane ? 0 : g * (sin(i * a) + sin((i + 1) * a));
     }
     t0[0] = 0;
     t0[1] = 1;
     t0[1 + k] = -1;
-    t1[0] = k == 1 ? -2 : (end * q + 2 * c * p) / determinant;
-    t1[1] = t1[1 + k] = k == 1 ? 1 : (middle * p + v.crease * q) / determinant;
+    t1[0] = plane ? -2 : (end * q + 2 * c * p) / determinant;
+    t1[1] = t1[1 + k] = plane ? 1 : (middle * p + v.crease * q) / determinant;
 }
 
 // Returns the limit mask of a vertex that has a rule and so many faces. A corner stays.
@@ -2981,7 +3001,8 @@ enum { SDV_BLOCK_FACES = 128 };
 typedef struct sdv_shape {              // how rows of a batch look
     int   count[3];                     // behind the first point so many points of each weight
     float weight[3];
-    int   own;                          // each row has weights of its own behind its points
+    int   own;                          // floats of its own that each row has behind its points:
+                                        //     3 weights or, of a limit, as sdv_batch.limit
     int   regular;                      // of a limit: smooth, with the regular number of faces
 } sdv_shape;
 
@@ -2991,7 +3012,9 @@ typedef struct sdv_batch {              // rows of the same shape
     const int *items;                   // of each row the target, the points, three floats if own
     const unsigned char *faces;         // [rows] which face of the block a row belongs to, rising
     const float *limit;                 // [3][points] of a limit: weights of the point and of two
-} sdv_batch;                            // tangents; else NULL
+} sdv_batch;                            // tangents, or sdv_own_limit; else NULL
+
+static const float sdv_own_limit[1] = { 0 };            // of rows that have weights of their own
 
 typedef struct sdv_batches {            // the rows of one step of refinement, or of the limit
     int        rows, blocks;
@@ -3076,7 +3099,7 @@ static int sdv_find_open(sdv_writer *writer, const sdv_shape *shape, const float
     if (!open) return -1;
     open->shape = *shape;
     open->limit = limit;
-    open->stride = 1 + sdv_row_points(shape) + 3 * shape->own;
+    open->stride = 1 + sdv_row_points(shape) + shape->own;
     return *known = (int)writer->open.count - 1;
 }
 
@@ -3145,7 +3168,7 @@ static sdv_shape sdv_shape_of(const sdv_runs *runs)
         shape.count[n] += count;
         shape.weight[n] = runs->weight[i];
     }
-    shape.own = runs->blend && n >= 0;
+    shape.own = runs->blend && n >= 0 ? 3 : 0;
     return shape;
 }
 
@@ -4192,49 +4215,202 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
 // ------------------------------------------------------------------------------ >>limit-rows
 // A limit row makes a point of the limit and its two tangents from points of the last level.
 
-// The weights of a limit row depend on its kind and on the number of faces. A ring is a smooth
-// vertex with all its faces, a span a crease with the faces on one side, a tip a corner: its
-// tangents are two edges of a face. A loose crease or ring has the tangents of a tip, as its faces
-// are no such fan: a crease is non-manifold or a vertex is twice in a face.
+// The faces around a vertex up to infinitely sharp edges are a sector: a closed ring, or open from
+// one such edge to another. A dart is a ring, whose first edge is the sharp one. The points of a
+// sector are the vertex, its neighbours counter-clockwise and, under Catmull-Clark, the vertices
+// across its faces. One step of refinement makes the same points of the next level from these.
+typedef struct sdv_ray {                // an edge at the vertex: its sharpness and, one level down,
+    float now, half, behind;            // that of its half there and of the half behind that
+} sdv_ray;
+
+typedef struct sdv_sector {
+    int      faces, edges;              // a ring has as many edges as faces, else one more
+    int      first, slit;               // its first face-vertex; it begins and ends at one edge
+    int      count;
+    sdv_ray *rays;                      // [count] the edges, then sharp ones of other sectors
+    float    corner;                    // the sharpness of the vertex
+} sdv_sector;
+
+enum { SDV_FADE_LEVELS = 11 };          // after so many, all that is semi-sharp is gone
+enum { SDV_DART_STEPS = 2000 };         // at most so many lead to the limit of a dart
+
+static int sdv_sector_points(const sdv_rules *rules, const sdv_sector *s)
+{
+    return 1 + s->edges + (rules->loop ? 0 : s->faces);
+}
+
+// Makes a sector where nothing fades, of a rule.
+static void sdv_settle(sdv_sector *s, sdv_rule rule, int faces, int open)
+{
+    const sdv_ray smooth = { 0, 0, 0 }, sharp = { SUBDIV_INFINITE, SUBDIV_INFINITE, SUBDIV_INFINITE };
+    s->faces = faces;
+    s->count = s->edges = faces + open;
+    s->corner = rule == SDV_CORNER ? SUBDIV_INFINITE : 0;
+    for (int i = 0; i < s->edges; i++) s->rays[i] = smooth;
+    if (open || rule == SDV_DART) s->rays[0] = sharp;
+    if (open) s->rays[faces] = sharp;
+}
+
+static int sdv_sector_fades(const sdv_sector *s)
+{
+    int fades = sdv_is_semi_sharp(s->corner);
+    for (int i = 0; i < s->count; i++) fades |= sdv_is_semi_sharp(s->rays[i].now);
+    return fades;
+}
+
+// Makes the sector of the next level. to has room for its rays.
+static void sdv_fade_sector(const sdv_rules *rules, const sdv_sector *from, sdv_sector *to)
+{
+    sdv_ray *rays = to->rays;
+    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN, semi = 0;
+    float sum = 0;
+    *to = *from;
+    to->rays = rays;
+    to->corner = sdv_fade(from->corner);
+    for (int i = 0; i < from->count; i++) {
+        rays[i].now = from->rays[i].half;
+        if (!sdv_is_semi_sharp(rays[i].now)) continue;
+        sum += rays[i].now;
+        semi++;
+    }
+    for (int i = 0; i < from->count; i++) {
+        float s = rays[i].now, other = from->rays[i].behind;
+        rays[i].half = chaikin ? sdv_fade_chaikin(s, sum, semi) : sdv_fade(s);
+        rays[i].behind = chaikin ? sdv_fade_chaikin(s, s + other, 1 + (other > 0)) : sdv_fade(s);
+    }
+}
+
+// Goes back one step, from weights w of a sector's points on the next level to weights of those on
+// this level: a row of weights times the matrix of the step.
+static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const double *w, double *out)
+{
+    int n = s->faces, edges = s->edges, loop = rules->loop;
+    double *edge = out + 1, *across = edge + edges;
+    sdv_sharp_edges sharp = { 0, 0, 0, 0 };
+    for (int i = 0; i < s->count; i++) sdv_meet_edge(&sharp, s->rays[i].now, s->rays[i].half);
+    sdv_fading fading = sdv_fading_of(s->corner, sdv_fade(s->corner), &sharp);
+    sdv_mask vertex = sdv_vertex_mask(rules, fading, n);
+    out[0] = w[0] * vertex.self;
+    for (int i = 0; i < edges; i++) edge[i] = w[0] * vertex.edge;
+    for (int i = 0; i < n && !loop; i++) across[i] = w[0] * vertex.face + w[1 + edges + i];
+    for (int i = 0; i < edges; i++) {
+        const sdv_ray *ray = &s->rays[i];
+        sdv_mask mask = sdv_edge_mask(rules, ray->now, ray->half > 0 && ray->behind > 0, 2, 0);
+        int left = i < n ? i : -1, right = i > 0 ? i - 1 : edges == n ? n - 1 : -1;
+        if ((fading.rule == SDV_CREASE ? ray->now : ray->half) > 0) edge[i] += w[0] * vertex.crease;
+        out[0] += w[1 + i] * mask.self;
+        edge[i] += w[1 + i] * mask.self;
+        if (left >= 0) (loop ? &edge[(i + 1) % edges] : &across[left])[0] += w[1 + i] * mask.face;
+        if (right >= 0) (loop ? &edge[right] : &across[right])[0] += w[1 + i] * mask.face;
+    }
+    for (int i = 0; i < n && !loop; i++) {              // so far these weigh the face points
+        across[i] *= sdv_face_weight(4);
+        out[0] += across[i];
+        edge[i] += across[i];
+        edge[(i + 1) % edges] += across[i];
+    }
+}
+
+// Goes back one step with the rows of a limit: the point's, and two tangents', which may have any
+// length. room [points].
+static void sdv_rows_back(const sdv_rules *rules, const sdv_sector *s, double *rows, double *room)
+{
+    int points = sdv_sector_points(rules, s);
+    for (int k = 0; k < 3; k++, rows += points) {
+        double most = k > 0 ? 0 : 1, sum = 0;
+        sdv_step_back(rules, s, rows, room);
+        for (int i = 1; i < points; i++) {
+            most = fabs(room[i]) > most ? fabs(room[i]) : most;
+            sum += room[i];
+        }
+        if (k > 0) room[0] = -sum;                      // rounding must not add up
+        for (int i = 0; i < points; i++) rows[i] = most > 0 ? room[i] / most : 0;
+    }
+}
+
+// Makes the rows [3][points] of a sector's limit where nothing fades.
+static void sdv_settled_rows(const sdv_rules *rules, const sdv_sector *s, double *rows,
+                             double *room)
+{
+    int n = s->faces, open = s->edges > n, points = sdv_sector_points(rules, s), sharp = 0;
+    double *t0 = rows + points, *t1 = t0 + points;
+    for (int i = 0; i < s->count; i++) sharp += s->rays[i].now > 0;
+    sdv_rule rule = sdv_vertex_rule(s->corner, sharp);
+    sdv_mask mask = sdv_limit_mask(rules, rule, n);
+    for (int i = 0; i < 3 * points; i++) rows[i] = 0;
+    rows[0] = mask.self;
+    for (int i = 1; i <= s->edges; i++)
+        rows[i] = mask.edge + (i == 1 || i == s->edges ? mask.crease : 0);
+    for (int i = 1 + s->edges; i < points; i++) rows[i] = mask.face;
+    sdv_mask vertex = rule == SDV_CREASE ? sdv_crease_vertex() : sdv_corner_vertex();
+    if (open) sdv_crease_tangents(rules, vertex, n, t0, t1);
+    else if (rule != SDV_CORNER || s->rays[0].now <= 0) sdv_smooth_tangents(rules, n, t0, t1);
+    // A dart has no closed form. The more faces, the more alike are the waves, and the longer it
+    // takes until the slowest is left.
+    int steps = n < 44 ? 64 + n * n : SDV_DART_STEPS;
+    for (int i = 0; i < steps && rule == SDV_DART; i++) sdv_rows_back(rules, s, rows, room);
+}
+
+// Makes the rows of the limit of sector states[0]: goes on to the level where nothing fades, and
+// back. states [SDV_FADE_LEVELS + 1] have room for rays. room [points].
+static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *rows, double *room)
+{
+    int level = 0;
+    for (; level < SDV_FADE_LEVELS && sdv_sector_fades(&states[level]); level++)
+        sdv_fade_sector(rules, &states[level], &states[level + 1]);
+    sdv_settled_rows(rules, &states[level], rows, room);
+    while (level-- > 0) sdv_rows_back(rules, &states[level], rows, room);
+}
+
+// Kinds of limit rows whose weights depend on the number of faces alone: of sectors where nothing
+// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; of linear
+// surfaces, with two edges for tangents; and where faces make no sector, as a crease is not manifold
+// or a vertex is twice in a face.
 typedef enum sdv_limit_kind {
-    SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING, SDV_LIMIT_KINDS
+    SDV_RING, SDV_SLIT, SDV_SPAN, SDV_SPIKE, SDV_WEDGE, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING,
+    SDV_LIMIT_KINDS
 } sdv_limit_kind;
 
 typedef struct sdv_limit_writer {       // writes limit rows
     sdv_writer *writer;
     const sdv_level *level;             // the last
     const sdv_rules *rules;
+    const sdv_filler *fill;
     sdv_array   masks;                  // sdv_limit_weights, one for each kind and number of faces
     int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
-    double     *tangents;               // [2 * (2 most + 2)] room for those of a mask
+    double     *rows, *room;            // of a sector: [3][points], [points]
+    sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
+    sdv_sector  last;                   // the last one that fades, whose rows are there
+    int        *edge, *place;           // see sdv_find_rays
 } sdv_limit_writer;
 
 // Makes the mask of a kind. Its points are in the order of sdv_add_fan or sdv_add_tip.
 static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
-    static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER, SDV_CREASE,
-                                                     SDV_SMOOTH };
-    int loop = limit->rules->loop, tip = kind >= SDV_TIP, first = tip ? 3 : 1;
-    int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces + (kind == SDV_SPAN);
-    int across = loop || kind == SDV_TIP || kind == SDV_LOOSE_CREASE ? 0 : faces;
-    sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
-    sdv_limit_weights made = { first + edges + across, NULL };
-    double *t0 = limit->tangents, *t1 = t0 + made.count;
+    static const sdv_rule sectors[SDV_TIP] = { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER,
+                                               SDV_CORNER };
+    const sdv_rules *rules = limit->rules;
+    int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces;
+    int points = 3 + edges + (kind == SDV_LOOSE_RING && !rules->loop ? faces : 0);
+    double *rows = limit->rows;
+    limit->last.count = 0;
+    if (kind < SDV_TIP) {
+        sdv_settle(&limit->states[0], sectors[kind], faces, kind == SDV_SPAN || kind == SDV_WEDGE);
+        sdv_settled_rows(rules, &limit->states[0], rows, limit->room);
+        points = sdv_sector_points(rules, &limit->states[0]);
+    } else {
+        sdv_rule rule = kind == SDV_TIP ? SDV_CORNER : edges == 2 ? SDV_CREASE : SDV_SMOOTH;
+        sdv_mask mask = sdv_limit_mask(rules, rule, faces);
+        for (int i = 0; i < 3 * points; i++) rows[i] = 0;
+        rows[0] = mask.self;
+        for (int i = 3; i < points; i++)
+            rows[i] = i < 3 + edges ? mask.edge + mask.crease : mask.face;
+        rows[points + 1] = rows[2 * points + 2] = 1;
+    }
     sdv_writer *writer = limit->writer;
-    float *weights = SDV_NEW(writer->context, writer->arena, float, 3 * (size_t)made.count);
-    if (!weights) return made;
-    made.weights = weights;
-    for (int i = 0; i < 2 * made.count; i++) t0[i] = 0;
-    if (kind == SDV_RING) sdv_smooth_tangents(limit->rules, faces, t0, t1);
-    if (kind == SDV_SPAN) sdv_crease_tangents(limit->rules, faces, t0, t1);
-    if (tip) t0[1] = t1[2] = 1;
-    weights[0] = (float)mask.self;
-    for (int i = 1; i < first; i++) weights[i] = 0;
-    for (int i = 0; i < edges; i++)
-        weights[first + i] = (float)(i == 0 || i + 1 == edges ? mask.edge + mask.crease
-                                                              : mask.edge);
-    for (int i = 0; i < across; i++) weights[first + edges + i] = (float)mask.face;
-    for (int i = 0; i < 2 * made.count; i++) weights[made.count + i] = (float)t0[i];
+    sdv_limit_weights made = { points, NULL };
+    made.weights = SDV_NEW(writer->context, writer->arena, float, 3 * (size_t)points);
+    for (int i = 0; i < 3 * points && made.weights; i++) made.weights[i] = (float)rows[i];
     return made;
 }
 
@@ -4265,16 +4441,68 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
     return across;
 }
 
-// Counts the faces on the side of a crease where h is, and finds the first of them. 0 if they close
-// to a ring or the same edge bounds them twice.
-static int sdv_find_span(const sdv_level *level, int h, int *first)
+// Finds the faces of the sector that has the face of h.
+static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
 {
-    int count = 1, last = h, at;
-    *first = h;
-    for (; (at = sdv_clockwise(level, *first)) >= 0 && at != h; count++) *first = at;
-    if (at == h) return 0;
-    for (; (at = sdv_counter_clockwise(level, last)) >= 0; count++) last = at;
-    return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
+    int first = h, ring = 0, at, q;
+    while (!ring && level->sharpness[first] < SUBDIV_INFINITE && level->across[first] != first) {
+        at = sdv_next(level, level->across[first]);
+        ring = at == h;
+        if (!ring) first = at;
+    }
+    s->faces = 1;
+    for (at = first; ; at = q, s->faces++) {
+        int before = sdv_previous(level, at);
+        q = level->across[before];
+        if (q == before || q == first) break;
+        if (sdv_sharpness_before(level, before) >= SUBDIV_INFINITE) break;
+    }
+    // A slit begins and ends at one edge. Its faces close to a ring around this.
+    s->slit = !ring && sdv_same_edge(level, first, sdv_previous(level, at));
+    s->edges = s->faces + !(ring || s->slit);
+    s->first = first;
+}
+
+// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends.
+static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
+{
+    const sdv_level *level = limit->level;
+    sdv_ray ray;
+    ray.now = end ? sdv_sharpness_before(level, h) : level->sharpness[h];
+    ray.half = ray.behind = end ? sdv_half_before(level, h) : sdv_half(level, h);
+    if (!level->half_sharpness || !sdv_is_semi_sharp(ray.now)) return ray;
+    sdv_edge_line line = sdv_line_at(limit->fill, h);
+    int first = level->edge_first[level->face_edges[h]];
+    int v = level->face_vertices[end ? sdv_next(level, h) : h];
+    ray.behind = line.next[level->face_vertices[first] == v ? 1 : 2 * line.n - 2];
+    return ray;
+}
+
+// Finds the rays of a sector, and those of other sharp edges at the vertex. Which edges the sector
+// has tell limit->edge, by place, and limit->place, by edge. Returns how many stay sharp forever.
+static int sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
+{
+    const sdv_level *level = limit->level;
+    int v = level->face_vertices[s->first], forever = 0;
+    s->corner = level->vertex_sharpness[v];
+    for (int i = 0, at = s->first; i < s->edges; i++) {
+        int end = i == s->faces, edge = end ? sdv_previous(level, at) : at;
+        s->rays[i] = sdv_ray_of(limit, edge, end);
+        limit->edge[i] = level->face_edges[edge];
+        limit->place[limit->edge[i]] = i;
+        if (i + 1 < s->faces) at = level->across[sdv_previous(level, at)];
+    }
+    s->count = s->edges;
+    for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k])
+        for (int end = 0; end < 2; end++) {
+            int edge = end ? sdv_previous(level, k) : k, e = level->face_edges[edge];
+            int at = limit->place[e], own = at < s->edges && limit->edge[at] == e;
+            if (own || !sdv_is_edge_at(level, edge, !end)) continue;
+            sdv_ray ray = sdv_ray_of(limit, edge, end);
+            if (ray.now > 0) s->rays[s->count++] = ray;
+        }
+    for (int i = 0; i < s->count; i++) forever += s->rays[i].now >= SUBDIV_INFINITE;
+    return forever;
 }
 
 // Appends the points of a tip: for the tangents, the two neighbours in the face of h; for the
@@ -4306,42 +4534,110 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
     sdv_add_shape(limit->writer, &shape, mask->weights, target);
 }
 
+// Makes the rows of sector states[0], which fades, unless the last one that did was like it.
+static void sdv_find_fading_rows(sdv_limit_writer *limit)
+{
+    const sdv_sector *s = &limit->states[0];
+    sdv_sector *last = &limit->last;
+    size_t size = (size_t)s->count * sizeof *s->rays;
+    sdv_ray *rays = last->rays;
+    if (s->count == last->count && s->edges == last->edges && s->faces == last->faces &&
+        memcmp(&s->corner, &last->corner, sizeof s->corner) == 0 &&
+        memcmp(s->rays, rays, size) == 0) return;
+    *last = *s;
+    last->rays = rays;
+    memcpy(rays, s->rays, size);
+    sdv_sector_rows(limit->rules, limit->states, limit->rows, limit->room);
+}
+
+// Adds the limit row of sector states[0], which fades: with weights of its own. Its points are in
+// limit->writer->points.
+static void sdv_fading_row(sdv_limit_writer *limit, int target)
+{
+    sdv_writer *writer = limit->writer;
+    int points = sdv_sector_points(limit->rules, &limit->states[0]);
+    sdv_shape shape;
+    memset(&shape, 0, sizeof shape);
+    shape.count[0] = points - 1;
+    shape.own = 3 * points;
+    sdv_find_fading_rows(limit);
+    int *row = sdv_put_row(writer, sdv_find_open(writer, &shape, sdv_own_limit), target);
+    if (row == writer->points) return;
+    for (int i = 0; i < points; i++) row[i] = writer->points[i];
+    for (int i = 0; i < 3 * points; i++) {
+        float weight = (float)limit->rows[i];
+        memcpy(row + points + i, &weight, sizeof weight);
+    }
+}
+
 // Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
-// the vertices across its faces. A crease gets the limit of the side where h is, a corner the
-// tangents of the face of h.
+// the vertices across its faces. Where sharp edges part the faces, it is the limit of the sector
+// that has the face of h. (Values that fade with others, see >>face-varying, are not followed to
+// where nothing fades.)
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
-    int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
-    int faces = level->vertex_faces[v], span = 0;
+    const sdv_rules *rules = limit->rules;
+    int v = level->face_vertices[h], loop = rules->loop, faces = level->vertex_faces[v], open = 0;
+    int dependent = level->partner && level->partner[v] >= 0;
     int *point = limit->writer->points;
-    sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
+    sdv_sector *s = &limit->states[0];
     sdv_limit_kind kind = SDV_TIP;
-    if (rule == SDV_CREASE) {
-        span = sdv_find_span(level, h, &first);
-        kind = span ? SDV_SPAN : SDV_LOOSE_CREASE;
-    } else if (rule != SDV_CORNER) {
-        kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
-    }
+    sdv_rule rule = rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     *point++ = level->first_point + v;
-    if (kind == SDV_RING) point = sdv_add_fan(level, h, faces, 0, loop, point);
-    else if (kind == SDV_SPAN) point = sdv_add_fan(level, first, span, 1, loop, point);
-    else point = sdv_add_tip(level, h, kind, loop, point);
-    if (rule >= SDV_CREASE) faces = span;
+    if (rule == SDV_SMOOTH || (rule == SDV_DART && dependent)) {
+        kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
+        s->first = h;
+        s->faces = faces;
+    } else if (!rules->linear) {
+        sdv_find_sector(level, h, s);
+        int whole = s->faces == faces && s->edges == faces;
+        open = s->edges > s->faces;
+        if (!dependent && !sdv_vertex_settled(level, v)) {
+            int forever = sdv_find_rays(limit, s), corner = s->corner >= SUBDIV_INFINITE;
+            if (corner || forever > 2 || (forever == 2 ? open : whole)) {
+                sdv_add_fan(level, s->first, s->faces, open, loop, point);
+                sdv_fading_row(limit, target);
+                return;
+            }
+        }
+        if (rule == SDV_DART) kind = whole ? SDV_SLIT : SDV_LOOSE_RING;
+        if (rule == SDV_CREASE) kind = open ? SDV_SPAN : SDV_LOOSE_CREASE;
+        if (rule == SDV_CORNER) kind = s->slit || open ? SDV_WEDGE : SDV_SPIKE;
+        open = kind == SDV_SPAN || kind == SDV_WEDGE;
+    }
+    if (kind < SDV_TIP) faces = s->faces;
+    if (kind == SDV_TIP || kind == SDV_LOOSE_CREASE) faces = 0;
+    if (kind < SDV_TIP) sdv_add_fan(level, s->first, faces, open, loop, point);
+    else sdv_add_tip(level, h, kind, loop, point);
     sdv_limit_batch_row(limit, kind, faces, target);
 }
 
-static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
+// semi: something is semi-sharp.
+static void sdv_begin_limit(sdv_filler *fill, const sdv_rules *rules, int semi,
                             sdv_limit_writer *limit)
 {
+    sdv_writer *writer = &fill->writer;
+    sdv_context *context = writer->context;
     size_t most = (size_t)writer->most, known = SDV_LIMIT_KINDS * (most + 1);
     memset(limit, 0, sizeof *limit);
     limit->writer = writer;
-    limit->level = level;
+    limit->level = fill->level;
     limit->rules = rules;
-    limit->known = SDV_NEW(writer->context, &writer->scratch, int, known);
-    limit->tangents = SDV_NEW(writer->context, &writer->scratch, double, 4 * most + 8);
-    for (size_t i = 0; i < known && !writer->context->result; i++) limit->known[i] = -1;
+    limit->fill = fill;
+    limit->known = SDV_NEW(context, &writer->scratch, int, known);
+    limit->rows = SDV_NEW(context, &writer->scratch, double, 3 * (2 * most + 2));
+    limit->room = SDV_NEW(context, &writer->scratch, double, 2 * most + 2);
+    for (int i = 0; i <= (semi ? SDV_FADE_LEVELS : 0); i++)
+        limit->states[i].rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
+    if (semi) {
+        size_t edges = (size_t)fill->level->edge_count;
+        limit->last.rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
+        limit->edge = SDV_NEW(context, &writer->scratch, int, most + 1);
+        limit->place = SDV_NEW(context, &writer->scratch, int, edges);
+        for (size_t e = 0; e < edges && limit->place; e++) limit->place[e] = 0;
+    }
+    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
 }
 
 // ------------------------------------------------------------------------------------ >>fill
@@ -4555,14 +4851,24 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
     sdv_end_batches(writer, &surface->refine[level]);
 }
 
-// Adds the limit row of point t of a line. A crease (sharp 2) gets the limit of the side to its
-// left. Linear surfaces have two edges for tangents.
+// Finds the sector of point t of a semi-sharp line.
+static void sdv_line_sector(const sdv_edge_line *line, int loop, int t, sdv_sector *s)
+{
+    const sdv_ray ahead = { line->now[t], line->next[2 * t], line->next[2 * t + 1] };
+    const sdv_ray back = { line->now[t - 1], line->next[2 * t - 1], line->next[2 * t - 2] };
+    sdv_settle(s, SDV_SMOOTH, loop ? 6 : 4, 0);
+    s->rays[0] = ahead;
+    s->rays[loop ? 3 : 2] = back;
+}
+
+// Adds the limit row of point t of a line. A crease gets the limit of the side to its left. Linear
+// surfaces have two edges for tangents. line: where it is semi-sharp; else NULL.
 static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, int t, int sharp,
-                               int target)
+                               const sdv_edge_line *line, int target)
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
     int loop = fill->rules->loop, *points = limit->writer->points, n = 0;
-    sdv_limit_kind kind = fill->rules->linear ? SDV_TIP : sharp == 2 ? SDV_SPAN : SDV_RING;
+    sdv_limit_kind kind = fill->rules->linear ? SDV_TIP : sharp ? SDV_SPAN : SDV_RING;
     points[n++] = p[t];
     points[n++] = p[t + 1];
     if (kind == SDV_TIP) {
@@ -4579,7 +4885,22 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
     if (!loop) points[n++] = left[t - 1];
     if (!loop && kind == SDV_RING) points[n++] = right[t - 1];
     if (!loop && kind == SDV_RING) points[n++] = right[t + 1];
-    sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
+    int fades = line && (line->now[t - 1] > 0 || line->now[t] > 0);
+    if (fades) sdv_line_sector(line, loop, t, &limit->states[0]);
+    if (fades) sdv_fading_row(limit, target);
+    else sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
+}
+
+// Returns the face-vertex of the first face that is no hole among those that follow h: at a vertex
+// by vertex_next, at an edge by across. On a crease the limit is that of its side.
+static int sdv_first_seen(const subdiv_surface *surface, const int *next, int h)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int best = h;
+    if (surface->own_face) return h;
+    for (int k = next[h]; surface->hole[sdv_face_of(cage, best)] && k >= 0 && k != h; k = next[k])
+        if (surface->hole[sdv_face_of(cage, k)] < surface->hole[sdv_face_of(cage, best)]) best = k;
+    return best;
 }
 
 // Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
@@ -4593,10 +4914,9 @@ static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
     sdv_points_beside(&fill->from, fill->base, h, 0, fill->left);
     if (line.sharpness <= 0 || line.now)
         sdv_points_beside(&fill->from, fill->base, level->across[h], 1, fill->right);
-    for (int t = 1; t < line.n; t++) {
-        int sharp = line.now ? (line.now[t - 1] > 0) + (line.now[t] > 0) : 2 * (line.sharpness > 0);
-        sdv_limit_line_row(limit, fill, t, sharp, target.first + target.step * t);
-    }
+    for (int t = 1; t < line.n; t++)
+        sdv_limit_line_row(limit, fill, t, !line.now && line.sharpness > 0, line.now ? &line : NULL,
+                           target.first + target.step * t);
 }
 
 static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
@@ -4608,7 +4928,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
         sdv_side target = sdv_seen_side(centre + 1 + i * (m - 1), m, 1);
         sdv_spoke_points(fill, f, i);
         for (int t = 1; t < m; t++)
-            sdv_limit_line_row(limit, fill, t, 0, target.first + target.step * t);
+            sdv_limit_line_row(limit, fill, t, 0, NULL, target.first + target.step * t);
     }
     for (int i = 0; i < sides; i++) {
         sdv_spoke_points(fill, f, i);
@@ -4625,7 +4945,7 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
 }
 
 // Adds all limit rows. Vertices without faces stay where they are.
-static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
+static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface, int semi)
 {
     static const float stay[3] = { 1, 0, 0 };
     sdv_context *context = fill->writer.context;
@@ -4633,7 +4953,7 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
     sdv_limit_writer limit;
     sdv_shape alone;
     memset(&alone, 0, sizeof alone);
-    sdv_begin_limit(&fill->writer, &surface->rules, level, &limit);
+    sdv_begin_limit(fill, &surface->rules, semi, &limit);
     fill->from = surface->orders[surface->levels];
     fill->to = surface->order;
     fill->base = level->first_point = surface->bases[surface->levels];
@@ -4649,8 +4969,11 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
         sdv_batch_face(&fill->writer, f);
         for (int h = sdv_face_start(level, f); h < end && !context->result; h++) {
             int v = level->face_vertices[h];
-            if (level->vertex_first[v] == h) sdv_limit_row(&limit, h, v);
-            if (level->edge_first[level->face_edges[h]] == h) sdv_limit_line(&limit, fill, h);
+            if (level->vertex_first[v] == h)
+                sdv_limit_row(&limit, sdv_first_seen(surface, level->vertex_next, h), v);
+            if (level->edge_first[level->face_edges[h]] != h) continue;
+            int forever = fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE;
+            sdv_limit_line(&limit, fill, forever ? sdv_first_seen(surface, level->across, h) : h);
         }
         if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
     }
@@ -4706,7 +5029,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.made = SDV_NEW(context, scratch, int, n + 1);
     surface->refine = SDV_NEW(context, &surface->points, sdv_batches, levels);
     if (levels > SDV_FULL_LEVELS && cage->face_size != 4) sdv_count_quads(context, surface);
-    sdv_new_pieces(context, scratch, cage, (int)n, &pieces);
+    sdv_new_pieces(context, scratch, cage, (int)n << limit, &pieces);
     fill.level = cage;
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
@@ -4725,8 +5048,9 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
         if (semi) sdv_fade_cage(cage);
     }
     if (!context->result && sharpness) sdv_surviving_sharpness(context, surface, cage, &pieces);
-    pieces.now = pieces.next;
-    if (limit && !context->result) sdv_fill_limit(&fill, surface);
+    if (limit && semi) sdv_level_fade(cage);
+    if (limit && fill.pieces && !context->result) sdv_fade_lines(cage, (int)n, &pieces);
+    if (limit && !context->result) sdv_fill_limit(&fill, surface, semi);
     sdv_writer_free(&fill.writer);
 }
 
@@ -5150,7 +5474,8 @@ typedef struct sdv_tangents {           // goes with an sdv_window and has the s
     size_t stride, tangent_stride;      // floats from point to point
     int      count;                     // points that wait until there are enough;
     int      at[SDV_WAITING];           // their places in the window
-    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents
+    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents; and how far they are from
+    sdv_four from[SDV_WAITING];         // the origin, as rounding is in proportion to this
 } sdv_tangents;
 
 static double sdv_dot3(const double *a, const double *b)
@@ -5172,22 +5497,32 @@ SDV_INLINE void sdv_make_unit(const double *n, float *unit)
     for (int k = 0; k < 3; k++) unit[k] = scale > 0 ? (float)(n[k] * scale) : 0;
 }
 
-// Scales a x b to length 1 or, where it is no more than rounding, to 0: parallel is the largest
-// squared sine of such an angle. Doubles hold the squares of products of all floats.
-static void sdv_unit_cross(const double *a, const double *b, double parallel, float *unit)
+// Where faces are folded onto each other, the tangent across the fold is 0 but for rounding: its
+// square is no more than so much of the other's and of that of the point's distance to the origin.
+#define SDV_FOLD        1e-10f
+#define SDV_FOLD_ORIGIN 1.6e-11f
+
+// Scales a x b to length 1 or, where it is no more than rounding, to 0: where a square is less than
+// fold, and where parallel, the largest squared sine of such an angle. Doubles hold the squares of
+// products of all floats.
+static void sdv_unit_cross(const double *a, const double *b, double parallel, double fold,
+                           float *unit)
 {
-    double n[3];
+    double n[3], aa = sdv_dot3(a, a), bb = sdv_dot3(b, b);
     sdv_cross(a, b, n);
-    if (sdv_dot3(n, n) <= parallel * sdv_dot3(a, a) * sdv_dot3(b, b)) n[0] = n[1] = n[2] = 0;
+    if (sdv_dot3(n, n) <= parallel * aa * bb || aa < fold || bb < fold) n[0] = n[1] = n[2] = 0;
     sdv_make_unit(n, unit);
 }
 
-// Makes the unit normal of tangents a and b, which rounding may have turned by 1e-6.
-static void sdv_unit_normal(const float *a, const float *b, float *normal)
+// Makes the unit normal of tangents a and b, which rounding may have turned by 1e-6. from: see
+// sdv_tangents; or NULL.
+static void sdv_unit_normal(const float *a, const float *b, const float *from, float *normal)
 {
-    double x[3] = { (double)a[0], (double)a[1], (double)a[2] };
-    double y[3] = { (double)b[0], (double)b[1], (double)b[2] };
-    sdv_unit_cross(x, y, 1e-12, normal);
+    const float zero[3] = { 0, 0, 0 }, *of[3] = { a, b, from ? from : zero };
+    double x[3][3];
+    for (int i = 0; i < 9; i++) x[i / 3][i % 3] = (double)of[i / 3][i % 3];
+    sdv_unit_cross(x[0], x[1], 1e-12, (double)SDV_FOLD_ORIGIN * sdv_dot3(x[2], x[2]) +
+                   (double)SDV_FOLD * (sdv_dot3(x[0], x[0]) + sdv_dot3(x[1], x[1])), normal);
 }
 
 SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
@@ -5197,28 +5532,31 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
 
 // Makes the unit normals of four pairs of tangents, channel by channel. Floats suffice unless their
 // products are too small or too large or a and b are almost parallel: n n = a a b b sin^2, and a
-// small sine costs digits.
-SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four *n)
+// small sine costs digits. from: see sdv_tangents; or NULL.
+SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const sdv_four *from,
+                                 sdv_four *n)
 {
     const float least = 1e-30f, least_sin2 = 1.0f / 64;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         n[i] = sdv_minus(sdv_times(a[j], b[k]), sdv_times(a[k], b[j]));
     }
-    sdv_four nn = sdv_dot(n, n), aabb = sdv_times(sdv_dot(a, a), sdv_dot(b, b));
+    sdv_four nn = sdv_dot(n, n), aa = sdv_dot(a, a), bb = sdv_dot(b, b), aabb = sdv_times(aa, bb);
+    sdv_four fold = sdv_times(sdv_all(SDV_FOLD), sdv_plus(aa, bb));
+    if (from) fold = sdv_plus(fold, sdv_times(sdv_all(SDV_FOLD_ORIGIN), sdv_dot(from, from)));
     sdv_four scale = sdv_over(sdv_all(1), sdv_sqrt(nn));
     for (int i = 0; i < 3; i++) n[i] = sdv_times(n[i], scale);
-    if (sdv_less(sdv_all(least), aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn))
-        return;
-    float squares[2][4], vectors[3][3][4], lane[3][3];
-    const sdv_four *from[3] = { n, a, b };
-    sdv_store(squares[0], aabb);
-    sdv_store(squares[1], nn);
-    for (int i = 0; i < 9; i++) sdv_store(vectors[i / 3][i % 3], from[i / 3][i % 3]);
+    if (sdv_less(sdv_all(least), aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn) &&
+        sdv_less(fold, aa) && sdv_less(fold, bb)) return;
+    float squares[5][4], vectors[4][3][4], lane[4][3];
+    const sdv_four *of[4] = { n, a, b, from ? from : n }, of_squares[5] = { aabb, nn, fold, aa, bb };
+    for (int i = 0; i < 5; i++) sdv_store(squares[i], of_squares[i]);
+    for (int i = 0; i < 12; i++) sdv_store(vectors[i / 3][i % 3], of[i / 3][i % 3]);
     for (int k = 0; k < 4; k++) {
-        if (least < squares[0][k] && least_sin2 * squares[0][k] < squares[1][k]) continue;
-        for (int i = 0; i < 9; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
-        sdv_unit_normal(lane[1], lane[2], lane[0]);
+        if (least < squares[0][k] && least_sin2 * squares[0][k] < squares[1][k] &&
+            squares[2][k] < squares[3][k] && squares[2][k] < squares[4][k]) continue;
+        for (int i = 0; i < 12; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
+        sdv_unit_normal(lane[1], lane[2], from ? lane[3] : NULL, lane[0]);
         for (int i = 0; i < 3; i++) vectors[0][i][k] = lane[0][i];
     }
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
@@ -5227,11 +5565,11 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, sdv_four 
 // Writes the normals and tangents of four points, given channel by channel, to places at, if below
 // count.
 static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
-                                  sdv_four *along, sdv_four *across)
+                                  sdv_four *along, sdv_four *across, const sdv_four *from)
 {
     sdv_four normal[4];
     if (tangents->normals) {
-        sdv_unit_normals(along, across, normal);
+        sdv_unit_normals(along, across, from, normal);
         normal[3] = normal[2];
         sdv_put_four(tangents->normals, tangents->stride, 3, normal, at, count);
     }
@@ -5247,14 +5585,16 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     for (int i = 0; i < tangents->count; i += 4) {
         sdv_transpose(tangents->along + i);
         sdv_transpose(tangents->across + i);
+        sdv_transpose(tangents->from + i);
         sdv_put_four_tangents(tangents, tangents->at + i, INT_MAX, tangents->along + i,
-                              tangents->across + i);
+                              tangents->across + i, tangents->from + i);
     }
     tangents->count = 0;
 }
 
-// Makes a point wait with its tangents, if the window has it.
-static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across)
+// Makes a point wait with its tangents, if the window has it. from: see sdv_tangents.
+static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across,
+                             sdv_four from)
 {
     sdv_tangents *tangents = out->tangents;
     int at = index - out->first, i = tangents->count;
@@ -5262,6 +5602,7 @@ static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, s
     tangents->at[i] = at;
     tangents->along[i] = along;
     tangents->across[i] = across;
+    tangents->from[i] = from;
     tangents->count = i + 1;
     if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
 }
@@ -5273,7 +5614,7 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     sdv_four normal[4];
     sdv_transpose(along);
     sdv_transpose(across);
-    sdv_unit_normals(along, across, normal);
+    sdv_unit_normals(along, across, NULL, normal);
     normal[3] = normal[2];
     sdv_transpose(normal);
     float *p = tangents->normals + tangents->stride * (size_t)at;
@@ -5323,7 +5664,7 @@ SDV_INLINE sdv_four sdv_batch_sum(const int *points, int n0, int n1, int n2, con
 SDV_INLINE void sdv_rows_of(const sdv_batch *batch, int first, int end, int n0, int n1, int n2,
                             int own, int clip, const float *work, const sdv_window *out)
 {
-    const int width = 1 + n0 + n1 + n2, stride = 1 + width + 3 * own, lanes = out->lanes;
+    const int width = 1 + n0 + n1 + n2, stride = 1 + width + own, lanes = out->lanes;
     const int *row = batch->items + (size_t)stride * (size_t)first;
     const size_t step = out->stride;
     const sdv_four origin = out->origin;
@@ -5400,6 +5741,13 @@ SDV_INLINE void sdv_limit_ring(const sdv_ring_weights *w, int loop, const sdv_fo
                        sdv_times(w->across[1], sdv_minus(d0, d1)));
 }
 
+// Returns the weights of a limit row of a batch.
+static const float *sdv_limit_weights_of(const sdv_batch *batch, const int *row)
+{
+    const void *own = row + 1 + sdv_row_points(&batch->shape);
+    return batch->shape.own ? (const float *)own : batch->limit;
+}
+
 // Makes a limit row: a point and two tangents.
 SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width,
                                    const sdv_ring_weights *ring, const float *work, sdv_four *p,
@@ -5429,15 +5777,16 @@ SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int 
 SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
                                   int regular, const float *work, const sdv_window *out)
 {
-    const int *row = batch->items + (size_t)(1 + width) * (size_t)first;
+    const int stride = 1 + width + (regular ? 0 : batch->shape.own);
+    const int *row = batch->items + (size_t)stride * (size_t)first;
     sdv_ring_weights ring;
     if (regular) ring = sdv_ring_of(batch->limit, width == 7);
     sdv_four p, t0, t1;
-    for (int i = first; i < end; i++, row += 1 + width) {
-        sdv_limit_row_sums(batch->limit, row + 1, width, regular ? &ring : NULL, work, &p, &t0,
-                           &t1);
+    for (int i = first; i < end; i++, row += stride) {
+        sdv_limit_row_sums(regular ? batch->limit : sdv_limit_weights_of(batch, row), row + 1,
+                           width, regular ? &ring : NULL, work, &p, &t0, &t1);
         sdv_put_point(out, row[0], p);
-        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1);
+        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1, p);
     }
 }
 
@@ -5929,7 +6278,7 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
     for (; k < count; k++, index++, a++, b++, c++) {
         sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
         sdv_put_whole(out, index, sdv_plus(origin, sums[0]));
-        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2]);
+        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], sdv_all(0));
     }
 }
 
@@ -5976,7 +6325,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
             sums[2] = p[2];
         }
         sdv_put_point(out, index, sdv_plus(p0, sums[0]));
-        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2]);
+        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], sdv_all(0));
     }
 }
 
@@ -7694,7 +8043,6 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
 enum { SDV_EXACT_LEVELS = 13 };         // sharpness is gone after 10, see sdv_fade; the last
                                         // ones set the rings of vertices apart
 enum { SDV_NEST_DEPTH = 4 };            // levels of a nest whose polynomials are kept
-enum { SDV_NEST_FAR = 100 };            // levels down: a nest without limit masks has arrived
 enum { SDV_SLOTS = 16 };                // coefficients of a polynomial; Loop needs 14 of them
 
 // The powers of x and y of each coefficient.
@@ -7718,8 +8066,7 @@ typedef struct sdv_nest_kind {
     int     *below;                     // [points] the same points of the next level's nest
     int      width;                     // control points of a patch
     sdv_patches patches;                // for each turn of the faces: three of each face
-    double  *limit;                     // [3 * points] weights of the limit and of two tangents,
-                                        // of a smooth ring and a crease; NULL: none
+    double  *limit;                     // [3 * points] weights of the limit and of two tangents
 } sdv_nest_kind;
 
 typedef struct sdv_nest {
@@ -7796,7 +8143,7 @@ static void sdv_make_exact_rows(const sdv_batches *batches, double *work, int jo
         const sdv_batch *batch = &batches->items[b];
         int points = sdv_row_points(&batch->shape), own = batch->shape.own;
         int i = sdv_share(batch->rows, job, jobs), end = sdv_share(batch->rows, job + 1, jobs);
-        size_t stride = 1 + (size_t)points + 3 * (size_t)own;
+        size_t stride = 1 + (size_t)points + (size_t)own;
         const int *row = batch->items + stride * (size_t)i;
         for (float w[3]; i < end; i++, row += stride) {
             memcpy(w, own ? (const void *)(row + 1 + points) : batch->shape.weight, sizeof w);
@@ -7907,32 +8254,23 @@ static double sdv_tangent_size(const double *t, int edges, int faces, int inner,
 static void sdv_nest_limit(sdv_context *context, const sdv_rules *rules, sdv_nest_kind *kind,
                            sdv_arena *arena, sdv_arena *scratch)
 {
-    int n = kind->faces, loop = rules->loop, width = loop ? 3 : 6, edges = n + !kind->ring;
-    int across = loop ? 0 : n;                          // vertices across the faces
-    double *t0 = SDV_NEW(context, scratch, double, 2 * (size_t)n + 4);
-    double *t1 = SDV_NEW(context, scratch, double, 2 * (size_t)n + 4), size[3] = { 1, 0, 0 };
-    sdv_mask mask = sdv_limit_mask(rules, kind->rule, n);
+    int n = kind->faces, open = !kind->ring, width = rules->loop ? 3 : 6, edges = n + open;
+    int across = rules->loop ? 0 : n, points = 1 + edges + across;
+    double *rows = SDV_NEW(context, scratch, double, 4 * (size_t)points), size[3] = { 1, 0, 0 };
+    sdv_sector sector;
+    sector.rays = SDV_NEW(context, scratch, sdv_ray, edges);
     kind->limit = SDV_NEW(context, arena, double, 3 * (size_t)kind->points);
     if (context->result) return;
-    if (kind->ring) {
-        sdv_smooth_tangents(rules, n, t0, t1);
-        size[1] = sdv_tangent_size(t0, edges, across, 0, 4);
-        size[2] = sdv_tangent_size(t1, edges, across, 0, 4);
-    } else {
-        sdv_crease_tangents(rules, n, t0, t1);
-        size[1] = sdv_tangent_size(t0, edges, across, 0, 1);
-        size[2] = sdv_tangent_size(t1, edges, across, 1, 4);
-    }
-    for (int k = 0; k < 3; k++) {
-        double *w = kind->limit + k * kind->points, *from = k == 1 ? t0 : t1;
-        double scale = size[k] > 0 ? 1 / size[k] : 1;
+    sdv_settle(&sector, kind->rule, n, open);
+    sdv_settled_rows(rules, &sector, rows, rows + 3 * points);
+    size[1] = sdv_tangent_size(rows + points, edges, across, 0, open ? 1 : 4);
+    size[2] = sdv_tangent_size(rows + 2 * points, edges, across, open, 4);
+    for (int k = 0; k < 3; k++, rows += points) {
+        double *w = kind->limit + k * kind->points, scale = size[k] > 0 ? 1 / size[k] : 1;
         for (int i = 0; i < kind->points; i++) w[i] = 0;
-        w[0] = k ? scale * from[0] : mask.self;
-        for (int i = 0; i < edges; i++)
-            w[1 + width * i] = k ? scale * from[1 + i] :
-                               mask.edge + (i == 0 || i == n ? mask.crease : 0);
-        for (int i = 0; i < across; i++)
-            w[3 + width * i] = k ? scale * from[1 + edges + i] : mask.face;
+        w[0] = scale * rows[0];
+        for (int i = 0; i < edges; i++) w[1 + width * i] = scale * rows[1 + i];
+        for (int i = 0; i < across; i++) w[3 + width * i] = scale * rows[1 + edges + i];
     }
 }
 
@@ -8049,8 +8387,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
     sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
     SUBDIV_ASSERT(kind->patches.count == 3 * kind->faces);
     sdv_nest_turns(context, arena, rules, kind);
-    if (kind->rule == (kind->ring ? SDV_SMOOTH : SDV_CREASE))
-        sdv_nest_limit(context, rules, kind, arena, scratch);
+    sdv_nest_limit(context, rules, kind, arena, scratch);
 }
 
 static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_rule rule)
@@ -8071,21 +8408,6 @@ static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_r
                                                       sizeof kind);
     if (made) *made = kind;
     return count;
-}
-
-static int sdv_settled(float sharpness)
-{
-    return sharpness <= 0 || sharpness >= SUBDIV_INFINITE;
-}
-
-// Is nothing at a vertex semi-sharp?
-static int sdv_vertex_settled(const sdv_level *level, int v)
-{
-    int settled = sdv_settled(level->vertex_sharpness[v]);
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
-        settled &= sdv_settled(level->sharpness[h]) &&
-                   sdv_settled(level->sharpness[sdv_previous(level, h)]);
-    return settled;
 }
 
 // Is the vertex of h regular as seen from its face, with nothing semi-sharp?
@@ -9603,7 +9925,7 @@ SDV_INLINE void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, 
         float t[8];
         sdv_store(t, values[1]);
         sdv_store(t + 4, values[2]);
-        sdv_unit_normal(t, t + 4, e->normals + e->normal_stride * i);
+        sdv_unit_normal(t, t + 4, NULL, e->normals + e->normal_stride * i);
     }
 }
 
@@ -9681,33 +10003,19 @@ static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
     }
 }
 
-// Evaluates the vertex of a nest by its limit masks. Where there are none, goes far down, along
-// both edges and, for the normal, between them. Second derivatives are 0.
+// Evaluates the vertex of a nest by its limit masks. Second derivatives are 0.
 static void sdv_nest_vertex(sdv_nest_sample *s)
 {
     const sdv_nest_kind *kind = s->state.kind;
-    double a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
-    if (kind->limit) {
-        double limit[3][4];
-        sdv_nest_masks(&s->state, limit);
-        for (int c = 0; c < 4; c++) {
-            s->values[0][c] = s->state.base[c] + s->state.shrink * limit[0][c];
-            for (int i = 0; i < 2; i++)
-                s->values[1 + i][c] = cos((s->face + i) * a) * limit[1][c] +
-                                      sin((s->face + i) * a) * limit[2][c];
-        }
-        memcpy(s->tangents, limit[1], sizeof s->tangents);
-    } else {
-        double along[2][4];
-        sdv_nest_go_down(s, SDV_NEST_FAR);
-        sdv_nest_child(s, 0.5, 0);
-        memcpy(along[0], s->values[1], sizeof along[0]);
-        sdv_nest_child(s, 0, 0.5);
-        memcpy(along[1], s->values[2], sizeof along[1]);
-        sdv_nest_child(s, 0.5, 0.5);
-        memcpy(s->values[1], along, sizeof along);
-        memcpy(s->values[0], s->state.base, sizeof s->state.base);
+    double a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces, limit[3][4];
+    sdv_nest_masks(&s->state, limit);
+    for (int c = 0; c < 4; c++) {
+        s->values[0][c] = s->state.base[c] + s->state.shrink * limit[0][c];
+        for (int i = 0; i < 2; i++)
+            s->values[1 + i][c] = cos((s->face + i) * a) * limit[1][c] +
+                                  sin((s->face + i) * a) * limit[2][c];
     }
+    memcpy(s->tangents, limit[1], sizeof s->tangents);
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
 }
 
@@ -9719,7 +10027,7 @@ static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
     double limit[3][4], n[3];
     sdv_cross(a, b, n);
     int parallel = sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
-    if (!s->state.kind->limit || !parallel) return;
+    if (s->state.kind->rule != SDV_CREASE || !parallel) return;
     sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
     sdv_nest_masks(&s->state, limit);
     memcpy(s->tangents, limit[1], sizeof s->tangents);
@@ -9791,7 +10099,9 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
                 (float)(value > most ? large : value < -most ? -large : value);
         }
     if (!e->normals || c > 0) return;
-    sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-28, e->normals + e->normal_stride * i);
+    const double *a = s->tangents[0], *b = s->tangents[1];
+    double fold = s->x <= 0 && s->y <= 0 ? (double)SDV_FOLD * (sdv_dot3(a, a) + sdv_dot3(b, b)) : 0;
+    sdv_unit_cross(a, b, 1e-28, fold, e->normals + e->normal_stride * i);
 }
 
 static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
@@ -10094,7 +10404,7 @@ static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches
         const sdv_batch *batch = &batches->items[b];
         const int *row = batch->items, points = sdv_row_points(&batch->shape);
         if (points > make->longest) make->longest = points;
-        for (int i = 0; i < batch->rows; i++, row += 1 + points + 3 * batch->shape.own) {
+        for (int i = 0; i < batch->rows; i++, row += 1 + points + batch->shape.own) {
             int at = result ? make->work_count + row[0] : sdv_whole_point(make, row[0]);
             make->batches[at] = batch;
             make->rows[at] = row;
@@ -10547,7 +10857,7 @@ static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
     if (row) {
         room->count = sdv_row_points(&batch->shape);
         for (int k = 0; k < room->count; k++) room->points[k] = sdv_whole_point(make, row[1 + k]);
-        sdv_add_limit_weights(make, batch->limit, room->count, room->points);
+        sdv_add_limit_weights(make, sdv_limit_weights_of(batch, row), room->count, room->points);
         return;
     }
     int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
@@ -10667,7 +10977,7 @@ static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
             int points = sdv_row_points(&batch->shape), own = batch->shape.own;
             const int *row = batch->items;
             float weights[3];
-            for (int i = 0; i < batch->rows; i++, row += 1 + points + 3 * own) {
+            for (int i = 0; i < batch->rows; i++, row += 1 + points + own) {
                 memcpy(weights, own ? (const void *)(row + 1 + points) : batch->shape.weight,
                        sizeof weights);
                 sdv_unrefine_row(&batch->shape, row, weights, w);
@@ -10692,14 +11002,14 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// Adds the weights of the patch at (x, y), in one part up to another.
+// Adds the weights of the patch at (x, y).
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
-                            double x, double y, int part, int end, double *w)
+                            double x, double y, double *w)
 {
     double weights[16][6];
     const int *points = sdv_child_weights(surface, kind, face, x, y, weights);
     for (int i = 0; i < kind->width; i++)
-        for (int k = part; k < end; k++) w[3 * points[i] + k] += weights[i][k];
+        for (int k = 0; k < 3; k++) w[3 * points[i] + k] += weights[i][k];
 }
 
 // Sets the weights of the vertex of a nest, as sdv_nest_vertex does.
@@ -10719,18 +11029,12 @@ static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *k
                            double x, double y, double *w)
 {
     int vertex = x <= 0 && y <= 0, down = sdv_nest_levels(surface->rules.loop, x, y);
-    if (vertex && kind->limit) {
+    if (vertex) {
         sdv_weigh_masks(kind, face, w);
         return;
     }
     for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
-    if (vertex) {
-        down = SDV_NEST_FAR;
-        sdv_weigh_child(surface, kind, face, 0.5, 0, 1, 2, w);
-        sdv_weigh_child(surface, kind, face, 0, 0.5, 2, 3, w);
-    } else {
-        sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), 0, 3, w);
-    }
+    sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), w);
     sdv_unrefine_nest(kind, w);
     for (int i = 0; i < down; i++) {
         sdv_ascend_nest(kind, w);
@@ -11227,7 +11531,8 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
                        loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), out->lanes);
         if (!tangents) continue;
         sdv_four along = sdv_horner3(curve.along, x), across = sdv_horner3(curve.across, x);
-        sdv_put_tangents(out, index, turned ? across : along, turned ? along : across);
+        sdv_put_tangents(out, index, turned ? across : along, turned ? along : across,
+                         sdv_all(0));
     }
 }
 
@@ -14722,6 +15027,8 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SEPARATE
 #undef SDV_NEW
 #undef SDV_IMPLIED
+#undef SDV_FOLD
+#undef SDV_FOLD_ORIGIN
 #undef SDV_FULL_LEVELS
 #undef SDV_JOB_POINTS
 #undef SDV_CELL_BITS

@@ -166,7 +166,7 @@ static void check_dyadic_points(random_cage *random, int levels)
         const int column = random_below(random, n + 1 - (loop ? row : 0));
         const int point = order_point(&grid, f, quad, row, column);
         double out[3][3];
-        CHECK(oracle_evaluate(o, f, quad, (double)column / n, (double)row / n, levels, out));
+        CHECK(oracle_evaluate(o, f, quad, (double)column / n, (double)row / n, ORACLE_DEPTH, out));
         for (int k = 0; k < 3; k++)
             CHECK_NEAR(fine.positions[3 * point + k], out[0][k],
                        position_tolerance * extent(cage));

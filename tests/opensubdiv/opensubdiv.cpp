@@ -184,7 +184,11 @@ static void write_record(FILE *file, const Reference &ref, const subdiv_mesh &ca
 
     std::vector<Point> t1, t2;
     const Level limit = find_limit(*ref.refiner, level.points, recorded_level, cage.scheme, t1, t2);
-    for (size_t v = 0; v < ours.size(); v++) points[(size_t)ours[v]] = limit.points[v];
+    for (size_t v = 0; v < ours.size(); v++) {
+        points[(size_t)ours[v]] = limit.points[v];
+        if (cage.scheme != SUBDIV_BILINEAR && fades(ref.refiner->GetLevel(recorded_level), (int)v))
+            for (double &x : points[(size_t)ours[v]].p) x = NAN;
+    }
     fprintf(file, "limit %zu\n", points.size());
     for (const Point &q : points) fprintf(file, "%.9g %.9g %.9g\n", q.p[0], q.p[1], q.p[2]);
     order_free(&o);
@@ -242,9 +246,10 @@ static int report(void)
     printf("%lld cages compared: %lld vertices, %lld faces, %lld creases, %lld corners, %lld faces hidden, "
            "largest error %.3g of the extent\n", totals.cages, totals.vertices,
            totals.faces, totals.creases, totals.corners, totals.hidden, totals.largest_error);
-    printf("%lld limit points, largest error %.3g of the extent; %lld normals, %lld beside creases "
-           "where OpenSubdiv's differ or are not to be had; %lld are 0\n", totals.limit_points,
-           totals.largest_limit_error, totals.limit_normals, totals.odd_sides, totals.no_normals);
+    printf("%lld limit points, largest error %.3g of the extent; %lld that fade or are darts, where "
+           "OpenSubdiv's differ; %lld normals, %lld beside creases where OpenSubdiv's differ or are "
+           "not to be had; %lld are 0\n", totals.limit_points, totals.largest_limit_error,
+           totals.fading_limits, totals.limit_normals, totals.odd_sides, totals.no_normals);
     printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1\n",
            totals.put_right);
     for (const auto &skip : totals.skips)
