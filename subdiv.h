@@ -477,8 +477,8 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 // --------------------------------------------------------------------------------- >>exact
 // Evaluates the limit surface at any point of any face: values, derivatives and normals. They are
 // exact, also at and arbitrarily near extraordinary vertices, creases and boundaries. A regular
-// face is a bicubic B-spline, under Loop a quartic box spline [Stam98]. Error ARGUMENT: it is not,
-// by the vertex rule.
+// face is a bicubic B-spline, under Loop a quartic box spline [Stam98]. Error ARGUMENT: the vertex
+// rule makes it another surface, or a vertex without a limit.
 //
 //     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
 //     void *scratch = malloc(subdiv_scratch_size(surface, 3));
@@ -5104,7 +5104,8 @@ static int sdv_may_be_smooth(const sdv_level *level, int v)
     return forever < 2;
 }
 
-// Asks the callback of a mesh for the mask of a valence, unless it is known. limit: it needs one.
+// Asks the callback of a mesh for the mask of a valence, unless it is known. limit: such a vertex
+// needs a limit.
 static void sdv_ask_weights(sdv_context *context, const subdiv_mesh *mesh, int limit,
                             const sdv_rules *rules, sdv_mask *masks, int n)
 {
