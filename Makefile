@@ -28,7 +28,7 @@ endif
 # Tests that look inside or bring an allocator compile the implementation themselves.
 OWN      = evaluate memory exact patches obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
-           recorded creases check errors uv partial_uvs
+           recorded creases check errors uv partial_uvs vertex_rules
 TESTS    = $(OWN) $(PLAIN)
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
            07_threads 08_tessellate 09_stencils 10_spines

@@ -135,8 +135,10 @@
 
    REFERENCES
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
+   [DS78]  Doo, Sabin: Behaviour of recursive division surfaces near extraordinary points
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
+   [Warren95] Warren: Subdivision methods for geometric design
    [DKT98] DeRose, Kass, Truong: Subdivision surfaces in character animation
    [HKD93] Halstead, Kass, DeRose: Efficient, fair interpolation using Catmull-Clark surfaces
    [BLZ00] Biermann, Levin, Zorin: Piecewise smooth subdivision surfaces with normal control
@@ -238,6 +240,25 @@ typedef enum subdiv_uv_rule {
     SUBDIV_UV_NONE                    // smooth everywhere
 } subdiv_uv_rule;
 
+// How smooth vertices move: rules to play with, as lectures do. n is the valence, v the vertex, R
+// the mean of the midpoints of its edges (Loop: of its neighbours), Q the mean of the face points
+// around it. All follow but UVs, which stay standard; SUBDIV_EXACT and tessellation refuse a rule,
+// such as DOO_SABIN, that is not the standard one at regular vertices.
+typedef enum subdiv_vertex_rule {
+    SUBDIV_VERTEX_STANDARD,           // Q/n + 2 R/n + (n-3)/n v [CC78]; Loop: [Loop87]
+    SUBDIV_VERTEX_AVERAGED,           // Catmull-Clark: Q/4 + R/2 + v/4, the older rule [CC78]
+    SUBDIV_VERTEX_DOO_SABIN,          // Catmull-Clark: Q/n + R/n + (n-2)/n v [DS78]
+    SUBDIV_VERTEX_WARREN,             // Loop: each neighbour 3/(8n), 3/16 if n = 3 [Warren95]
+    SUBDIV_VERTEX_FIVE_EIGHTHS        // Loop: v 5/8, each neighbour 3/(8n), for every n
+} subdiv_vertex_rule;
+
+// A rule of your own: sets the weights of v, R and Q (Loop: of v and R), which are 0 to begin with,
+// for a valence from 1 on. They are finite and sum to 1, or a call fails and names the valence. The
+// library calls it while it prepares 1 level or more, or SUBDIV_EXACT, or explains, and not later:
+// for the regular valence, those of all vertices that may be smooth on some level and, under
+// Catmull-Clark, the sizes of faces.
+typedef void (*subdiv_vertex_weights)(void *user, int valence, double weights[3]);
+
 // A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
 // The mesh says what the surface is; the options say what to compute.
 typedef struct subdiv_mesh {
@@ -273,6 +294,9 @@ typedef struct subdiv_mesh {
     subdiv_creasing  creasing;
     subdiv_triangles triangles;
     subdiv_uv_rule   uv_rule;
+    subdiv_vertex_rule vertex_rule;
+    subdiv_vertex_weights vertex_weights;     // instead of vertex_rule; or NULL
+    void *vertex_user;                // handed to vertex_weights; results have both again
 
     int  *cage_faces;                 // [face_count]         results only: the face of the cage
                                       //                      that each face is a part of
@@ -420,7 +444,9 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // there that is no hole. A corner with more than 2 faces (Loop: 3) between its creases, or without
 // creases, is a spike: it has no tangent plane, and its normal is a mean of those around. The normal
 // is 0 where there is none: without faces, between two triangles back to back, where a tangent is 0
-// and where both are parallel, to within rounding.
+// and where both are parallel, to within rounding; and where the vertex rule makes a spike, as
+// "five-eighths" does at valence 3. Error ARGUMENT: the weights of a valence lead to no limit at all
+// (vertex_weights).
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -452,7 +478,8 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 // --------------------------------------------------------------------------------- >>exact
 // Evaluates the limit surface at any point of any face: values, derivatives and normals. They are
 // exact, also at and arbitrarily near extraordinary vertices, creases and boundaries. A regular
-// face is a bicubic B-spline, under Loop a quartic box spline [Stam98].
+// face is a bicubic B-spline, under Loop a quartic box spline [Stam98]. Error ARGUMENT: the vertex
+// rule makes it another surface, or a vertex without a limit.
 //
 //     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
 //     void *scratch = malloc(subdiv_scratch_size(surface, 3));
@@ -1395,6 +1422,9 @@ static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
                      : "%s is NULL, its count %d", arrays[i].name, arrays[i].count);
 }
 
+static const char *const sdv_vertex_rules[] = { "standard", "averaged", "doo-sabin", "warren",
+                                                "five-eighths" };
+
 static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
 {
     const struct { const char *name; int value, count; } rules[] = {
@@ -1402,12 +1432,18 @@ static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
         { "boundary",  (int)mesh->boundary,  SUBDIV_BOUNDARY_NONE + 1 },
         { "creasing",  (int)mesh->creasing,  SUBDIV_CREASING_CHAIKIN + 1 },
         { "triangles", (int)mesh->triangles, SUBDIV_TRIANGLES_SMOOTH + 1 },
-        { "uv_rule",   (int)mesh->uv_rule,   SUBDIV_UV_NONE + 1 }
+        { "uv_rule",   (int)mesh->uv_rule,   SUBDIV_UV_NONE + 1 },
+        { "vertex_rule", (int)mesh->vertex_rule, SUBDIV_VERTEX_FIVE_EIGHTHS + 1 }
     };
-    for (int i = 0; i < 5; i++)
+    subdiv_vertex_rule rule = mesh->vertex_rule;
+    int loop = rule >= SUBDIV_VERTEX_WARREN;
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (rules[i].value < 0 || rules[i].value >= rules[i].count)
             sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "%s has no value %d",
                      rules[i].name, rules[i].value);
+    if (!context->result && rule && mesh->scheme != (loop ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "vertex rule \"%s\" is for %s alone",
+                 sdv_vertex_rules[rule], loop ? "Loop" : "Catmull-Clark");
 }
 
 // Finds the face that a face-vertex belongs to.
@@ -1620,6 +1656,8 @@ typedef struct sdv_rules {              // how every level is refined
     int limit;                          // the result is on the limit surface
     subdiv_creasing creasing;
     subdiv_triangles triangles;
+    subdiv_vertex_rule vertex_rule;
+    const struct sdv_mask *vertex_masks; // of each valence, by vertex_weights; or NULL
 } sdv_rules;
 
 typedef struct sdv_place {              // where a face is on a grid of its cage face (see >>order)
@@ -2404,6 +2442,23 @@ static sdv_mask sdv_loop_vertex(int n)
     return mask;
 }
 
+// Any rule for smooth vertices that weighs means: r R + q Q + (1 - r - q) v. R is the mean of the
+// edges' midpoints (Loop: of the neighbours), Q that of the face points.
+static sdv_mask sdv_means_vertex(int loop, int n, double r, double q)
+{
+    double edge = loop ? r / n : r / (2.0 * n), face = q / n;
+    sdv_mask mask = { 1 - n * (edge + face), edge, face, 0 };
+    return mask;
+}
+
+// The rules that are not the standard one [CC78], [DS78], [Warren95]: see subdiv_vertex_rule.
+static sdv_mask sdv_ruled_vertex(subdiv_vertex_rule rule, int n)
+{
+    if (rule == SUBDIV_VERTEX_AVERAGED) return sdv_means_vertex(0, n, 0.5, 0.25);
+    if (rule == SUBDIV_VERTEX_DOO_SABIN) return sdv_means_vertex(0, n, 1.0 / n, 1.0 / n);
+    return sdv_means_vertex(1, n, rule == SUBDIV_VERTEX_WARREN && n == 3 ? 0.5625 : 0.375, 0);
+}
+
 // Blends a sharp mask with this weight and a smooth one with the rest [DKT98].
 static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
 {
@@ -2418,6 +2473,8 @@ static sdv_mask sdv_blend(double weight, sdv_mask sharp, sdv_mask smooth)
 // Return the smooth masks of the scheme. (Bilinear has no smooth points and uses neither.)
 static sdv_mask sdv_smooth_vertex(const sdv_rules *rules, int faces)
 {
+    if (rules->vertex_masks) return rules->vertex_masks[faces];
+    if (rules->vertex_rule) return sdv_ruled_vertex(rules->vertex_rule, faces);
     return rules->loop ? sdv_loop_vertex(faces) : sdv_catmull_clark_vertex(faces);
 }
 
@@ -2508,6 +2565,23 @@ static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
     return wave;
 }
 
+// A spike is the same all around: one step of refinement is a matrix for the means of e and of f,
+// as seen from v, with two eigenvalues of sum T and product D. Loop has but one:
+//
+//     T = 3/4 - P - 3/4 Q    D = (1/2 - P - Q/2) (1/4 - face/2)    P, Q = n times v.edge, v.face
+//     Loop:  self + 2 face - P
+//
+// Returns the larger one in size. Below 1 the vertex has a limit. Below L for a = 2 pi/n, what is
+// left far down is that wave, and it has a tangent plane [Loop87].
+static double sdv_spike_of(const sdv_rules *rules, int n)
+{
+    sdv_mask v = sdv_smooth_vertex(rules, n), edge = sdv_smooth_edge(rules, 2);
+    double p = n * v.edge, q = n * v.face, half = (0.75 - p - 0.75 * q) / 2;
+    double d = (0.5 - p - q / 2) * (0.25 - edge.face / 2), root = half * half - d;
+    if (rules->loop) return fabs(edge.self + 2 * edge.face - p);
+    return root < 0 ? sqrt(d) : fabs(half) + sqrt(root);
+}
+
 // Tangents t0 t1 at a smooth vertex, a = 2 pi/n [HKD93], [Loop87]: weights of v, of each e and of
 // each f, counter-clockwise from any e. t0 x t1 is along the normal; their lengths mean nothing.
 //
@@ -2515,10 +2589,12 @@ static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
 //
 // f_i stands between e_i and e_(i+1); Loop has no f. Valence 2 has only one such wave. Two quads
 // back to back have no tangent plane: e_0 - e_1 and f_0 - f_1 span the mean of their planes. Two
-// triangles make a cusp and have no t1.
+// triangles make a cusp and have no t1. A spike has neither.
 static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, double *t1)
 {
-    double a = 6.283185307179586477 / n, g = n > 2 ? sdv_wave_of(rules, a).face : 0;
+    double a = 6.283185307179586477 / n;
+    sdv_wave wave = sdv_wave_of(rules, a);
+    double g = n > 2 ? wave.face : 0, room = wave.factor - sdv_spike_of(rules, n);
     t0[0] = t1[0] = 0;
     for (int i = 0; i < n; i++) {
         t0[1 + i] = 4 * cos(i * a);
@@ -2528,12 +2604,14 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
         t0[1 + n + i] = g * (cos(i * a) + cos((i + 1) * a));
         t1[1 + n + i] = n > 2 ? g * (sin(i * a) + sin((i + 1) * a)) : n == 2 ? 1 - 2 * i : 0;
     }
+    for (int i = 0; i <= (rules->loop ? n : 2 * n) && room < (n > 2 ? 1e-9 : -1e-9); i++)
+        t0[i] = t1[i] = 0;
 }
 
-// Tangents at a crease or boundary, for the side with k faces, from the mask of its vertex point. e_0 and e_k are on the crease, so
-// t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have others, as their faces refine in other
-// ways). It is half a wave, a = pi/k, with weights x of the two ends and y of v that make it an
-// eigenvector:
+// Tangents at a crease or boundary, for the side with k faces, from the mask of its vertex point.
+// e_0 and e_k are on the crease, so t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have others,
+// as their faces refine in other ways). It is half a wave, a = pi/k, with weights x of the two ends
+// and y of v that make it an eigenvector:
 //
 //     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i  +  x (e_0 + e_k) + y v
 //
@@ -3048,9 +3126,8 @@ typedef struct sdv_writer {             // writes rows into batches
     int          smooth_edge;                   // sharp and of smooth edges of the cage, or -1
 } sdv_writer;
 
-// Begins a writer of rows for a cage and the levels that are made of it.
-static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
-                           sdv_writer *writer)
+// The most faces that a vertex has, on this level or any later one.
+static int sdv_most_faces(const sdv_level *cage)
 {
     int most = 6;                                   // Loop: around any new vertex
     for (int v = 0; v < cage->vertex_count; v++)
@@ -3059,6 +3136,14 @@ static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_lev
         int size = sdv_face_end(cage, f) - sdv_face_start(cage, f);
         if (size > most) most = size;
     }
+    return most;
+}
+
+// Begins a writer of rows for a cage and the levels that are made of it.
+static void sdv_writer_new(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
+                           sdv_writer *writer)
+{
+    int most = sdv_most_faces(cage);
     memset(writer, 0, sizeof *writer);
     writer->context = context;
     writer->arena = arena;
@@ -5236,6 +5321,8 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->cage_vertex_count = seams.level.vertex_count;
     made->cage_face_count = seams.level.face_count;
     made->order.cage = seams.level;
+    made->rules.vertex_rule = SUBDIV_VERTEX_STANDARD;
+    made->rules.vertex_masks = NULL;
     made->rules.linear |= values->rule == SUBDIV_UV_ALL;
     // The exact limit needs no rule for straight edges: their points are on a straight crease.
     made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES && !made->exact;
@@ -5329,6 +5416,57 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
     sdv_keep_statements(context, surface, cage);
 }
 
+// May a vertex be smooth, or the end of a single crease, on this level or a later one?
+static int sdv_may_be_smooth(const sdv_level *level, int v)
+{
+    int forever = level->vertex_sharpness[v] >= SUBDIV_INFINITE ? 2 : 0;
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++)
+            forever += sdv_is_edge_at(level, two[i], i == 0) &&
+                       level->sharpness[two[i]] >= SUBDIV_INFINITE;
+    }
+    return forever < 2;
+}
+
+// Asks the callback of a mesh for the mask of a valence, unless it is known. limit: such a vertex
+// needs a limit.
+static void sdv_ask_weights(sdv_context *context, const subdiv_mesh *mesh, int limit,
+                            const sdv_rules *rules, sdv_mask *masks, int n)
+{
+    double w[3] = { 0, 0, 0 };
+    if (n == 0 || masks[n].self + masks[n].edge + masks[n].face != 0 || context->result) return;
+    mesh->vertex_weights(mesh->vertex_user, n, w);
+    if (rules->loop) w[2] = 0;
+    masks[n] = sdv_means_vertex(rules->loop, n, w[1], w[2]);
+    int finite = fabs(w[0]) + fabs(w[1]) + fabs(w[2]) <= (double)FLT_MAX;
+    const char *what = !finite ? "are not finite" :
+                       !(fabs(w[0] + w[1] + w[2] - 1) < 1e-6) ? "do not sum to 1" :
+                       limit && !(sdv_spike_of(rules, n) < 1 - 1e-9) ? "lead to no limit" : NULL;
+    if (what) sdv_fail(context, finite ? SUBDIV_ERROR_ARGUMENT : SUBDIV_ERROR_NOT_FINITE,
+                       "vertex_weights: the weights for valence %d %s", n, what);
+}
+
+// Sets the vertex rule of a cage, and asks a callback for all valences of smooth vertices.
+static void sdv_set_vertex_rule(sdv_context *context, sdv_arena *arena, const subdiv_mesh *mesh,
+                                const sdv_level *cage, int limit, sdv_rules *rules)
+{
+    size_t count = (size_t)sdv_most_faces(cage) + 1;
+    rules->vertex_rule = mesh->vertex_weights ? SUBDIV_VERTEX_STANDARD : mesh->vertex_rule;
+    if (!mesh->vertex_weights || rules->linear) return;
+    sdv_mask *masks = SDV_NEW(context, arena, sdv_mask, count);
+    if (!masks) return;
+    memset(masks, 0, count * sizeof *masks);
+    rules->vertex_masks = masks;
+    sdv_ask_weights(context, mesh, limit, rules, masks, rules->loop ? 6 : 4);
+    for (int v = 0; v < cage->vertex_count; v++)
+        if (sdv_may_be_smooth(cage, v))
+            sdv_ask_weights(context, mesh, limit, rules, masks, cage->vertex_faces[v]);
+    for (int f = 0; f < cage->face_count && !rules->loop; f++)
+        sdv_ask_weights(context, mesh, limit, rules, masks,
+                        sdv_face_end(cage, f) - sdv_face_start(cage, f));
+}
+
 // Sets the rules of a surface from the cage and the options, and counts what the result will have.
 static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
                           const sdv_request *request, const sdv_cage *built)
@@ -5342,10 +5480,16 @@ static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
     surface->fine.creasing = cage->creasing;
     surface->fine.triangles = cage->triangles;
     surface->fine.uv_rule = cage->uv_rule;
+    surface->fine.vertex_rule = cage->vertex_rule;
+    surface->fine.vertex_weights = cage->vertex_weights;
+    surface->fine.vertex_user = cage->vertex_user;
     surface->rules.loop = cage->scheme == SUBDIV_LOOP;
     surface->rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     surface->rules.creasing = cage->creasing;
     surface->rules.triangles = cage->triangles;
+    if (!request->alone)
+        sdv_set_vertex_rule(context, &surface->arena, cage, &built->level,
+                            surface->rules.limit || surface->exact, &surface->rules);
     sdv_set_order(surface);
     sdv_count_fine_faces(context, surface, opt && opt->keep_holes);
 }
@@ -5372,7 +5516,10 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
     }
     if (levels != 0 && !context.result) sdv_set_rules(&context, made, request, &built);
     if (exact && !context.result && !sdv_is_spline(&made->rules))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "SUBDIV_EXACT is for the standard masks alone");
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "SUBDIV_EXACT and tessellation need the masks "
+                 "of splines at regular vertices, and vertex rule \"%s\" has others",
+                 made->rules.vertex_masks ? "vertex_weights"
+                                          : sdv_vertex_rules[made->rules.vertex_rule]);
     if (levels != 0 && made->uv && !context.result)
         sdv_prepare_values(&context, made->uv, made, &work, &built, &values);
     if (exact && !request->alone && !context.result) {
@@ -14504,6 +14651,9 @@ typedef struct sdv_explainer {
 static const struct { const char *tag, *title; } sdv_papers[] = {
     { "[CC78]", "Catmull, Clark: Recursively generated B-spline surfaces on arbitrary\n"
                 "       topological meshes, 1978" },
+    { "[DS78]", "Doo, Sabin: Behaviour of recursive division surfaces near extraordinary\n"
+                "       points, 1978" },
+    { "[Warren95]", "Warren: Subdivision methods for geometric design, 1995" },
     { "[Loop87]", "Loop: Smooth subdivision surfaces based on triangles, 1987" },
     { "[HDD94]", "Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction, 1994" },
     { "[DKT98]", "DeRose, Kass, Truong: Subdivision surfaces in character animation, 1998" },
@@ -14749,6 +14899,24 @@ static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
     sdv_say(x->out, "\n");
 }
 
+// Writes the formula of a vertex rule other than the standard one, if the mask has it.
+static int sdv_say_rule(sdv_explainer *x, sdv_mask mask, int n)
+{
+    static const char *const formulas[] = { NULL,
+        "Q/4 + R/2 + v/4  [CC78]\n", "Q/n + R/n + (n-2)/n v  [DS78]\n",
+        "(1 - n b) v + b (e1 + ... + en)  [Warren95]\n    b = 3/(8n), or 3/16 for n = 3\n",
+        "5/8 v + 3/(8n) (e1 + ... + en)\n" };
+    const double b = n == 3 ? 0.1875 : 0.375 / n, weights[][3] = { { 0, 0, 0 },
+        { 0.5, 0.25 / n, 0.25 / n }, { 1 - 1.5 / n, 0.5 / n / n, 1.0 / n / n },
+        { 1 - n * b, b, 0 }, { 0.625, 0.375 / n, 0 } };
+    const double *w = weights[x->rules.vertex_rule];
+    if (!sdv_has_weights(mask, w[0], w[1], w[2], 0)) return 0;
+    sdv_say(x->out, "%s%s    n = %d, by the vertex rule \"%s\"\n", formulas[x->rules.vertex_rule],
+            x->rules.loop ? "" : "    Q = (f1 + ... + fn)/n, R = v/2 + (e1 + ... + en)/(2n)\n", n,
+            sdv_vertex_rules[x->rules.vertex_rule]);
+    return 1;
+}
+
 // Writes the formula of a rule at a vertex of valence n: that of the paper, if the mask has it.
 static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
 {
@@ -14762,6 +14930,8 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
         sdv_say(x->out, "v\n");
     else if (rule == SDV_CREASE && sdv_has_weights(mask, 0.75, 0, 0, 0.125))
         sdv_say(x->out, "(a + 6 v + b) / 8  [HDD94]\n");
+    else if (rule != SDV_CREASE && x->rules.vertex_rule && sdv_say_rule(x, mask, n))
+        return;
     else if (rule != SDV_CREASE && x->rules.loop && sdv_has_weights(mask, 1 - n * b, b, 0, 0))
         sdv_say(x->out, "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
                 "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
@@ -15007,6 +15177,8 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     if (cut) sdv_copy_faces(&context, cut, &work, cage);
     if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
     if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
+    if (!context.result)
+        sdv_set_vertex_rule(&context, &x.arena, cage, &x.cage.level, 0, &x.rules);
     if (!context.result) sdv_find_point(&x, point);
     if (!context.result) sdv_level_fade(&x.cage.level);
     if (!context.result) sdv_find_mask(&x);

@@ -37,7 +37,7 @@ enum { MAX_THREADS = 256 };
 // ------------------------------------------------------------------------------ command line
 
 enum {
-    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, UV, LIMIT, TESSELLATE, THREADS,
+    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, VERTEX_RULE, UV, LIMIT, TESSELLATE, THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
     EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
@@ -58,6 +58,8 @@ static const option options[OPTION_COUNT] = {
     {'b', "boundary", "edge|edge-and-corner|none", "what happens at the boundary"},
     {'c', "creasing", "uniform|chaikin", "how sharpness fades"},
     {'t', "triangles", "catmull-clark|smooth", "triangles of a Catmull-Clark cage"},
+    {0, "vertex-rule", "standard|averaged|doo-sabin|warren|five-eighths",
+     "how smooth vertices move; averaged and doo-sabin: Catmull-Clark, the last two: Loop"},
     {'u', "uv", "corners-only|corners-plus1|corners-plus2|boundaries|all|none",
      "what happens to UVs at seams and boundaries"},
     {'L', "limit", NULL, "put the points on the limit surface, with normals"},
@@ -512,6 +514,7 @@ static subdiv_result load(subdiv_mesh *cage, const command *cmd, const subdiv_op
     if (given[BOUNDARY] >= 0) cage->boundary = (subdiv_boundary)given[BOUNDARY];
     if (given[CREASING] >= 0) cage->creasing = (subdiv_creasing)given[CREASING];
     if (given[TRIANGLES] >= 0) cage->triangles = (subdiv_triangles)given[TRIANGLES];
+    if (given[VERTEX_RULE] >= 0) cage->vertex_rule = (subdiv_vertex_rule)given[VERTEX_RULE];
     if (given[UV] >= 0) cage->uv_rule = (subdiv_uv_rule)given[UV];
     return result;
 }

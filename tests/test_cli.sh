@@ -130,7 +130,7 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
-              --tessellate \
+              --tessellate --vertex-rule \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
               --stream --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
@@ -242,6 +242,29 @@ ends 0 tetrahedron.obj form.obj
 same form.obj rough.obj
 differ smooth.obj rough.obj
 ends 2 --triangles round tetrahedron.obj
+
+ends 0 --vertex-rule standard tetrahedron.obj form.obj
+same form.obj rough.obj
+for rule in averaged doo-sabin; do
+    ends 0 --vertex-rule $rule tetrahedron.obj $rule.obj
+    differ $rule.obj rough.obj
+    ends 1 -s loop --vertex-rule $rule tetrahedron.obj
+    says "\"$rule\" is for Catmull-Clark"
+done
+differ averaged.obj doo-sabin.obj
+ends 0 -s loop --vertex-rule=five-eighths tetrahedron.obj five-eighths.obj
+ends 0 -s loop --vertex-rule warren tetrahedron.obj warren.obj
+same warren.obj loop.obj                            # at valence 3 they are the same rule
+differ five-eighths.obj loop.obj
+ends 1 --vertex-rule warren tetrahedron.obj
+says '"warren" is for Loop'
+ends 1 -s bilinear --vertex-rule averaged tetrahedron.obj
+ends 1 --vertex-rule doo-sabin --tessellate 2 tetrahedron.obj
+says '"doo-sabin"'
+ends 2 --vertex-rule catmull tetrahedron.obj
+says "standard|averaged|doo-sabin|warren|five-eighths"
+ends 0 --vertex-rule averaged --explain 0 tetrahedron.obj
+fine "--explain names the vertex rule" grep -q 'n = 3, by the vertex rule "averaged"$' out
 
 # ---------------------------------------------------------------------------------------- creases
 

@@ -15,7 +15,8 @@ static inline int mesh_is_zero(const subdiv_mesh *m)
            !m->statement_count && !m->statement_faces && !m->statements &&
            m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
            m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
-           m->uv_rule == (subdiv_uv_rule)0 && !m->cage_faces && !m->normals && !m->memory;
+           m->uv_rule == (subdiv_uv_rule)0 && m->vertex_rule == (subdiv_vertex_rule)0 &&
+           !m->vertex_weights && !m->vertex_user && !m->cage_faces && !m->memory;
 }
 
 static int size_of_face(const subdiv_mesh *m, int f)
@@ -44,7 +45,8 @@ static inline int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
     if (a->vertex_count != b->vertex_count || a->face_count != b->face_count ||
         a->crease_count != b->crease_count || a->corner_count != b->corner_count ||
         a->hole_count != b->hole_count || a->scheme != b->scheme || a->boundary != b->boundary ||
-        a->creasing != b->creasing || a->triangles != b->triangles || a->uv_rule != b->uv_rule)
+        a->creasing != b->creasing || a->triangles != b->triangles || a->uv_rule != b->uv_rule ||
+        a->vertex_rule != b->vertex_rule || a->vertex_weights != b->vertex_weights)
         return 0;
     int total = 0;
     for (int f = 0; f < a->face_count; f++) {
