@@ -4456,6 +4456,13 @@ typedef enum sdv_limit_kind {
     SDV_LIMIT_KINDS
 } sdv_limit_kind;
 
+enum { SDV_FADED = 16 };
+
+typedef struct sdv_faded {              // the rays of a sector that fades, and its rows
+    sdv_sector sector;
+    double    *rows;                    // NULL: none yet
+} sdv_faded;
+
 typedef struct sdv_limit_writer {       // writes limit rows
     sdv_writer *writer;
     const sdv_level *level;             // the last
@@ -4465,7 +4472,7 @@ typedef struct sdv_limit_writer {       // writes limit rows
     int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
     double     *rows, *room;            // of a sector: [3][points], [points]
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
-    sdv_sector  last;                   // the last one that fades, whose rows are there
+    sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
     int        *edge, *place;           // see sdv_find_rays
 } sdv_limit_writer;
 
@@ -4478,7 +4485,6 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
     int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces;
     int points = 3 + edges + (kind == SDV_LOOSE_RING && !rules->loop ? faces : 0);
     double *rows = limit->rows;
-    limit->last.count = 0;
     if (kind < SDV_TIP) {
         sdv_settle(&limit->states[0], sectors[kind], faces, kind == SDV_SPAN || kind == SDV_WEDGE);
         sdv_settled_rows(rules, &limit->states[0], rows, limit->room);
@@ -4535,6 +4541,9 @@ static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
         ring = at == h;
         if (!ring) first = at;
     }
+    if (ring)                           // begin at a sharp edge, so that more are alike
+        for (first = h; level->sharpness[first] <= 0 && sdv_around(level, first) != h; )
+            first = sdv_around(level, first);
     s->faces = 1;
     for (at = first; ; at = q, s->faces++) {
         int before = sdv_previous(level, at);
@@ -4619,20 +4628,33 @@ static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, in
     sdv_add_shape(limit->writer, &shape, mask->weights, target);
 }
 
-// Makes the rows of sector states[0], which fades, unless the last one that did was like it.
-static void sdv_find_fading_rows(sdv_limit_writer *limit)
+// Returns the rows of sector states[0], which fades. Makes them unless a sector like it was there.
+static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
 {
     const sdv_sector *s = &limit->states[0];
-    sdv_sector *last = &limit->last;
-    size_t size = (size_t)s->count * sizeof *s->rays;
-    sdv_ray *rays = last->rays;
-    if (s->count == last->count && s->edges == last->edges && s->faces == last->faces &&
-        memcmp(&s->corner, &last->corner, sizeof s->corner) == 0 &&
-        memcmp(s->rays, rays, size) == 0) return;
-    *last = *s;
-    last->rays = rays;
-    memcpy(rays, s->rays, size);
-    sdv_sector_rows(limit->rules, limit->states, limit->rows, limit->room);
+    sdv_context *context = limit->writer->context;
+    sdv_arena *scratch = &limit->writer->scratch;
+    uint32_t hash = (uint32_t)s->faces, bits[3];
+    for (int i = 0; i < s->count; i++) {
+        memcpy(bits, &s->rays[i], sizeof bits);
+        hash = ((hash * 2654435761u ^ bits[0]) * 2654435761u ^ bits[1]) * 2654435761u ^ bits[2];
+    }
+    sdv_faded *known = &limit->faded[(hash * 2654435761u) >> 28];
+    sdv_sector *of = &known->sector;
+    if (known->rows && of->count == s->count && of->edges == s->edges && of->faces == s->faces &&
+        memcmp(&of->corner, &s->corner, sizeof s->corner) == 0 &&
+        memcmp(of->rays, s->rays, (size_t)s->count * sizeof *s->rays) == 0) return known->rows;
+    if (!known->rows) {
+        size_t most = (size_t)limit->writer->most;
+        of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+        known->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
+    }
+    if (context->result) return NULL;
+    sdv_ray *rays = of->rays;
+    *of = *s;
+    of->rays = (sdv_ray *)memcpy(rays, s->rays, (size_t)s->count * sizeof *rays);
+    sdv_sector_rows(limit->rules, limit->states, known->rows, limit->room);
+    return known->rows;
 }
 
 // Adds the limit row of sector states[0], which fades: with weights of its own. Its points are in
@@ -4645,12 +4667,13 @@ static void sdv_fading_row(sdv_limit_writer *limit, int target)
     memset(&shape, 0, sizeof shape);
     shape.count[0] = points - 1;
     shape.own = 3 * points;
-    sdv_find_fading_rows(limit);
+    const double *rows = sdv_find_fading_rows(limit);
+    if (!rows) return;
     int *row = sdv_put_row(writer, sdv_find_open(writer, &shape, sdv_own_limit), target);
     if (row == writer->points) return;
     for (int i = 0; i < points; i++) row[i] = writer->points[i];
     for (int i = 0; i < 3 * points; i++) {
-        float weight = (float)limit->rows[i];
+        float weight = (float)rows[i];
         memcpy(row + points + i, &weight, sizeof weight);
     }
 }
@@ -4717,7 +4740,6 @@ static void sdv_begin_limit(sdv_filler *fill, const sdv_rules *rules, int semi,
         limit->states[i].rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
     if (semi) {
         size_t edges = (size_t)fill->level->edge_count;
-        limit->last.rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
         limit->edge = SDV_NEW(context, &writer->scratch, int, most + 1);
         limit->place = SDV_NEW(context, &writer->scratch, int, edges);
         for (size_t e = 0; e < edges && limit->place; e++) limit->place[e] = 0;
@@ -5621,8 +5643,9 @@ typedef struct sdv_tangents {           // goes with an sdv_window and has the s
     size_t stride, tangent_stride;      // floats from point to point
     int      count;                     // points that wait until there are enough;
     int      at[SDV_WAITING];           // their places in the window
-    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents; and how far they are from
-    sdv_four from[SDV_WAITING];         // the origin, as rounding is in proportion to this
+    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents; and the work points they
+    int      from[SDV_WAITING];         // are made from, whose distance to the origin rounding is in
+    const float *work;                  // proportion to, or -1
 } sdv_tangents;
 
 static double sdv_dot3(const double *a, const double *b)
@@ -5646,8 +5669,7 @@ SDV_INLINE void sdv_make_unit(const double *n, float *unit)
 
 // Where faces are folded onto each other, the tangent across the fold is 0 but for rounding: its
 // square is no more than so much of the other's and of that of the point's distance to the origin.
-#define SDV_FOLD        1e-10f
-#define SDV_FOLD_ORIGIN 1.6e-11f
+static const double sdv_fold = 1e-10, sdv_fold_origin = 1.6e-11;
 
 // Scales a x b to length 1 or, where it is no more than rounding, to 0: where a square is less than
 // fold, and where parallel, the largest squared sine of such an angle. Doubles hold the squares of
@@ -5661,15 +5683,15 @@ static void sdv_unit_cross(const double *a, const double *b, double parallel, do
     sdv_make_unit(n, unit);
 }
 
-// Makes the unit normal of tangents a and b, which rounding may have turned by 1e-6. from: see
-// sdv_tangents; or NULL.
+// Makes the unit normal of tangents a and b, which rounding may have turned by 1e-6. from: the work
+// point that they are made from, or NULL.
 static void sdv_unit_normal(const float *a, const float *b, const float *from, float *normal)
 {
     const float zero[3] = { 0, 0, 0 }, *of[3] = { a, b, from ? from : zero };
     double x[3][3];
     for (int i = 0; i < 9; i++) x[i / 3][i % 3] = (double)of[i / 3][i % 3];
-    sdv_unit_cross(x[0], x[1], 1e-12, (double)SDV_FOLD_ORIGIN * sdv_dot3(x[2], x[2]) +
-                   (double)SDV_FOLD * (sdv_dot3(x[0], x[0]) + sdv_dot3(x[1], x[1])), normal);
+    sdv_unit_cross(x[0], x[1], 1e-12, sdv_fold_origin * sdv_dot3(x[2], x[2]) +
+                   sdv_fold * (sdv_dot3(x[0], x[0]) + sdv_dot3(x[1], x[1])), normal);
 }
 
 SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
@@ -5678,32 +5700,32 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
 }
 
 // Makes the unit normals of four pairs of tangents, channel by channel. Floats suffice unless their
-// products are too small or too large or a and b are almost parallel: n n = a a b b sin^2, and a
-// small sine costs digits. from: see sdv_tangents; or NULL.
-SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const sdv_four *from,
+// products are too small or too large, a or b may be a fold's, or they are almost parallel: n n =
+// a a b b sin^2, and a small sine costs digits. from: of each, as sdv_unit_normal has it.
+SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const float *const *from,
                                  sdv_four *n)
 {
-    const float least = 1e-30f, least_sin2 = 1.0f / 64;
+    const float least_sin2 = 1.0f / 64, thin = 1e-6f;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         n[i] = sdv_minus(sdv_times(a[j], b[k]), sdv_times(a[k], b[j]));
     }
     sdv_four nn = sdv_dot(n, n), aa = sdv_dot(a, a), bb = sdv_dot(b, b), aabb = sdv_times(aa, bb);
-    sdv_four fold = sdv_times(sdv_all(SDV_FOLD), sdv_plus(aa, bb));
-    if (from) fold = sdv_plus(fold, sdv_times(sdv_all(SDV_FOLD_ORIGIN), sdv_dot(from, from)));
+    sdv_four sum = sdv_plus(aa, bb), thins = sdv_times(sdv_all(thin), sdv_times(sum, sum));
+    sdv_four least = sdv_plus(sdv_all(1e-30f), thins);
     sdv_four scale = sdv_over(sdv_all(1), sdv_sqrt(nn));
     for (int i = 0; i < 3; i++) n[i] = sdv_times(n[i], scale);
-    if (sdv_less(sdv_all(least), aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn) &&
-        sdv_less(fold, aa) && sdv_less(fold, bb)) return;
-    float squares[5][4], vectors[4][3][4], lane[4][3];
-    const sdv_four *of[4] = { n, a, b, from ? from : n }, of_squares[5] = { aabb, nn, fold, aa, bb };
-    for (int i = 0; i < 5; i++) sdv_store(squares[i], of_squares[i]);
-    for (int i = 0; i < 12; i++) sdv_store(vectors[i / 3][i % 3], of[i / 3][i % 3]);
+    if (sdv_less(least, aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn)) return;
+    float squares[3][4], vectors[3][3][4], lane[3][3];
+    const sdv_four *of[3] = { n, a, b };
+    sdv_store(squares[0], least);
+    sdv_store(squares[1], aabb);
+    sdv_store(squares[2], nn);
+    for (int i = 0; i < 9; i++) sdv_store(vectors[i / 3][i % 3], of[i / 3][i % 3]);
     for (int k = 0; k < 4; k++) {
-        if (least < squares[0][k] && least_sin2 * squares[0][k] < squares[1][k] &&
-            squares[2][k] < squares[3][k] && squares[2][k] < squares[4][k]) continue;
-        for (int i = 0; i < 12; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
-        sdv_unit_normal(lane[1], lane[2], from ? lane[3] : NULL, lane[0]);
+        if (squares[0][k] < squares[1][k] && least_sin2 * squares[1][k] < squares[2][k]) continue;
+        for (int i = 0; i < 9; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
+        sdv_unit_normal(lane[1], lane[2], from[k], lane[0]);
         for (int i = 0; i < 3; i++) vectors[0][i][k] = lane[0][i];
     }
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
@@ -5712,11 +5734,14 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const sdv
 // Writes the normals and tangents of four points, given channel by channel, to places at, if below
 // count.
 static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
-                                  sdv_four *along, sdv_four *across, const sdv_four *from)
+                                  sdv_four *along, sdv_four *across, const int *from)
 {
+    const float *points[4];
     sdv_four normal[4];
+    for (int k = 0; k < 4; k++)
+        points[k] = at[k] < 0 || from[k] < 0 ? NULL : tangents->work + 4 * (size_t)from[k];
     if (tangents->normals) {
-        sdv_unit_normals(along, across, from, normal);
+        sdv_unit_normals(along, across, points, normal);
         normal[3] = normal[2];
         sdv_put_four(tangents->normals, tangents->stride, 3, normal, at, count);
     }
@@ -5732,16 +5757,15 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     for (int i = 0; i < tangents->count; i += 4) {
         sdv_transpose(tangents->along + i);
         sdv_transpose(tangents->across + i);
-        sdv_transpose(tangents->from + i);
         sdv_put_four_tangents(tangents, tangents->at + i, INT_MAX, tangents->along + i,
                               tangents->across + i, tangents->from + i);
     }
     tangents->count = 0;
 }
 
-// Makes a point wait with its tangents, if the window has it. from: see sdv_tangents.
+// Makes a point wait with its tangents, if the window has it. from: its work point, or -1.
 static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across,
-                             sdv_four from)
+                             int from)
 {
     sdv_tangents *tangents = out->tangents;
     int at = index - out->first, i = tangents->count;
@@ -5761,7 +5785,8 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     sdv_four normal[4];
     sdv_transpose(along);
     sdv_transpose(across);
-    sdv_unit_normals(along, across, NULL, normal);
+    const float *const none[4] = { NULL, NULL, NULL, NULL };
+    sdv_unit_normals(along, across, none, normal);
     normal[3] = normal[2];
     sdv_transpose(normal);
     float *p = tangents->normals + tangents->stride * (size_t)at;
@@ -5924,16 +5949,18 @@ SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int 
 SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, int width,
                                   int regular, const float *work, const sdv_window *out)
 {
-    const int stride = 1 + width + (regular ? 0 : batch->shape.own);
+    const int own = regular ? 0 : batch->shape.own, stride = 1 + width + own;
+    const float *weights = batch->limit;
     const int *row = batch->items + (size_t)stride * (size_t)first;
     sdv_ring_weights ring;
-    if (regular) ring = sdv_ring_of(batch->limit, width == 7);
+    if (regular) ring = sdv_ring_of(weights, width == 7);
+    if (out->tangents) out->tangents->work = work;
     sdv_four p, t0, t1;
     for (int i = first; i < end; i++, row += stride) {
-        sdv_limit_row_sums(regular ? batch->limit : sdv_limit_weights_of(batch, row), row + 1,
-                           width, regular ? &ring : NULL, work, &p, &t0, &t1);
+        if (own) weights = sdv_limit_weights_of(batch, row);
+        sdv_limit_row_sums(weights, row + 1, width, regular ? &ring : NULL, work, &p, &t0, &t1);
         sdv_put_point(out, row[0], p);
-        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1, p);
+        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1, row[1]);
     }
 }
 
@@ -6425,7 +6452,7 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
     for (; k < count; k++, index++, a++, b++, c++) {
         sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
         sdv_put_whole(out, index, sdv_plus(origin, sums[0]));
-        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], sdv_all(0));
+        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], -1);
     }
 }
 
@@ -6472,7 +6499,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
             sums[2] = p[2];
         }
         sdv_put_point(out, index, sdv_plus(p0, sums[0]));
-        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], sdv_all(0));
+        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], -1);
     }
 }
 
@@ -10247,7 +10274,7 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
         }
     if (!e->normals || c > 0) return;
     const double *a = s->tangents[0], *b = s->tangents[1];
-    double fold = s->x <= 0 && s->y <= 0 ? (double)SDV_FOLD * (sdv_dot3(a, a) + sdv_dot3(b, b)) : 0;
+    double fold = s->x <= 0 && s->y <= 0 ? sdv_fold * (sdv_dot3(a, a) + sdv_dot3(b, b)) : 0;
     sdv_unit_cross(a, b, 1e-28, fold, e->normals + e->normal_stride * i);
 }
 
@@ -11679,7 +11706,7 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
         if (!tangents) continue;
         sdv_four along = sdv_horner3(curve.along, x), across = sdv_horner3(curve.across, x);
         sdv_put_tangents(out, index, turned ? across : along, turned ? along : across,
-                         sdv_all(0));
+                         -1);
     }
 }
 
@@ -15199,8 +15226,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SEPARATE
 #undef SDV_NEW
 #undef SDV_IMPLIED
-#undef SDV_FOLD
-#undef SDV_FOLD_ORIGIN
 #undef SDV_FULL_LEVELS
 #undef SDV_JOB_POINTS
 #undef SDV_CELL_BITS
