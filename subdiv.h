@@ -4680,20 +4680,18 @@ static void sdv_fading_row(sdv_limit_writer *limit, int target)
 
 // Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
 // the vertices across its faces. Where sharp edges part the faces, it is the limit of the sector
-// that has the face of h. (Values that fade with others, see >>face-varying, are not followed to
-// where nothing fades.)
+// that has the face of h.
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
     const sdv_rules *rules = limit->rules;
     int v = level->face_vertices[h], loop = rules->loop, faces = level->vertex_faces[v], open = 0;
-    int dependent = level->partner && level->partner[v] >= 0;
     int *point = limit->writer->points;
     sdv_sector *s = &limit->states[0];
     sdv_limit_kind kind = SDV_TIP;
     sdv_rule rule = rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     *point++ = level->first_point + v;
-    if (rule == SDV_SMOOTH || (rule == SDV_DART && dependent)) {
+    if (rule == SDV_SMOOTH) {
         kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
         s->first = h;
         s->faces = faces;
@@ -4701,7 +4699,7 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
         sdv_find_sector(level, h, s);
         int whole = s->faces == faces && s->edges == faces;
         open = s->edges > s->faces;
-        if (!dependent && !sdv_vertex_settled(level, v)) {
+        if (!sdv_vertex_settled(level, v)) {
             int forever = sdv_find_rays(limit, s), corner = s->corner >= SUBDIV_INFINITE;
             if (corner || forever > 2 || (forever == 2 ? open : whole)) {
                 sdv_add_fan(level, s->first, s->faces, open, loop, point);
@@ -5004,7 +5002,6 @@ static int sdv_first_seen(const subdiv_surface *surface, const int *next, int h)
 {
     const sdv_level *cage = &surface->order.cage;
     int best = h;
-    if (surface->own_face) return h;
     for (int k = next[h]; surface->hole[sdv_face_of(cage, best)] && k >= 0 && k != h; k = next[k])
         if (surface->hole[sdv_face_of(cage, k)] < surface->hole[sdv_face_of(cage, best)]) best = k;
     return best;
