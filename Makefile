@@ -88,6 +88,9 @@ $(TESTS:%=$(OUT)/%.log): $(OUT)/%.log: $(OUT)/test_% FORCE
 $(OUT)/cli.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/test_cli.sh $<
 
+$(OUT)/plain.log: $(OUT)/plain.o FORCE
+	$(RUN) env CC="$(CC)" sh tests/plain.sh $<
+
 $(OUT)/compile.log $(OUT)/docs.log $(OUT)/edited.log: $(OUT)/%.log: FORCE | $(OUT)
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/$*.sh
 
@@ -101,7 +104,8 @@ HAVE_OSD := $(shell printf '\043include <opensubdiv/far/primvarRefiner.h>\n' | \
 ifeq ($(HAVE_OSD),yes)
 TEST_LOGS = $(OUT)/opensubdiv.log
 endif
-TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) $(OUT)/cli.log
+TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) \
+             $(OUT)/plain.log $(OUT)/cli.log
 
 test: $(TEST_LOGS) examples
 ifneq ($(HAVE_OSD),yes)
