@@ -1,7 +1,7 @@
 #!/bin/sh
-# docs.sh OBJECT: compiles and runs what the documentation shows: the programs in the opening comment
-# of subdiv.h, and the first complete C program of README.md if there is one. The first has an
-# implementation of its own, the others have that of OBJECT. CC names the compiler.
+# docs.sh OBJECT: compiles and runs what the documentation shows: the programs in the opening
+# comment of subdiv.h, and the first complete C program of README.md if there is one. The first has
+# an implementation of its own, the others have that of OBJECT. CC names the compiler.
 CC=${CC:-cc}
 object=$1
 flags="-std=c99 -Wall -Wextra -Wpedantic -Werror -I."

@@ -1,5 +1,5 @@
-// What holds of any masks: with the header of tests/edited.sh, in which edited() says whether a mask
-// gets other weights, for the masks as they are and with one changed at a time.
+// What holds of any masks: with the header of tests/edited.sh, in which edited() says whether a
+// mask gets other weights, for the masks as they are and with one changed at a time.
 //
 //     edited check FILE EDIT NEVER   checks, and writes points of a few cages to FILE
 //     edited moves FILE OTHER CAGE   all points of the cage that the mask is for differ in both

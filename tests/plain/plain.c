@@ -1,5 +1,5 @@
-// The library in plain mode, private to this file. In the header of tests/plain.sh, each function of
-// >>masks begins by telling called() its name.
+// The library in plain mode, private to this file. In the header of tests/plain.sh, each function
+// of >>masks begins by telling called() its name.
 #define SUBDIV_STATIC
 #define SUBDIV_PLAIN
 #define SUBDIV_IMPLEMENTATION
