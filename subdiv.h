@@ -63,14 +63,17 @@
            * >>grids     the general step: points of a level from those of the level before
              >>results   what makes the result: >>limit-surface  >>evaluate  >>results-as-meshes
            * >>calls     subdiv_refine and the other public functions up to here
-             >>exact-surface  the limit between the points: >>split  >>patches  >>nests  >>leaves
+             >>split     levels as meshes; >>plain makes all points of such levels, for SUBDIV_PLAIN
+             >>exact-surface  the limit between the points: >>patches  >>nests  >>leaves
                          >>locations  >>cells  >>polynomials  >>samples
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
              >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
    A student needs the four sections with a star and may skip the rest. The way from the first call
    to a mask: subdiv_refine > sdv_prepare > sdv_prepare_rows > sdv_fill_level > sdv_vertex_row >
    sdv_vertex_mask > sdv_catmull_clark_vertex. To where it is added up: subdiv_refine >
-   sdv_make_mesh > subdiv_evaluate > sdv_make_points > sdv_make_batches > sdv_batch_sum.
+   sdv_make_mesh > subdiv_evaluate > sdv_make_points > sdv_make_batches > sdv_batch_sum. Under
+   SUBDIV_PLAIN every point of every level has such a way: sdv_prepare_rows > sdv_plain_rows >
+   sdv_split_step > sdv_split_rows > sdv_vertex_row.
 
    WORDS
    cage            the mesh you start from            level      how often it has been refined
@@ -159,6 +162,9 @@
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
 //     SUBDIV_NO_HUGE_PAGES           Linux: pages of the usual size for large blocks
 //     SUBDIV_NO_SIMD                 plain C instead of SSE2, NEON or WebAssembly SIMD
+//     SUBDIV_PLAIN                   no shortcuts, for classrooms and tests: all levels are meshes,
+//                                    and a breakpoint in a mask stops at every point. Slow; equal
+//                                    results but for rounding. SUBDIV_EXACT keeps its polynomials
 //
 // Define these to leave whole sections out, declarations included. The percentages say how much of
 // the full compile time and code size each saves (gcc -O2):
@@ -442,11 +448,11 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 //
 // A point has one normal and two tangents. On a crease they belong to the side of the first face
 // there that is no hole. A corner with more than 2 faces (Loop: 3) between its creases, or without
-// creases, is a spike: it has no tangent plane, and its normal is a mean of those around. The normal
-// is 0 where there is none: without faces, between two triangles back to back, where a tangent is 0
-// and where both are parallel, to within rounding; and where the vertex rule makes a spike, as
-// "five-eighths" does at valence 3. Error ARGUMENT: the weights of a valence lead to no limit at all
-// (vertex_weights).
+// creases, is a spike: it has no tangent plane, and its normal is a mean of those around. The
+// normal is 0 where there is none: without faces, between two triangles back to back, where a
+// tangent is 0 and where both are parallel, to within rounding; and where the vertex rule makes a
+// spike, as "five-eighths" does at valence 3. Error ARGUMENT: the weights of a valence lead to no
+// limit at all (vertex_weights).
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -1633,7 +1639,7 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
 //     frame       the inner points beside a grid's sides: deep levels keep no other inner points
 //     patch       a regular face with its control points; strip: a part of one between creases
 //     core        of SUBDIV_EXACT: the faces that become leaves (others are there for their masks)
-//     rough       a face of the core that is no patch on this level
+//     rough       a face of the core that is no patch on this level; SUBDIV_PLAIN: any face
 //     nest        a vertex that stays irregular on every level, and the faces around it
 //     leaf        of SUBDIV_EXACT: a patch or a face of a nest
 //     cell        of SUBDIV_EXACT: a part of a cage face, from which the leaf at (u, v) is found
@@ -1702,7 +1708,7 @@ typedef struct sdv_level {
     const struct sdv_order *order;      // where the cage's points stand on a later level, or NULL
     int   *face_point;                  // [face_count]         work points of the face points
 
-    // Faces under SUBDIV_EXACT.
+    // Faces under SUBDIV_EXACT and SUBDIV_PLAIN: see >>split.
     sdv_place *places;                  // [face_count]         where they are; NULL on level 0
     unsigned char *core;                // [face_count]         becomes leaves
     unsigned char *rough;               // [face_count]         in the core, and not a patch
@@ -2609,9 +2615,9 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 }
 
 // Tangents at a crease or boundary, for the side with k faces, from the mask of its vertex point.
-// e_0 and e_k are on the crease, so t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have others,
-// as their faces refine in other ways). It is half a wave, a = pi/k, with weights x of the two ends
-// and y of v that make it an eigenvector:
+// e_0 and e_k are on the crease, so t0 = e_0 - e_k. t1 leads across ([BLZ00] and [HDD94] have
+// others, as their faces refine in other ways). It is half a wave, a = pi/k, with weights x of the
+// two ends and y of v that make it an eigenvector:
 //
 //     t1 = sum of  4 sin(i a) e_i + g (sin(i a) + sin((i+1) a)) f_i  +  x (e_0 + e_k) + y v
 //
@@ -2626,8 +2632,8 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 // The same goes for a corner between two creases, with the mask of its vertex point. Where the wave
 // shrinks faster than the creases, their plane is left: t1 = e_0 + e_k - 2v. Where it shrinks as
 // fast, L = c, it turns to that plane by the same bit on each level; then t1 is what is there after
-// a thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent plane;
-// t0 and t1 span the mean of its faces' planes.
+// a thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent
+// plane; t0 and t1 span the mean of its faces' planes.
 static void sdv_crease_tangents(const sdv_rules *rules, sdv_mask v, int k, double *t0, double *t1)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2);
@@ -3065,6 +3071,12 @@ static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
 // in registers. Batches stand in blocks. A block has the rows of SDV_BLOCK_FACES cage faces, so
 // that any range of faces can be made alone.
 
+#ifdef SUBDIV_PLAIN                     // asks a mask for every point, see >>plain
+enum { SDV_IS_PLAIN = 1 };
+#else
+enum { SDV_IS_PLAIN = 0 };
+#endif
+
 // Four weights are enough: of the first points, of neighbours along a crease, of others, of faces.
 enum { SDV_RUNS = 4 };
 
@@ -3322,7 +3334,6 @@ static void sdv_writer_free(sdv_writer *writer)
     sdv_arena_free(&writer->scratch);
 }
 
-#if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
 // Adds the row that makes point target, the face point of f.
 static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *writer)
 {
@@ -3333,7 +3344,6 @@ static void sdv_face_row(const sdv_level *level, int f, int target, sdv_writer *
     for (int h = start; h < end; h++) *point++ = level->first_point + level->face_vertices[h];
     sdv_add_runs(writer, &runs, target);
 }
-#endif
 
 // Replace a mask's weights of face points by weights of the vertices of these faces, all quads.
 static sdv_mask sdv_spread_vertex(sdv_mask mask, int faces)
@@ -3436,7 +3446,7 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
 {
     int faces = level->vertex_faces[v], spread = level->order && !rules->loop;
     sdv_fading fading = sdv_vertex_fading(level, v);
-    int *known = rules->linear ? NULL : sdv_known_batch(writer, fading, faces);
+    int *known = SDV_IS_PLAIN || rules->linear ? NULL : sdv_known_batch(writer, fading, faces);
     if (known && *known >= 0) {
         int *row = sdv_put_row(writer, *known, target);
         row[0] = level->first_point + v;
@@ -3484,6 +3494,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
     sdv_runs runs = { { 0, 0, 0, 0 }, { 2, 0, 0, 0 }, sharpness > 0 && !stays_sharp };
     if (stays_sharp) known = &writer->sharp_edge;
     if (sharpness <= 0 && !smooth_triangles && !rules->linear) known = &writer->smooth_edge;
+    if (SDV_IS_PLAIN) known = NULL;
     if (known && *known >= 0) {
         point = sdv_put_row(writer, *known, target);
         if (stays_sharp) beside = 0;
@@ -4157,12 +4168,14 @@ struct subdiv_surface {
 
     // Making the points, from level 1 on.
     int       work_count;               // work points
-    sdv_batches *refine;                // [levels] the rows to each next level; SUBDIV_EXACT:
+    sdv_batches *refine;                // [levels] the rows to each next level; without orders:
                                         // [2 levels] the rows of face points, of other points
-    sdv_order *orders;                  // [levels + 1] of each level; not of SUBDIV_EXACT
+    sdv_order *orders;                  // [levels + 1] of each level; NULL: all points have rows,
+                                        // as under SUBDIV_EXACT and SUBDIV_PLAIN
     int      *bases;                    // [levels + 2] the first work point of each level
     int      *quads;                    // see sdv_order
-    sdv_batches limit_rows;             // from the last level to the limit
+    sdv_batches limit_rows;             // from the last level to the limit; SUBDIV_PLAIN: to any
+                                        // result
     subdiv_surface *at_level_1;         // makes the limit of level 0; else NULL
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     const struct sdv_exact_calls *exact_calls;
@@ -4327,7 +4340,8 @@ static int sdv_sector_points(const sdv_rules *rules, const sdv_sector *s)
 // Makes a sector where nothing fades, of a rule.
 static void sdv_settle(sdv_sector *s, sdv_rule rule, int faces, int open)
 {
-    const sdv_ray smooth = { 0, 0, 0 }, sharp = { SUBDIV_INFINITE, SUBDIV_INFINITE, SUBDIV_INFINITE };
+    const float forever = SUBDIV_INFINITE;
+    const sdv_ray smooth = { 0, 0, 0 }, sharp = { forever, forever, forever };
     s->faces = faces;
     s->count = s->edges = faces + open;
     s->corner = rule == SDV_CORNER ? SUBDIV_INFINITE : 0;
@@ -4448,9 +4462,9 @@ static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *
 }
 
 // Kinds of limit rows whose weights depend on the number of faces alone: of sectors where nothing
-// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; of linear
-// surfaces, with two edges for tangents; and where faces make no sector, as a crease is not manifold
-// or a vertex is twice in a face.
+// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; of
+// linear surfaces, with two edges for tangents; and where faces make no sector, as a crease is not
+// manifold or a vertex is twice in a face.
 typedef enum sdv_limit_kind {
     SDV_RING, SDV_SLIT, SDV_SPAN, SDV_SPIKE, SDV_WEDGE, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING,
     SDV_LIMIT_KINDS
@@ -4477,7 +4491,8 @@ typedef struct sdv_limit_writer {       // writes limit rows
 } sdv_limit_writer;
 
 // Makes the mask of a kind. Its points are in the order of sdv_add_fan or sdv_add_tip.
-static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
+static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_arena *arena,
+                                            sdv_limit_kind kind, int faces)
 {
     static const sdv_rule sectors[SDV_TIP] = { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER,
                                                SDV_CORNER };
@@ -4498,19 +4513,20 @@ static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_k
             rows[i] = i < 3 + edges ? mask.edge + mask.crease : mask.face;
         rows[points + 1] = rows[2 * points + 2] = 1;
     }
-    sdv_writer *writer = limit->writer;
     sdv_limit_weights made = { points, NULL };
-    made.weights = SDV_NEW(writer->context, writer->arena, float, 3 * (size_t)points);
+    made.weights = SDV_NEW(limit->writer->context, arena, float, 3 * (size_t)points);
     for (int i = 0; i < 3 * points && made.weights; i++) made.weights[i] = (float)rows[i];
     return made;
 }
 
-// Returns the number of the mask of a kind, and makes it the first time.
+// Returns the number of the mask of a kind, and makes it the first time; SUBDIV_PLAIN: each time.
 static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
     int *known = &limit->known[(int)kind * (limit->writer->most + 1) + faces];
+    if (*known >= 0 && !SDV_IS_PLAIN) return *known;
+    sdv_arena *arena = *known < 0 ? limit->writer->arena : &limit->writer->scratch;
+    sdv_limit_weights made = sdv_new_limit_mask(limit, arena, kind, faces);
     if (*known >= 0) return *known;
-    sdv_limit_weights made = sdv_new_limit_mask(limit, kind, faces);
     sdv_limit_weights *mask = (sdv_limit_weights *)sdv_array_room(limit->writer->context,
                                                             &limit->masks, 1, sizeof made);
     if (!mask) return 0;
@@ -4561,10 +4577,10 @@ static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
 static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
 {
     const sdv_level *level = limit->level;
-    sdv_ray ray;
-    ray.now = end ? sdv_sharpness_before(level, h) : level->sharpness[h];
-    ray.half = ray.behind = end ? sdv_half_before(level, h) : sdv_half(level, h);
-    if (!level->half_sharpness || !sdv_is_semi_sharp(ray.now)) return ray;
+    float s = end ? sdv_sharpness_before(level, h) : level->sharpness[h];
+    sdv_ray ray = { s, sdv_half(level, h), sdv_half_before(level, h) };
+    if (end) ray.half = ray.behind, ray.behind = sdv_half(level, h);
+    if (!limit->fill || !level->half_sharpness || !sdv_is_semi_sharp(s)) return ray;
     sdv_edge_line line = sdv_line_at(limit->fill, h);
     int first = level->edge_first[level->face_edges[h]];
     int v = level->face_vertices[end ? sdv_next(level, h) : h];
@@ -4572,27 +4588,31 @@ static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
     return ray;
 }
 
-// Finds the rays of a sector, and those of other sharp edges at the vertex. Which edges the sector
-// has tell limit->edge, by place, and limit->place, by edge. Returns how many stay sharp forever.
+// Finds the rays of a sector, and those of other sharp edges at the vertex. An edge is meant by its
+// last face-vertex. Which ones the sector has tell limit->edge, by place, and limit->place, by
+// edge. Returns how many stay sharp forever.
 static int sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
     int v = level->face_vertices[s->first], forever = 0;
     s->corner = level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
-        int end = i == s->faces, edge = end ? sdv_previous(level, at) : at;
-        s->rays[i] = sdv_ray_of(limit, edge, end);
-        limit->edge[i] = level->face_edges[edge];
-        limit->place[limit->edge[i]] = i;
+        int end = i == s->faces, h = end ? sdv_previous(level, at) : at, edge = h;
+        while (level->across[edge] > edge) edge = level->across[edge];
+        s->rays[i] = sdv_ray_of(limit, h, end);
+        limit->edge[i] = edge;
+        limit->place[edge] = i;
         if (i + 1 < s->faces) at = level->across[sdv_previous(level, at)];
     }
     s->count = s->edges;
     for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k])
         for (int end = 0; end < 2; end++) {
-            int edge = end ? sdv_previous(level, k) : k, e = level->face_edges[edge];
-            int at = limit->place[e], own = at < s->edges && limit->edge[at] == e;
-            if (own || !sdv_is_edge_at(level, edge, !end)) continue;
-            sdv_ray ray = sdv_ray_of(limit, edge, end);
+            int h = end ? sdv_previous(level, k) : k, edge = h;
+            if (!sdv_is_edge_at(level, h, !end)) continue;
+            while (level->across[edge] > edge) edge = level->across[edge];
+            int at = limit->place[edge];
+            if (at < s->edges && limit->edge[at] == edge) continue;
+            sdv_ray ray = sdv_ray_of(limit, h, end);
             if (ray.now > 0) s->rays[s->count++] = ray;
         }
     for (int i = 0; i < s->count; i++) forever += s->rays[i].now >= SUBDIV_INFINITE;
@@ -4641,9 +4661,10 @@ static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
     }
     sdv_faded *known = &limit->faded[(hash * 2654435761u) >> 28];
     sdv_sector *of = &known->sector;
-    if (known->rows && of->count == s->count && of->edges == s->edges && of->faces == s->faces &&
-        memcmp(&of->corner, &s->corner, sizeof s->corner) == 0 &&
-        memcmp(of->rays, s->rays, (size_t)s->count * sizeof *s->rays) == 0) return known->rows;
+    int same = known->rows && !SDV_IS_PLAIN && of->count == s->count && of->edges == s->edges &&
+               of->faces == s->faces && memcmp(&of->corner, &s->corner, sizeof s->corner) == 0 &&
+               memcmp(of->rays, s->rays, (size_t)s->count * sizeof *s->rays) == 0;
+    if (same) return known->rows;
     if (!known->rows) {
         size_t most = (size_t)limit->writer->most;
         of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
@@ -4676,6 +4697,25 @@ static void sdv_fading_row(sdv_limit_writer *limit, int target)
         float weight = (float)rows[i];
         memcpy(row + points + i, &weight, sizeof weight);
     }
+}
+
+// Is the face of h a hole, or a part of one?
+static int sdv_in_hole(const subdiv_surface *surface, const sdv_level *level, int h)
+{
+    int f = sdv_face_of(level, h);
+    if (level->places) f = sdv_face_of(&surface->order.cage, level->places[f].h);
+    return surface->hole[f];
+}
+
+// Returns the face-vertex of the first face that is no hole among those that follow h: at a vertex
+// by vertex_next, at an edge by across. On a crease the limit is that of its side.
+static int sdv_first_seen(const subdiv_surface *surface, const sdv_level *level, const int *next,
+                          int h)
+{
+    int best = h;
+    for (int k = next[h]; sdv_in_hole(surface, level, best) && k >= 0 && k != h; k = next[k])
+        if (sdv_in_hole(surface, level, k) < sdv_in_hole(surface, level, best)) best = k;
+    return best;
 }
 
 // Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
@@ -4719,16 +4759,16 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     sdv_limit_batch_row(limit, kind, faces, target);
 }
 
-// semi: something is semi-sharp.
-static void sdv_begin_limit(sdv_filler *fill, const sdv_rules *rules, int semi,
-                            sdv_limit_writer *limit)
+// fill: of the level, if its points stand on lines; else NULL. semi: something is semi-sharp.
+static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
+                            const sdv_filler *fill, int semi, sdv_limit_writer *limit)
 {
-    sdv_writer *writer = &fill->writer;
     sdv_context *context = writer->context;
     size_t most = (size_t)writer->most, known = SDV_LIMIT_KINDS * (most + 1);
+    size_t places = semi ? (size_t)level->face_vertex_count : 0;
     memset(limit, 0, sizeof *limit);
     limit->writer = writer;
-    limit->level = fill->level;
+    limit->level = level;
     limit->rules = rules;
     limit->fill = fill;
     limit->known = SDV_NEW(context, &writer->scratch, int, known);
@@ -4736,12 +4776,9 @@ static void sdv_begin_limit(sdv_filler *fill, const sdv_rules *rules, int semi,
     limit->room = SDV_NEW(context, &writer->scratch, double, 2 * most + 2);
     for (int i = 0; i <= (semi ? SDV_FADE_LEVELS : 0); i++)
         limit->states[i].rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
-    if (semi) {
-        size_t edges = (size_t)fill->level->edge_count;
-        limit->edge = SDV_NEW(context, &writer->scratch, int, most + 1);
-        limit->place = SDV_NEW(context, &writer->scratch, int, edges);
-        for (size_t e = 0; e < edges && limit->place; e++) limit->place[e] = 0;
-    }
+    limit->edge = SDV_NEW(context, &writer->scratch, int, most + 1);
+    limit->place = SDV_NEW(context, &writer->scratch, int, places);
+    for (size_t i = 0; i < places && !context->result; i++) limit->place[i] = 0;
     for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
 }
 
@@ -4996,17 +5033,6 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
     else sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
 }
 
-// Returns the face-vertex of the first face that is no hole among those that follow h: at a vertex
-// by vertex_next, at an edge by across. On a crease the limit is that of its side.
-static int sdv_first_seen(const subdiv_surface *surface, const int *next, int h)
-{
-    const sdv_level *cage = &surface->order.cage;
-    int best = h;
-    for (int k = next[h]; surface->hole[sdv_face_of(cage, best)] && k >= 0 && k != h; k = next[k])
-        if (surface->hole[sdv_face_of(cage, k)] < surface->hole[sdv_face_of(cage, best)]) best = k;
-    return best;
-}
-
 // Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
 // centre.
 static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
@@ -5048,36 +5074,41 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
     else sdv_limit_batch_row(limit, SDV_RING, sides, centre);
 }
 
+// Adds the row that makes point target of the result, or of a limit, a copy of a work point.
+static void sdv_stay_row(sdv_writer *writer, int limit, int point, int target)
+{
+    static const float stay[3] = { 1, 0, 0 };
+    sdv_shape alone;
+    memset(&alone, 0, sizeof alone);
+    writer->points[0] = point;
+    sdv_add_shape(writer, &alone, limit ? stay : NULL, target);
+}
+
 // Adds all limit rows. Vertices without faces stay where they are.
 static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface, int semi)
 {
-    static const float stay[3] = { 1, 0, 0 };
     sdv_context *context = fill->writer.context;
     sdv_level *level = fill->level;
     sdv_limit_writer limit;
-    sdv_shape alone;
-    memset(&alone, 0, sizeof alone);
-    sdv_begin_limit(fill, &surface->rules, semi, &limit);
+    sdv_begin_limit(&fill->writer, &surface->rules, level, fill, semi, &limit);
     fill->from = surface->orders[surface->levels];
     fill->to = surface->order;
     fill->base = level->first_point = surface->bases[surface->levels];
     fill->target = 0;
     level->order = &fill->from;
-    for (int v = 0; v < level->vertex_count && !context->result; v++) {
-        if (level->vertex_first[v] >= 0) continue;
-        fill->writer.points[0] = fill->base + v;
-        sdv_add_shape(&fill->writer, &alone, stay, v);
-    }
+    for (int v = 0; v < level->vertex_count; v++)
+        if (level->vertex_first[v] < 0) sdv_stay_row(&fill->writer, 1, fill->base + v, v);
     for (int f = 0; f < level->face_count && !context->result; f++) {
         int end = sdv_face_end(level, f);
         sdv_batch_face(&fill->writer, f);
         for (int h = sdv_face_start(level, f); h < end && !context->result; h++) {
             int v = level->face_vertices[h];
             if (level->vertex_first[v] == h)
-                sdv_limit_row(&limit, sdv_first_seen(surface, level->vertex_next, h), v);
+                sdv_limit_row(&limit, sdv_first_seen(surface, level, level->vertex_next, h), v);
             if (level->edge_first[level->face_edges[h]] != h) continue;
             int forever = fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE;
-            sdv_limit_line(&limit, fill, forever ? sdv_first_seen(surface, level->across, h) : h);
+            sdv_limit_line(&limit, fill,
+                           forever ? sdv_first_seen(surface, level, level->across, h) : h);
         }
         if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
     }
@@ -5117,6 +5148,24 @@ static int *sdv_find_bases(sdv_context *context, sdv_arena *arena, const subdiv_
     return bases;
 }
 
+// Finds the orders of all levels, deep ones with frames, and the work points of each.
+static void sdv_find_orders(sdv_context *context, subdiv_surface *surface, sdv_level *cage)
+{
+    int levels = surface->levels;
+    if (levels > SDV_FULL_LEVELS && cage->face_size != 4) sdv_count_quads(context, surface);
+    surface->orders = SDV_NEW(context, &surface->points, sdv_order, (size_t)levels + 1);
+    for (int i = 0; i <= levels && !context->result; i++)
+        surface->orders[i] = sdv_order_at(surface, i, i > SDV_FULL_LEVELS);
+    surface->bases = sdv_find_bases(context, &surface->points, surface, 0);
+    surface->work_count = context->result ? 0 : surface->bases[levels + 1];
+    int point = context->result ? 0 : sdv_first_face_point(surface);
+    for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = point + f;
+}
+
+// Makes the rows of all levels and of the result under SUBDIV_PLAIN.
+static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const sdv_level *cage,
+                           sdv_writer *writer, sdv_arena *scratch);
+
 // Makes all rows of a surface. sharpness: the result lists the creases and corners that are left.
 static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
                              int sharpness, sdv_arena *scratch)
@@ -5131,30 +5180,25 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.left = SDV_NEW(context, scratch, int, n + 1);
     fill.right = SDV_NEW(context, scratch, int, n + 1);
     fill.made = SDV_NEW(context, scratch, int, n + 1);
-    surface->refine = SDV_NEW(context, &surface->points, sdv_batches, levels);
-    if (levels > SDV_FULL_LEVELS && cage->face_size != 4) sdv_count_quads(context, surface);
+    surface->refine = SDV_NEW(context, &surface->points, sdv_batches,
+                              SDV_IS_PLAIN ? 2 * levels : levels);
     sdv_new_pieces(context, scratch, cage, (int)n << limit, &pieces);
     fill.level = cage;
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
-    surface->orders = SDV_NEW(context, &surface->points, sdv_order, (size_t)levels + 1);
-    for (int i = 0; i <= levels && !context->result; i++)      // deep levels have frames
-        surface->orders[i] = sdv_order_at(surface, i, i > SDV_FULL_LEVELS);
-    surface->bases = sdv_find_bases(context, &surface->points, surface, 0);
-    surface->work_count = context->result ? 0 : surface->bases[levels + 1];
     int semi = sdv_has_semi_sharp(cage);
-    int point = context->result ? 0 : sdv_first_face_point(surface);
-    for (int f = 0; f < cage->face_count; f++) cage->face_point[f] = point + f;
+    if (SDV_IS_PLAIN) sdv_plain_rows(context, surface, cage, &fill.writer, scratch);
+    else sdv_find_orders(context, surface, cage);
     for (int i = 0; i < levels && !context->result; i++) {
         if (semi) sdv_level_fade(cage);
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
-        sdv_fill_level(&fill, surface, i);
+        if (!SDV_IS_PLAIN) sdv_fill_level(&fill, surface, i);
         if (semi) sdv_fade_cage(cage);
     }
     if (!context->result && sharpness) sdv_surviving_sharpness(context, surface, cage, &pieces);
     if (limit && semi) sdv_level_fade(cage);
     if (limit && fill.pieces && !context->result) sdv_fade_lines(cage, (int)n, &pieces);
-    if (limit && !context->result) sdv_fill_limit(&fill, surface, semi);
+    if (limit && !SDV_IS_PLAIN && !context->result) sdv_fill_limit(&fill, surface, semi);
     sdv_writer_free(&fill.writer);
 }
 
@@ -5328,8 +5372,9 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.value_count = values->count;
     seams.rule = values->rule;
     sdv_share_rules(context, made, surface);
-    if (!context->result)
-        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
+    if (!context->result)                   // plain: the last level fades, too
+        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face,
+                        made->levels + SDV_IS_PLAIN);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
@@ -5640,9 +5685,9 @@ typedef struct sdv_tangents {           // goes with an sdv_window and has the s
     size_t stride, tangent_stride;      // floats from point to point
     int      count;                     // points that wait until there are enough;
     int      at[SDV_WAITING];           // their places in the window
-    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents; and the work points they
-    int      from[SDV_WAITING];         // are made from, whose distance to the origin rounding is in
-    const float *work;                  // proportion to, or -1
+    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents,
+    int      from[SDV_WAITING];         // and the work points that they are made from, or -1:
+    const float *work;                  // rounding is in proportion to their size
 } sdv_tangents;
 
 static double sdv_dot3(const double *a, const double *b)
@@ -6709,9 +6754,10 @@ static void sdv_refine_faces(const subdiv_surface *surface, int level, const flo
 static void sdv_make_faces(const subdiv_surface *surface, const float *work, int face, int end,
                            const sdv_window *out)
 {
+    sdv_make_batches(&surface->limit_rows, work, face, end, out);
+    if (SDV_IS_PLAIN) return;
     if (surface->rules.limit) {
         sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
-        sdv_make_batches(&surface->limit_rows, work, face, end, out);
         sdv_make_grids(surface, surface->levels, &limit, work, face, end, &surface->order, 0, out);
         return;
     }
@@ -6851,7 +6897,8 @@ static void sdv_level_job(void *context, int job)
     for (int c = 0; c < e->channels; c += 4) {
         float *work = sdv_work_of(e, c);
         sdv_window out = sdv_window_of(work, 4, 4, 0, surface->work_count, 0);
-        if (e->step < 0) sdv_make_face_points(surface, work, face, end);
+        if (SDV_IS_PLAIN) sdv_make_batches(&surface->refine[e->step], work, face, end, &out);
+        else if (e->step < 0) sdv_make_face_points(surface, work, face, end);
         else sdv_refine_faces(surface, e->step, work, face, end, surface->bases[e->step + 1], &out);
     }
 }
@@ -6860,14 +6907,14 @@ static void sdv_level_job(void *context, int job)
 static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
 {
     const subdiv_surface *surface = e->surface;
-    int last = surface->rules.limit ? surface->levels : surface->levels - 1;
+    int last = SDV_IS_PLAIN ? 2 * surface->levels : surface->levels - !surface->rules.limit;
     for (int c = 0; c < e->channels && surface->cage_vertex_count; c += 4) sdv_find_origin(e, c);
     e->jobs = sdv_jobs(opt, surface->cage_vertex_count, 4096);
     sdv_run(opt, sdv_input_job, e, e->jobs);
-    for (e->step = surface->rules.loop ? 0 : -1; e->step < last; e->step++) {
+    for (e->step = SDV_IS_PLAIN || surface->rules.loop ? 0 : -1; e->step < last; e->step++) {
         int level = e->step < 0 ? 0 : e->step + 1;
-        e->jobs = sdv_jobs(opt, surface->bases[level + 1] - surface->bases[level],
-                           SDV_JOB_POINTS);
+        e->jobs = SDV_IS_PLAIN ? 1 : sdv_jobs(opt, surface->bases[level + 1] -
+                                                   surface->bases[level], SDV_JOB_POINTS);
         sdv_run(opt, sdv_level_job, e, e->jobs);
     }
 }
@@ -7470,12 +7517,12 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
     return context.result;
 }
 
-#ifndef SUBDIV_NO_EXACT
 // --------------------------------------------------------------------------------- >>split
-// The next level, of which only a part is made: what touches an active vertex. All of it would do;
-// but where a region is regular, a patch is its surface (see >>patches). Active
-// are the vertices of the faces that are not yet regular. A face-vertex makes a child face if its
-// vertex is active: the children of such a face and the ring of faces around them.
+// The next level as a mesh, of which only a part is made: what touches an active vertex. All of it
+// would do, and does under SUBDIV_PLAIN; but where a region is regular, a patch is its surface (see
+// >>patches). Active are the vertices of rough faces, those that are not yet regular. A face-vertex
+// makes a child face if its vertex is active: the children of such a face and the ring of faces
+// around them.
 
 typedef struct sdv_split {
     unsigned char *active;              // [vertex_count]
@@ -7591,7 +7638,8 @@ static void sdv_split_points(const sdv_level *level, const sdv_split *split, sdv
         sdv_split_point(next, split->face[f], 0, sdv_face_end(level, f) - sdv_face_start(level, f));
     for (int h = 0; h < level->face_vertex_count; h++)
         if (sdv_is_edge(level, h))
-            sdv_split_point(next, split->edge[h], 0,
+            sdv_split_point(next, split->edge[h],
+                            rules->straight && level->across[h] == h ? SDV_IMPLIED : 0,
                             (rules->loop ? 3 : 2) * sdv_edge_faces(level, h));
 }
 
@@ -7669,15 +7717,24 @@ static void sdv_split_inside(sdv_level *next, int at, int other)
     next->sharpness[at] = 0;
 }
 
+// Returns the place of vertex i of a face; 3 of a triangle: across from vertex 0.
+static sdv_place sdv_vertex_place(sdv_place face, int loop, int i)
+{
+    face.row += face.step * (i >= 2);
+    face.column += face.step * (loop ? i & 1 : i == 1 || i == 2);
+    return face;
+}
+
 // Sets the place of the child of face f at vertex i, or in Loop of the middle child, number 3,
 // which is turned. grid: the face-vertex whose grid the child is on if f is a face of the cage.
 static void sdv_place_child(const sdv_level *level, int f, int grid, int i, sdv_level *next,
                             int child)
 {
-    int loop = next->face_size == 3, right = loop ? i & 1 : i == 1 || i == 2, up = i >= 2;
+    int loop = next->face_size == 3;
     sdv_place place = sdv_place_of(level, f, grid);
-    place.row = 2 * place.row + place.step * up;
-    place.column = 2 * place.column + place.step * right;
+    place.row *= 2;
+    place.column *= 2;
+    place = sdv_vertex_place(place, loop, i);
     if (loop && i == 3) place.step = -place.step;
     next->places[child] = place;
     next->core[child] = level->rough[f];
@@ -7745,6 +7802,95 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     sdv_level_fade(next);
 }
 
+// Writes the rows from a level to the next: face points first, as the others are made from them.
+// Among the points of the next level, vertex points come first, then face points, then edge points.
+static void sdv_split_rows(sdv_level *level, const sdv_rules *rules, const sdv_split *split,
+                           sdv_writer *writer, sdv_batches *refine)
+{
+    int next = level->first_point + level->vertex_count, faces = next + split->vertex_points;
+    int edges = faces + split->face_points;
+    for (int f = 0; f < level->face_count && !rules->loop && !writer->context->result; f++) {
+        level->face_point[f] = next + split->face[f];
+        if (split->face[f] >= 0) sdv_face_row(level, f, level->face_point[f], writer);
+    }
+    sdv_end_batches(writer, &refine[0]);
+    for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
+        if (split->active[v]) sdv_vertex_row(level, rules, v, next++, writer);
+    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
+        if (split->edge[h] >= 0 && sdv_is_edge(level, h))
+            sdv_edge_row(level, rules, h, edges++, writer);
+    sdv_end_batches(writer, &refine[1]);
+}
+
+// Makes the next level of a level, and the rows to it.
+static void sdv_split_step(sdv_writer *writer, const sdv_rules *rules, sdv_level *level,
+                           sdv_split *split, sdv_level *next, sdv_batches *refine,
+                           sdv_arena *next_arena, sdv_arena *scratch)
+{
+    sdv_context *context = writer->context;
+    sdv_split_new(context, scratch, level, split);
+    if (context->result) return;
+    sdv_find_active(level, split);
+    sdv_number_faces(level, split, rules->loop);
+    sdv_number_points(level, split, rules->loop);
+    sdv_split_rows(level, rules, split, writer, refine);
+    if (!context->result) sdv_split_level(context, next_arena, level, split, next, rules);
+}
+
+// --------------------------------------------------------------------------------- >>plain
+// SUBDIV_PLAIN refines without lines, grids and frames: every level is a mesh, split whole, and a
+// mask is asked for every point, even if the same one is known. The last rows bring the points of
+// the last level, or their limit, into THE ORDER OF THE RESULT.
+
+// Adds the rows of the result, each at the first face that has the point.
+static void sdv_plain_result(const subdiv_surface *surface, const sdv_level *cage,
+                             sdv_limit_writer *limit)
+{
+    const sdv_level *level = limit->level;
+    sdv_writer *writer = limit->writer;
+    int loop = surface->rules.loop, size = loop ? 3 : 4, limits = surface->rules.limit;
+    for (int v = 0; v < cage->vertex_count; v++)
+        if (cage->vertex_first[v] < 0) sdv_stay_row(writer, limits, v, v);
+    for (int f = 0; f < level->face_count && !writer->context->result; f++) {
+        sdv_grid grid;
+        sdv_grid_at(&surface->order, level->places[f].h, &grid);
+        sdv_batch_face(writer, sdv_face_of(cage, level->places[f].h));
+        for (int i = 0; i < size; i++) {
+            int h = size * f + i, v = level->face_vertices[h];
+            sdv_place at = sdv_vertex_place(level->places[f], loop, i);
+            int target = sdv_grid_index(&grid, at.row, at.column);
+            if (level->vertex_first[v] != h) continue;
+            if (limits) sdv_limit_row(limit, sdv_first_seen(surface, level, level->vertex_next, h),
+                                      target);
+            else sdv_stay_row(writer, 0, level->first_point + v, target);
+        }
+    }
+}
+
+static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const sdv_level *cage,
+                           sdv_writer *writer, sdv_arena *scratch)
+{
+    sdv_level level = *cage, next = level;
+    sdv_limit_writer limit;
+    sdv_split split;
+    sdv_level_fade(&level);
+    for (int i = 0; i < surface->levels && !context->result; i++, level = next) {
+        double points = level.first_point + 2.0 * level.vertex_count + level.face_count;
+        memset(level.rough, 1, (size_t)level.face_count);      // so that all of it is split
+        if (points + 4.0 * level.face_vertex_count > INT_MAX)
+            sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "SUBDIV_PLAIN: a level has too many points");
+        else sdv_split_step(writer, &surface->rules, &level, &split, &next,
+                            &surface->refine[2 * i], scratch, scratch);
+    }
+    if (context->result) return;
+    surface->work_count = level.first_point + level.vertex_count;
+    sdv_begin_limit(writer, &surface->rules, &level, NULL, 1, &limit);
+    sdv_plain_result(surface, cage, &limit);
+    sdv_end_batches(writer, &surface->limit_rows);
+    sdv_array_free(&limit.masks);
+}
+
+#ifndef SUBDIV_NO_EXACT
 // ------------------------------------------------------------------------------- >>patches
 // A face whose surroundings are regular, and stay so, has a polynomial as its limit surface: that
 // of the 4 x 4 control points around it (Loop: 12 points). An edge that stays sharp forever parts
@@ -8272,26 +8418,6 @@ typedef struct sdv_exact_maker {
     sdv_array kinds, nests, nest_points, nest_faces;
 } sdv_exact_maker;
 
-// Writes the rows from a level to the next: face points first, as the others are made from them.
-// Among the points of the next level, vertex points come first, then face points, then edge points.
-static void sdv_exact_rows(sdv_level *level, const sdv_rules *rules, const sdv_split *split,
-                           sdv_writer *writer, sdv_batches *refine)
-{
-    int next = level->first_point + level->vertex_count, faces = next + split->vertex_points;
-    int edges = faces + split->face_points;
-    for (int f = 0; f < level->face_count && !rules->loop && !writer->context->result; f++) {
-        level->face_point[f] = next + split->face[f];
-        if (split->face[f] >= 0) sdv_face_row(level, f, level->face_point[f], writer);
-    }
-    sdv_end_batches(writer, &refine[0]);
-    for (int v = 0; v < level->vertex_count && !writer->context->result; v++)
-        if (split->active[v]) sdv_vertex_row(level, rules, v, next++, writer);
-    for (int h = 0; h < level->face_vertex_count && !writer->context->result; h++)
-        if (split->edge[h] >= 0 && sdv_is_edge(level, h))
-            sdv_edge_row(level, rules, h, edges++, writer);
-    sdv_end_batches(writer, &refine[1]);
-}
-
 // Makes the point of a row, in doubles: points of fine levels differ in their last digits alone.
 SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const float *weights,
                               double *work)
@@ -8496,22 +8622,6 @@ static void sdv_part_triangles(sdv_level *level, int dart)
         }
 }
 
-// Makes the next level of a level, and the rows to it.
-static void sdv_exact_step(sdv_exact_maker *maker, sdv_level *level, sdv_split *split,
-                           sdv_level *next, sdv_batches *refine, sdv_arena *next_arena,
-                           sdv_arena *scratch)
-{
-    const sdv_rules *rules = &maker->surface->rules;
-    sdv_context *context = maker->writer->context;
-    sdv_split_new(context, scratch, level, split);
-    if (context->result) return;
-    sdv_find_active(level, split);
-    sdv_number_faces(level, split, rules->loop);
-    sdv_number_points(level, split, rules->loop);
-    sdv_exact_rows(level, rules, split, maker->writer, refine);
-    if (!context->result) sdv_split_level(context, next_arena, level, split, next, rules);
-}
-
 // Makes a cage of the faces of a kind of nest and the faces around them. The nest's are the core.
 static void sdv_nest_cage(sdv_context *context, sdv_arena *arena, const sdv_nest_kind *kind,
                           int loop, sdv_cage *cage)
@@ -8550,7 +8660,8 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
     kind->below = SDV_NEW(context, arena, int, kind->points);
     if (!context->result) sdv_nest_cage(context, scratch, kind, rules->loop, &cage);
     if (context->result) return;
-    sdv_exact_step(maker, &cage.level, &split, &next, kind->refine, scratch, scratch);
+    sdv_split_step(maker->writer, rules, &cage.level, &split, &next, kind->refine, scratch,
+                   scratch);
     if (context->result) return;
     kind->work_count = next.first_point + next.vertex_count;
     sdv_find_patches(maker->writer, scratch, &next, rules, &kind->patches);
@@ -8722,7 +8833,8 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     next->face_count = 0;
     if (context->result || !memchr(level->rough, 1, (size_t)level->face_count)) return;
     SUBDIV_ASSERT(depth + 1 < SDV_EXACT_LEVELS);
-    sdv_exact_step(maker, level, &split, next, &surface->refine[2 * depth], next_arena, &scratch);
+    sdv_split_step(maker->writer, &surface->rules, level, &split, next,
+                   &surface->refine[2 * depth], next_arena, &scratch);
     sdv_arena_free(&scratch);
 }
 
@@ -10551,7 +10663,7 @@ static int sdv_whole_point(const sdv_stencil_maker *make, int point)
 {
     const subdiv_surface *surface = make->surface;
     int level = 0, row, column;
-    if (surface->exact || surface->levels == 0) return point;
+    if (!surface->orders) return point;
     while (level < surface->levels && point >= surface->bases[level + 1]) level++;
     const sdv_order *from = &surface->orders[level];
     int base = make->bases[level];
@@ -10584,7 +10696,7 @@ static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches
     }
 }
 
-// Level i is step 2 i, and face points of the cage are step 1. Of SUBDIV_EXACT, face points have a
+// Level i is step 2 i, and face points of the cage are step 1. Without orders, face points have a
 // step of their own on all levels.
 static void sdv_note_rows(sdv_stencil_maker *make)
 {
@@ -10596,9 +10708,10 @@ static void sdv_note_rows(sdv_stencil_maker *make)
     make->steps = SDV_NEW(make->context, &make->arena, unsigned char, work);
     if (make->context->result) return;
     for (size_t i = 0; i < count; i++) make->rows[i] = NULL;
-    for (int i = 0; i < 2 * levels && surface->exact; i++)
+    sdv_note_batches(make, &surface->limit_rows, 1, 0);
+    for (int i = 0; i < 2 * levels && !surface->orders; i++)
         sdv_note_batches(make, &surface->refine[i], 0, i + 1);
-    if (surface->exact || levels == 0) return;
+    if (!surface->orders) return;
     for (int i = 0; i <= levels; i++)
         memset(make->steps + make->bases[i], 2 * i,
                (size_t)make->bases[i + 1] - (size_t)make->bases[i]);
@@ -10606,7 +10719,6 @@ static void sdv_note_rows(sdv_stencil_maker *make)
         int last = i + 1 == levels && !limit;
         sdv_note_batches(make, &surface->refine[i], last, 2 * i + 2);
     }
-    if (limit) sdv_note_batches(make, &surface->limit_rows, 1, 0);
     if (!surface->rules.loop)
         memset(make->steps + sdv_first_face_point(surface), 1, (size_t)surface->cage_face_count);
 }
@@ -10620,7 +10732,7 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     make->parts = parts;
     make->arena = sdv_scratch();
     make->work_count = surface->work_count;
-    if (!surface->exact && surface->levels > 0) {
+    if (surface->orders) {
         make->bases = sdv_find_bases(context, &make->arena, surface, 1);
         if (!context->result) make->work_count = make->bases[surface->levels + 1];
     }

@@ -19,22 +19,22 @@ c() {
 }
 
 c c99 $from/c99.c
-c two_files $from/two_files_a.c $from/two_files_b.c
+step "two_files in C" $CC -std=c99 $warn -I. -c $from/two_files_a.c -o $out/two_files_a.o
+c two_files $from/two_files_b.c $out/two_files_a.o
 c include_twice $from/include_twice.c
-c decorated $from/decorated.c
-c other_macros $from/other_macros.c
-c no_stdio $from/no_stdio.c
 # Private copies of all functions are more than one file uses.
-c static_twice -Wno-unused-function $from/static_twice_a.c $from/static_twice_b.c
+c private -Wno-unused-function $from/private_a.c $from/private_b.c
 
 # Nothing that opens, reads, writes or prints may be left under SUBDIV_NO_STDIO.
-$CC -std=c99 -DNDEBUG -I. -c $from/no_stdio.c -o $out/no_stdio.o
+step "no_stdio with assert" $CC -std=c99 $warn -I. -fsyntax-only $from/no_stdio.c
+step "no_stdio compiles" $CC -std=c99 $warn -DNDEBUG -I. -c $from/no_stdio.c -o $out/no_stdio.o
+c no_stdio $out/no_stdio.o
 if nm -u $out/no_stdio.o > $out/symbols 2> $out/log && [ -s $out/symbols ]; then
     files='f(open|close|read|write|error|flush|put[cs])|puts|printf|std(in|out|err)'
     step "no_stdio references no files" sh -c "! grep -E '$files' $out/symbols"
 fi
 
-# Less of the library, each part left out alone and all of them together. parts.c is C++ as well.
+# Less of the library, each part left out alone and all of them together; in C++, too.
 # What is left out is not there.
 exact='subdiv_(evaluate_at|tessellate|surface_tessellate|stencils_at)'
 tools='subdiv_(explain|check|inspect|crease_by_(angle|smoothing_groups|uv_seams))'
@@ -47,9 +47,7 @@ without() {
     shift 2
     c $name "$@" $from/parts.c
     if command -v $CXX > $out/log; then
-        step "$name compiles in C++" $CXX -x c++ -std=c++11 $warn -I. "$@" $from/parts.c \
-            -o $out/${name}_cpp -lm
-        step "$name runs in C++" $out/${name}_cpp
+        step "$name in C++" $CXX -x c++ -std=c++11 $warn -I. "$@" -fsyntax-only $from/parts.c
     fi
     if nm $out/$name > $out/symbols 2> $out/log; then
         step "$name has none of it" sh -c "! grep -E ' _?$functions' $out/symbols"
@@ -59,7 +57,8 @@ without() {
 without exact "$exact" -DSUBDIV_NO_EXACT
 without tools "$tools" -DSUBDIV_NO_TOOLS
 without obj "$obj" -DSUBDIV_NO_OBJ
-without all "($exact|$tools|$obj)" -DSUBDIV_NO_EXACT -DSUBDIV_NO_TOOLS -DSUBDIV_NO_OBJ
+least="-DSUBDIV_NO_EXACT -DSUBDIV_NO_TOOLS -DSUBDIV_NO_OBJ"
+without all "($exact|$tools|$obj)" $least
 
 # macros FLAGS...: prints what the header has defined and not undefined, apart from SUBDIV_...
 macros() {
@@ -76,7 +75,7 @@ macros() {
 if $CC -E -dD -x c /dev/null > $out/log 2>&1; then
     step "no private macro is left" macros
     step "nor without SIMD" macros -DSUBDIV_NO_SIMD
-    step "nor of less" macros -DSUBDIV_NO_EXACT -DSUBDIV_NO_TOOLS -DSUBDIV_NO_OBJ -DSUBDIV_NO_STDIO
+    step "nor of less" macros $least -DSUBDIV_NO_STDIO
 fi
 
 # The command line for Windows, where MinGW is installed.
@@ -90,7 +89,9 @@ more=
 if command -v $CXX > $out/log; then
     step "cpp11 compiles" $CXX -std=c++11 $warn -I. $from/cpp11.cpp -o $out/cpp11 -lm
     step "cpp11 runs" $out/cpp11
-    step "two_files in C" $CC -std=c99 $warn -I. -c $from/two_files_a.c -o $out/two_files_a.o
+    step "without_all compiles in C++" $CXX -x c++ -std=c++11 $warn -I. $least $from/parts.c \
+        -o $out/without_all_cpp -lm
+    step "without_all runs in C++" $out/without_all_cpp
     step "two_files in C and C++" $CXX -std=c++11 $warn -I. $from/two_files_b.cpp \
         $out/two_files_a.o -o $out/two_files_cpp -lm
     step "two_files in C and C++ runs" $out/two_files_cpp

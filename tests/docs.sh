@@ -1,7 +1,9 @@
 #!/bin/sh
-# Compiles and runs what the documentation shows: the programs in the opening comment of subdiv.h,
-# and the first complete C program of README.md if there is one. CC names the compiler.
+# docs.sh OBJECT: compiles and runs what the documentation shows: the programs in the opening
+# comment of subdiv.h, and the first complete C program of README.md if there is one. The first has
+# an implementation of its own, the others have that of OBJECT. CC names the compiler.
 CC=${CC:-cc}
+object=$1
 flags="-std=c99 -Wall -Wextra -Wpedantic -Werror -I."
 out=build/docs
 rm -rf $out
@@ -27,12 +29,14 @@ f 3 4 8 7
 f 4 1 5 8
 END
 
-# refines NAME: in its folder the program makes a fine.obj that is a closed mesh of quads.
+# refines NAME WITH...: in its folder the program makes a fine.obj that is a closed mesh of quads.
 refines() {
+    program=$1
+    shift
     rm -f $out/fine.obj
-    step "$1 compiles" $CC $flags $out/$1.c -o $out/$1 -lm
-    step "$1 runs" sh -c "cd $out && ./$1"
-    step "$1 refines" awk '/^v / { v++ } /^f / && NF == 5 { f++ }
+    step "$program compiles" $CC $flags $out/$program.c "$@" -o $out/$program -lm
+    step "$program runs" sh -c "cd $out && ./$program"
+    step "$program refines" awk '/^v / { v++ } /^f / && NF == 5 { f++ }
                            END { exit !(f > 6 && v == f + 2) }' $out/fine.obj
 }
 
@@ -58,7 +62,7 @@ mv $out/cage.kept $out/cage.obj
     echo '    return (int)result;'
     echo '}'
 } > $out/by_hand.c
-refines by_hand
+refines by_hand -DSUBDIV_IMPLEMENTED "$object"
 step "by_hand has one crease left" test "$(grep -c '^t crease ' $out/fine.obj)" = 4
 
 # The programs are C++ as well.
@@ -78,7 +82,7 @@ if [ -f README.md ]; then
     awk '/^```/ { if (inside && main) { printf "%s", text; exit }
                   inside = !inside; main = 0; text = ""; next }
          inside { text = text $0 "\n"; if (/int main\(/) main = 1 }' README.md > $out/readme.c
-    if [ -s $out/readme.c ]; then refines readme; fi
+    if [ -s $out/readme.c ]; then refines readme -DSUBDIV_IMPLEMENTED "$object"; fi
 fi
 
 # README.md names every public function, some of them by their last words, and every option.

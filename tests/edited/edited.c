@@ -1,13 +1,21 @@
-// What holds of any masks: compiled by tests/edited.sh with the header as it is, and with one mask
-// changed at a time.
+// What holds of any masks: with the header of tests/edited.sh, in which edited() says whether a
+// mask gets other weights, for the masks as they are and with one changed at a time.
 //
-//     edited FILE                    checks, and writes points of a few cages to FILE
-//     edited FILE OTHER CAGE         all points of the cage that the mask is for differ in both
+//     edited check FILE EDIT NEVER   checks, and writes points of a few cages to FILE
+//     edited moves FILE OTHER CAGE   all points of the cage that the mask is for differ in both
 //
 // The checks: three times one level is three levels; the limit is where far refinement leads;
 // SUBDIV_EXACT agrees with the limit or refuses; the text of subdiv_explain has the weights that
 // are added up, and no formula NEVER.
 #include <stdlib.h>
+#include <string.h>
+
+static const char *edit = "", *never = "";      // the edit; a formula that is not true of its masks
+
+static int edited(const char *name)
+{
+    return strcmp(edit, name) == 0;
+}
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
@@ -15,10 +23,6 @@
 #include "lib/random_cage.h"
 #include "lib/same.h"
 #include "lib/test.h"
-
-#ifndef NEVER
-#define NEVER ""                      // a formula that is not true of the masks
-#endif
 
 static double size_of(const subdiv_mesh *m)
 {
@@ -148,7 +152,7 @@ static void check_explain(const subdiv_mesh *cage)
         double sum[3], weights;
         CHECK_EQUAL(subdiv_explain(text, sizeof text, cage, i, NULL), SUBDIV_OK);
         add_up(text, cage, sum, &weights);
-        CHECK(!*NEVER || !strstr(text, NEVER));
+        CHECK(!*never || !strstr(text, never));
         CHECK_NEAR(weights, 1, 1e-5);
         for (int k = 0; k < 3; k++)
             CHECK_NEAR(sum[k], fine.positions[3 * i + k], 1e-5 * size_of(cage));
@@ -254,20 +258,33 @@ static int count_still(FILE *a, FILE *b, const char *name, int *points)
     return still;
 }
 
-int main(int count, char **arguments)
+static int check(const char *path)
 {
-    FILE *file = fopen(arguments[1], count > 2 ? "r" : "w");
-    FILE *other = count > 3 ? fopen(arguments[2], "r") : NULL;
-    int points = 0;
+    FILE *file = fopen(path, "w");
     if (!file) return 1;
-    if (other) {
-        int still = count_still(file, other, arguments[3], &points);
-        if (still || !points) printf("%d of %d points do not move\n", still, points);
-        return still || !points;
-    }
     RUN(test_random);
     RUN(test_cages);
     write_points(file);
     fclose(file);
     return test_end("edited");
+}
+
+static int moves(const char *path, const char *other_path, const char *cage)
+{
+    FILE *file = fopen(path, "r"), *other = fopen(other_path, "r");
+    int points = 0, still = file && other ? count_still(file, other, cage, &points) : 0;
+    if (file) fclose(file);
+    if (other) fclose(other);
+    if (still || !points) printf("%d of %d points do not move\n", still, points);
+    return still || !points;
+}
+
+int main(int count, char **arguments)
+{
+    if (count != 5) return 1;
+    if (strcmp(arguments[1], "moves") == 0)
+        return moves(arguments[2], arguments[3], arguments[4]);
+    edit = arguments[3];
+    never = arguments[4];
+    return check(arguments[2]);
 }

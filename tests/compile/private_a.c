@@ -1,4 +1,5 @@
-// Macros of the user's own: a decoration of the functions, an allocator and an assert.
+// Macros of the user's own: a decoration of the functions, an allocator and an assert. And one of
+// two files with an implementation of their own each, linked together.
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -18,8 +19,10 @@ static void *counted_malloc(size_t size)
 #include "subdiv.h"
 #include "cube.h"
 
+int cube_is_right_in_b(void);
+
 int main(void)
 {
     int used = cube_is_right();
-    return !used || allocations != 0;
+    return !used || allocations != 0 || !cube_is_right_in_b();
 }

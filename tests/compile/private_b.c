@@ -1,4 +1,4 @@
-// The other of the two files, see static_twice_a.c.
+// The other of the two files, see private_a.c.
 #define SUBDIV_STATIC
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
