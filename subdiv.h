@@ -1664,10 +1664,11 @@ typedef struct sdv_level {
     const struct sdv_order *order;      // where the cage's points stand on a later level, or NULL
     int   *face_point;                  // [face_count]         work points of the face points
 
-    // Faces under SUBDIV_EXACT.
+    // Faces and vertices under SUBDIV_EXACT.
     sdv_place *places;                  // [face_count]         where they are; NULL on level 0
     unsigned char *core;                // [face_count]         becomes leaves
     unsigned char *rough;               // [face_count]         in the core, and not a patch
+    unsigned char *kinds;               // [vertex_count]       how the surface goes on: sdv_kind
 } sdv_level;
 
 // A face has the face-vertices from sdv_face_start up to, but without, sdv_face_end.
@@ -1764,6 +1765,7 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
     level->face_point = SDV_NEW(context, arena, int, faces);
     level->core = SDV_NEW(context, arena, unsigned char, faces);
     level->rough = SDV_NEW(context, arena, unsigned char, faces);
+    level->kinds = SDV_NEW(context, arena, unsigned char, vertices);
     if (!context->result) memset(level->creased, 0, vertices);
 }
 
@@ -1914,7 +1916,8 @@ static float sdv_clamp_sharpness(float s)
     return s > SUBDIV_INFINITE ? SUBDIV_INFINITE : s > 0 ? s : 0;
 }
 
-// The user's creases and corners. A crease that is no edge is skipped.
+// The user's creases, each at the first face-vertex of its edge, and corners. A crease that is no
+// edge is skipped.
 static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const subdiv_mesh *mesh)
 {
     memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
@@ -1923,7 +1926,7 @@ static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const sub
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
         int e = sdv_find_edge(level, a, b);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
-        else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
+        else level->sharpness[level->edge_first[e]] = sdv_clamp_sharpness(mesh->crease_sharpness[i]);
     }
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
@@ -1942,13 +1945,14 @@ enum { SDV_DROPPED = 2 };
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (!sdv_is_boundary(level, h) || level->sharpness[h] >= SUBDIV_INFINITE) continue;
-        int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
-        for (int i = 0; i < 2; i++)
-            for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
-                cage->hole[sdv_face_of(level, k)] = SDV_DROPPED;
-    }
+    const int *vertices = level->face_vertices;
+    unsigned char *open = cage->vertex_nonmanifold;             // which is not yet known
+    memset(open, 0, (size_t)level->vertex_count);
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (sdv_is_boundary(level, h) && level->sharpness[h] < SUBDIV_INFINITE)
+            open[vertices[h]] = open[vertices[sdv_next(level, h)]] = 1;
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (open[vertices[h]]) cage->hole[sdv_face_of(level, h)] = SDV_DROPPED;
 }
 
 // Around a vertex: how many edges, and of them boundary and non-manifold ones.
@@ -1981,7 +1985,7 @@ static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 
 // Adds what is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
 // vertices with one face; non-manifold vertices, but for a non-manifold edge that runs through.
-// Marks the ends of all sharp edges.
+// Gives the sharpness of an edge to all its face-vertices, and marks the ends of sharp edges.
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
@@ -1989,9 +1993,10 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
-        if ((odd || sdv_is_boundary(level, h)) && level->sharpness[h] < SUBDIV_INFINITE)
-            sdv_sharpen_edge(level, e, SDV_IMPLIED);
-        if (level->sharpness[h] <= 0) continue;
+        float s = level->sharpness[h];
+        if ((odd || sdv_is_boundary(level, h)) && s < SUBDIV_INFINITE) s = SDV_IMPLIED;
+        if (s <= 0) continue;
+        sdv_sharpen_edge(level, e, s);
         int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
         if (odd) nonmanifold[a] = nonmanifold[b] = 1;
         level->creased[a] = level->creased[b] = 1;
@@ -2256,11 +2261,14 @@ static int sdv_across(const sdv_level *level, int h)
     return level->sharpness[h] > 0 || q == h ? -1 : q;
 }
 
+// Only an edge with three faces or more is known by its ends.
 static int sdv_same_edge(const sdv_level *level, int h, int other)
 {
-    int k = h;
-    while (k != other && level->across[k] != h) k = level->across[k];
-    return k == other;
+    const int *v = level->face_vertices, *across = level->across;
+    if (across[across[h]] == h || across[across[other]] == other)
+        return h == other || across[h] == other;
+    int a = v[sdv_next(level, h)], b = v[sdv_next(level, other)];
+    return (v[h] == v[other] && a == b) || (v[h] == b && a == v[other]);
 }
 
 // The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
@@ -7595,8 +7603,9 @@ static int sdv_find_strips(sdv_writer *writer, float low, float high)
 // Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
 // which semi-sharp, and how its vertices' fans go on. Does it have a patch?
 static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                         const unsigned char *kinds, int h, int size, sdv_patch *patch)
+                         int h, int size, sdv_patch *patch)
 {
+    const unsigned char *kinds = level->kinds;
     float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
@@ -7620,7 +7629,7 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
 
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                          const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
+                          int f, int is_free, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
     sdv_place place = sdv_place_of(level, f, h);
@@ -7630,13 +7639,13 @@ static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_
     patch->row = place.row;
     patch->column = place.column;
     patch->step = (signed char)place.step;
-    return is_free || sdv_find_fans(writer, level, rules, kinds, h, size, patch);
+    return is_free || sdv_find_fans(writer, level, rules, h, size, patch);
 }
 
 // Returns the kinds of a face's vertices, or rough if the face does not have the regular size.
-static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
-                                 int size)
+static inline int sdv_face_kinds(const sdv_level *level, int f, int size)
 {
+    const unsigned char *kinds = level->kinds;
     int start = sdv_face_start(level, f);
     const int *v = level->face_vertices + start;
     if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
@@ -7650,27 +7659,24 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
                              const sdv_rules *rules, sdv_patches *patches)
 {
     sdv_context *context = writer->context;
-    sdv_arena scratch = sdv_scratch();
     int size = rules->loop ? 3 : 4, most = level->face_count;
     size_t width = (size_t)sdv_control_points(rules);
     memcpy(level->rough, level->core, (size_t)level->face_count);
-    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++)
-        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
-    for (int f = 0; f < level->face_count && !context->result; f++)
-        most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
+    for (int v = 0; v < level->vertex_count; v++)
+        level->kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
+    for (int f = 0; f < level->face_count; f++)
+        most -= !level->core[f] || (sdv_face_kinds(level, f, size) & SDV_ROUGH);
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
     patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
+        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, f, size);
         sdv_patch *patch = &patches->items[patches->count];
         if (!level->core[f] || (found & SDV_ROUGH)) continue;
-        if (!sdv_make_patch(writer, level, rules, kinds, f, found == SDV_FREE, patch)) continue;
+        if (!sdv_make_patch(writer, level, rules, f, found == SDV_FREE, patch)) continue;
         sdv_gather(level, rules, patch, h, patches->points + width * (size_t)patches->count);
         level->rough[f] = 0;
         patches->count++;
     }
-    sdv_arena_free(&scratch);
 }
 
 // -------------------------------------------------------------------------- >>exact-surface
@@ -8088,27 +8094,36 @@ static int sdv_vertex_settled(const sdv_level *level, int v)
     return settled;
 }
 
-// Is the vertex of h regular as seen from its face, with nothing semi-sharp?
-static sdv_fan sdv_fan_at(const sdv_level *level, const sdv_rules *rules, int h)
+// Returns the rule of a vertex that may have nests: nothing is semi-sharp there, nor at its partner.
+// Any other vertex has the rule SDV_NO_NEST.
+enum { SDV_NO_NEST = SDV_CORNER + 1 };
+
+static int sdv_nest_rule(const sdv_level *level, int v)
 {
-    sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h]);
-    return kind == SDV_LINED ? SDV_FAN_ROUGH : sdv_find_fan(level, kind, h, rules->loop);
+    int partner = level->partner ? level->partner[v] : -1;
+    if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
+        return SDV_NO_NEST;
+    return sdv_vertex_fading(level, v).rule;
+}
+
+// Is the vertex of h regular as seen from its face, with nothing semi-sharp?
+static sdv_fan sdv_fan_at(const sdv_level *level, int loop, int h)
+{
+    sdv_kind kind = (sdv_kind)level->kinds[level->face_vertices[h]];
+    return kind == SDV_LINED ? SDV_FAN_ROUGH : sdv_find_fan(level, kind, h, loop);
 }
 
 // Are the neighbours in the faces from h on regular, creased only along the first and last edge?
-static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, int faces, int ring)
+static int sdv_is_nest(const sdv_level *level, int loop, int h, int faces, int ring)
 {
-    int v = level->face_vertices[h], partner = level->partner ? level->partner[v] : -1;
-    if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
-        return 0;
     for (int i = 0; i < faces; i++) {
         int next = sdv_next(level, h), before = sdv_previous(level, h);
-        sdv_fan fan = sdv_fan_at(level, rules, next);
+        sdv_fan fan = sdv_fan_at(level, loop, next);
         if (i > 0 || ring ? fan != SDV_FAN_RING : fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)
             return 0;
-        if (rules->loop ? level->sharpness[next] > 0
-                        : sdv_fan_at(level, rules, sdv_next(level, next)) != SDV_FAN_RING) return 0;
-        fan = sdv_fan_at(level, rules, before);
+        if (loop ? level->sharpness[next] > 0
+                 : sdv_fan_at(level, loop, sdv_next(level, next)) != SDV_FAN_RING) return 0;
+        fan = sdv_fan_at(level, loop, before);
         if (i + 1 == faces && !ring && (fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)) return 0;
         if (i + 1 < faces) h = sdv_around(level, h);
     }
@@ -8143,23 +8158,24 @@ static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, in
     }
 }
 
-// Looks for a nest at the vertex of h, and marks the face-vertices there as seen.
+// Looks for a nest at the vertex of h, which has this rule, and marks its face-vertices as seen.
 static void sdv_find_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h,
-                          unsigned char *seen)
+                          int at_vertex, unsigned char *seen)
 {
     int first = h, last, faces = 1, i;
     while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
     int ring = i == h;
     seen[last = first] = 1;
     for (; (i = sdv_counter_clockwise(level, last)) >= 0 && i != first; faces++) seen[last = i] = 1;
-    sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
+    if (at_vertex == SDV_NO_NEST) return;
+    sdv_rule rule = (sdv_rule)at_vertex;
     // A slit: the faces begin and end at the same sharp edge, which at a dart is the only one.
     // Apart: at a vertex that is not manifold a crease may run beside these faces, not along them;
     // then they have no nest before the last level, where the vertex has all but arrived.
     int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
     int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
     if (apart && depth + 1 < SDV_EXACT_LEVELS) return;
-    if (!sdv_is_nest(level, &maker->surface->rules, first, faces, ring)) return;
+    if (!sdv_is_nest(level, maker->surface->rules.loop, first, faces, ring)) return;
     if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
     sdv_new_nest(maker, level, depth, first, faces, ring || dart, rule);
 }
@@ -8170,11 +8186,16 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
     sdv_context *context = maker->writer->context;
     sdv_arena scratch = sdv_scratch();
     unsigned char *seen = SDV_NEW(context, &scratch, unsigned char, level->face_vertex_count);
-    if (seen) memset(seen, 0, (size_t)level->face_vertex_count);
-    for (int h = 0; h < level->face_vertex_count && !context->result; h++)
-        if (level->rough[sdv_face_of(level, h)] && !seen[h] &&
-            sdv_fan_at(level, &maker->surface->rules, h) == SDV_FAN_ROUGH)
-            sdv_find_nest(maker, level, depth, h, seen);
+    signed char *rules = SDV_NEW(context, &scratch, signed char, level->vertex_count);
+    if (!context->result) memset(seen, 0, (size_t)level->face_vertex_count);
+    if (!context->result) memset(rules, -1, (size_t)level->vertex_count);
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) {
+        if (!level->rough[sdv_face_of(level, h)] || seen[h] ||
+            sdv_fan_at(level, maker->surface->rules.loop, h) != SDV_FAN_ROUGH) continue;
+        signed char *rule = &rules[level->face_vertices[h]];
+        if (*rule < 0) *rule = (signed char)sdv_nest_rule(level, level->face_vertices[h]);
+        sdv_find_nest(maker, level, depth, h, *rule, seen);
+    }
     sdv_arena_free(&scratch);
 }
 
@@ -10811,6 +10832,7 @@ typedef struct sdv_inside {
     int margin;                         // pieces that strips replace at column 0 and row 0,
     int last;                           // and at the last column and row
     int across;                         // the one side that is joined with the side across, or -1
+    int most;                           // pieces along a side, of the grid or of an edge
 } sdv_inside;
 
 typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
@@ -11406,11 +11428,7 @@ static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, i
 // belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
-    int most = tile->grid->columns > tile->grid->rows ? tile->grid->columns : tile->grid->rows;
-    for (int i = 0; i < tile->sides; i++) {
-        int rate = (sdv_edge_rate(tile, i) - 1) / (1 + tile->ngon) + 1;
-        if (rate > most) most = rate;
-    }
+    int most = tile->grid->most;
     sdv_area area = sdv_nest_area(tile, face, 0, 0);
     int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
     int corner = (x == 0 || x == units) && (y == 0 || y == units), depth = 0;
@@ -11484,6 +11502,20 @@ static void sdv_tile_points_job(void *context, int job)
     sdv_arena_free(&arena);
 }
 
+// Finds the largest number of pieces along a side of each grid.
+static void sdv_find_most_pieces(const sdv_tiling *tiling)
+{
+    for (int f = 0; f < tiling->cage->face_count; f++) {
+        sdv_tile tile = sdv_tile_at(tiling, f);
+        int most = tile.grid->columns > tile.grid->rows ? tile.grid->columns : tile.grid->rows;
+        for (int i = 0; i < tile.sides; i++) {
+            int rate = (sdv_edge_rate(&tile, i) - 1) / (1 + tile.ngon) + 1;
+            if (rate > most) most = rate;
+        }
+        tile.grid->most = most;
+    }
+}
+
 // Makes the first count points of a tiling and, unless NULL, their normals.
 static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
                                  const sdv_tiling *tiling, const sdv_exact_work *source,
@@ -11495,6 +11527,7 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     sdv_window out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     sdv_leaf_points l;
     if (context->result) return;
+    sdv_find_most_pieces(tiling);
     memset(&l, 0, sizeof l);
     l.tiling = tiling;
     l.source = source;
