@@ -115,6 +115,8 @@
    * Limit: OpenSubdiv leaves a smooth Catmull-Clark vertex of valence 2 where it is. Its tangents
      at a crease or boundary are wrong unless there are 1 or 2 faces (Loop: 1 to 3) on that side.
      It writes them out of bounds where a vertex has more faces than edges.
+   * A crease of two non-manifold edges runs through a vertex only if every sheet of faces there
+     leads from the one to the other; else the vertex is sharp. OpenSubdiv only counts faces.
    * UVs: where values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
    * Defaults: the boundary is "edge", not "none"; the rule for UVs is "corners only", not "all".
      Indices are checked. Valence has no limit.
@@ -417,10 +419,9 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // an infinite crease it is only near the true limit, and nearer with each level.
 //
 // A point has one normal and two tangents, the same in every call. On a crease they belong to the
-// surface on one side. At a corner, and where non-manifold faces are no fan between two creases,
-// they are those of two edges of one face. The normal is 0 where there is none: without faces,
-// between two triangles back to back, where a tangent is 0, and where both are parallel to within
-// 1e-6.
+// surface on one side. At a corner they are those of two edges of one face. The normal is 0 where
+// there is none: without faces, between two triangles back to back, where a tangent is 0, and where
+// both are parallel to within 1e-6.
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -1925,8 +1926,9 @@ static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const sub
     for (int i = 0; i < mesh->crease_count; i++) {
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
         int e = sdv_find_edge(level, a, b);
+        float s = sdv_clamp_sharpness(mesh->crease_sharpness[i]);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
-        else level->sharpness[level->edge_first[e]] = sdv_clamp_sharpness(mesh->crease_sharpness[i]);
+        else level->sharpness[level->edge_first[e]] = s;
     }
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
@@ -1976,11 +1978,24 @@ static sdv_edges_at sdv_count_edges_at(const sdv_cage *cage, int v)
     return edges;
 }
 
+// Does a crease of two non-manifold edges run through v? Then each sheet of faces there leads from
+// the one edge to the other, and there are at least three. Walks from the first face of each sheet
+// to its last, counter-clockwise; faces of a ring are not met.
 static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 {
+    const sdv_level *level = &cage->level;
+    const unsigned char *odd = cage->edge_nonmanifold;
     sdv_edges_at edges = sdv_count_edges_at(cage, v);
-    return edges.nonmanifold == 2 && edges.boundary == 0 &&
-           cage->level.vertex_faces[v] > edges.count;
+    int met = 0;
+    if (edges.nonmanifold != 2 || edges.boundary > 0) return 0;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int from = level->face_edges[h], last = sdv_previous(level, h);
+        if (!odd[from]) continue;
+        for (met++; !odd[level->face_edges[last]]; met++)
+            last = sdv_previous(level, level->across[last]);
+        if (level->face_edges[last] == from) return 0;
+    }
+    return met == level->vertex_faces[v] && met > edges.count;
 }
 
 // Adds what is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
@@ -2259,16 +2274,6 @@ static int sdv_across(const sdv_level *level, int h)
 {
     int q = level->across[h];
     return level->sharpness[h] > 0 || q == h ? -1 : q;
-}
-
-// Only an edge with three faces or more is known by its ends.
-static int sdv_same_edge(const sdv_level *level, int h, int other)
-{
-    const int *v = level->face_vertices, *across = level->across;
-    if (across[across[h]] == h || across[across[other]] == other)
-        return h == other || across[h] == other;
-    int a = v[sdv_next(level, h)], b = v[sdv_next(level, other)];
-    return (v[h] == v[other] && a == b) || (v[h] == b && a == v[other]);
 }
 
 // The next face-vertex at the same vertex, clockwise and counter-clockwise, or -1.
@@ -4202,11 +4207,8 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
 
 // The weights of a limit row depend on its kind and on the number of faces. A ring is a smooth
 // vertex with all its faces, a span a crease with the faces on one side, a tip a corner: its
-// tangents are two edges of a face. A loose crease or ring has the tangents of a tip, as its faces
-// are no such fan: a crease is non-manifold or a vertex is twice in a face.
-typedef enum sdv_limit_kind {
-    SDV_RING, SDV_SPAN, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING, SDV_LIMIT_KINDS
-} sdv_limit_kind;
+// tangents are two edges of a face.
+typedef enum sdv_limit_kind { SDV_RING, SDV_SPAN, SDV_TIP, SDV_LIMIT_KINDS } sdv_limit_kind;
 
 typedef struct sdv_limit_writer {       // writes limit rows
     sdv_writer *writer;
@@ -4217,14 +4219,12 @@ typedef struct sdv_limit_writer {       // writes limit rows
     double     *tangents;               // [2 * (2 most + 2)] room for those of a mask
 } sdv_limit_writer;
 
-// Makes the mask of a kind. Its points are in the order of sdv_add_fan or sdv_add_tip.
+// Makes the mask of a kind. Its points are in the order of sdv_limit_row.
 static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
 {
-    static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER, SDV_CREASE,
-                                                     SDV_SMOOTH };
-    int loop = limit->rules->loop, tip = kind >= SDV_TIP, first = tip ? 3 : 1;
-    int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces + (kind == SDV_SPAN);
-    int across = loop || kind == SDV_TIP || kind == SDV_LOOSE_CREASE ? 0 : faces;
+    static const sdv_rule rules[SDV_LIMIT_KINDS] = { SDV_SMOOTH, SDV_CREASE, SDV_CORNER };
+    int loop = limit->rules->loop, tip = kind == SDV_TIP, first = tip ? 3 : 1;
+    int edges = tip ? 0 : faces + (kind == SDV_SPAN), across = loop || tip ? 0 : faces;
     sdv_mask mask = sdv_limit_mask(limit->rules, rules[kind], faces);
     sdv_limit_weights made = { first + edges + across, NULL };
     double *t0 = limit->tangents, *t1 = t0 + made.count;
@@ -4261,7 +4261,7 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
 
 // Appends the points of count faces from h on, counter-clockwise: the neighbours (at a crease also
 // the one behind the last face), then the vertices across the faces.
-static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
+static void sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
 {
     int *across = point + count + crease;
     for (int i = 0; i < count; i++) {
@@ -4270,35 +4270,16 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
         if (crease && i + 1 == count) *point = sdv_point_behind(level, h);
         h = sdv_around(level, h);
     }
-    return across;
 }
 
-// Counts the faces on the side of a crease where h is, and finds the first of them. 0 if they close
-// to a ring or the same edge bounds them twice.
+// Counts the faces on the side of a crease where h is, and finds the first of them.
 static int sdv_find_span(const sdv_level *level, int h, int *first)
 {
     int count = 1, last = h, at;
     *first = h;
-    for (; (at = sdv_clockwise(level, *first)) >= 0 && at != h; count++) *first = at;
-    if (at == h) return 0;
+    for (; (at = sdv_clockwise(level, *first)) >= 0; count++) *first = at;
     for (; (at = sdv_counter_clockwise(level, last)) >= 0; count++) last = at;
-    return sdv_same_edge(level, *first, sdv_previous(level, last)) ? 0 : count;
-}
-
-// Appends the points of a tip: for the tangents, the two neighbours in the face of h; for the
-// position of a loose crease, those along it; of a loose ring, all around.
-static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
-{
-    int v = level->face_vertices[h];
-    *point++ = sdv_point_ahead(level, h);
-    *point++ = sdv_point_behind(level, h);
-    if (kind == SDV_LOOSE_CREASE) return sdv_add_neighbours(level, v, SDV_CREASE, 1, point);
-    if (kind == SDV_TIP) return point;
-    for (int i = level->vertex_first[v]; i >= 0; i = level->vertex_next[i])
-        *point++ = sdv_point_ahead(level, i);
-    for (int i = level->vertex_first[v]; i >= 0 && !loop; i = level->vertex_next[i])
-        *point++ = sdv_point_across(level, i);
-    return point;
+    return count;
 }
 
 // Adds a limit row whose points are in limit->writer->points.
@@ -4321,21 +4302,19 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
     int v = level->face_vertices[h], loop = limit->rules->loop, first = h;
-    int faces = level->vertex_faces[v], span = 0;
+    int faces = level->vertex_faces[v];
     int *point = limit->writer->points;
     sdv_rule rule = limit->rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
-    sdv_limit_kind kind = SDV_TIP;
-    if (rule == SDV_CREASE) {
-        span = sdv_find_span(level, h, &first);
-        kind = span ? SDV_SPAN : SDV_LOOSE_CREASE;
-    } else if (rule != SDV_CORNER) {
-        kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
-    }
+    sdv_limit_kind kind = rule == SDV_CORNER ? SDV_TIP : rule == SDV_CREASE ? SDV_SPAN : SDV_RING;
     *point++ = level->first_point + v;
-    if (kind == SDV_RING) point = sdv_add_fan(level, h, faces, 0, loop, point);
-    else if (kind == SDV_SPAN) point = sdv_add_fan(level, first, span, 1, loop, point);
-    else point = sdv_add_tip(level, h, kind, loop, point);
-    if (rule >= SDV_CREASE) faces = span;
+    if (kind == SDV_SPAN) faces = sdv_find_span(level, h, &first);
+    if (kind == SDV_TIP) {
+        faces = 0;
+        *point++ = sdv_point_ahead(level, h);
+        *point++ = sdv_point_behind(level, h);
+    } else {
+        sdv_add_fan(level, first, faces, kind == SDV_SPAN, loop, point);
+    }
     sdv_limit_batch_row(limit, kind, faces, target);
 }
 
@@ -7490,9 +7469,7 @@ static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int lo
         count += sdv_size_of(level, i) == size ? 1 : faces;
     }
     if (kind == SDV_PINNED) return count == 1 ? SDV_FAN_CORNER : SDV_FAN_ROUGH;
-    // The two edges are the crease, unless a non-manifold edge is both.
-    int before = sdv_previous(level, left);
-    if (count != faces || sdv_same_edge(level, right, before)) return SDV_FAN_ROUGH;
+    if (count != faces) return SDV_FAN_ROUGH;
     return right == h ? SDV_FAN_FIRST : left == h ? SDV_FAN_LAST : SDV_FAN_MIDDLE;
 }
 
@@ -8094,8 +8071,8 @@ static int sdv_vertex_settled(const sdv_level *level, int v)
     return settled;
 }
 
-// Returns the rule of a vertex that may have nests: nothing is semi-sharp there, nor at its partner.
-// Any other vertex has the rule SDV_NO_NEST.
+// Returns the rule of a vertex that may have nests, as nothing is semi-sharp there or at its
+// partner; else SDV_NO_NEST.
 enum { SDV_NO_NEST = SDV_CORNER + 1 };
 
 static int sdv_nest_rule(const sdv_level *level, int v)
@@ -8103,7 +8080,7 @@ static int sdv_nest_rule(const sdv_level *level, int v)
     int partner = level->partner ? level->partner[v] : -1;
     if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
         return SDV_NO_NEST;
-    return sdv_vertex_fading(level, v).rule;
+    return (int)sdv_vertex_fading(level, v).rule;
 }
 
 // Is the vertex of h regular as seen from its face, with nothing semi-sharp?
@@ -8160,24 +8137,18 @@ static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, in
 
 // Looks for a nest at the vertex of h, which has this rule, and marks its face-vertices as seen.
 static void sdv_find_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h,
-                          int at_vertex, unsigned char *seen)
+                          int rule, unsigned char *seen)
 {
     int first = h, last, faces = 1, i;
     while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
     int ring = i == h;
     seen[last = first] = 1;
     for (; (i = sdv_counter_clockwise(level, last)) >= 0 && i != first; faces++) seen[last = i] = 1;
-    if (at_vertex == SDV_NO_NEST) return;
-    sdv_rule rule = (sdv_rule)at_vertex;
-    // A slit: the faces begin and end at the same sharp edge, which at a dart is the only one.
-    // Apart: at a vertex that is not manifold a crease may run beside these faces, not along them;
-    // then they have no nest before the last level, where the vertex has all but arrived.
-    int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
-    int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
-    if (apart && depth + 1 < SDV_EXACT_LEVELS) return;
-    if (!sdv_is_nest(level, maker->surface->rules.loop, first, faces, ring)) return;
-    if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
-    sdv_new_nest(maker, level, depth, first, faces, ring || dart, rule);
+    if (rule == SDV_NO_NEST || !sdv_is_nest(level, maker->surface->rules.loop, first, faces, ring))
+        return;
+    int dart = rule == SDV_DART, plain = rule == (ring ? SDV_SMOOTH : SDV_CREASE);
+    sdv_new_nest(maker, level, depth, first, faces, ring || dart,
+                 dart || plain ? (sdv_rule)rule : SDV_CORNER);
 }
 
 // Turns the rough faces of nests into leaves.
