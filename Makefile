@@ -29,7 +29,7 @@ endif
 OWN      = evaluate memory exact patches obj_numbers
 PLAIN    = tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
            recorded creases check errors uv partial_uvs
-TESTS    = $(OWN) $(PLAIN)
+TESTS    = $(OWN) $(PLAIN) growth
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
            07_threads 08_tessellate 09_stencils 10_spines
 HELPERS  = $(wildcard tests/lib/*.h)
@@ -74,6 +74,14 @@ $(OWN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(HELPERS) subdiv.h | $(OU
 
 $(PLAIN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(OUT)/plain.o $(HELPERS)
 	$(CC) $(FLAGS) $(THREADS) $(SHARED) $< $(OUT)/plain.o -o $@ -lm
+
+# Its implementation reports each block of code that runs, and what it copies and clears.
+$(OUT)/counted.o: subdiv.h | $(OUT)
+	$(CC) $(FLAGS) -fsanitize-coverage=trace-pc -U_FORTIFY_SOURCE -Dmemcpy=counted_memcpy \
+		-Dmemset=counted_memset -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
+
+$(OUT)/test_growth: tests/test_growth.c $(OUT)/counted.o $(HELPERS)
+	$(CC) $(FLAGS) $< $(OUT)/counted.o -o $@ -lm
 
 $(OUT)/opensubdiv: $(wildcard tests/opensubdiv/*) $(OUT)/plain.o $(HELPERS)
 	$(CXX) -std=c++14 $(CFLAGS) $(SHARED) -I. tests/opensubdiv/opensubdiv.cpp $(OUT)/plain.o \
