@@ -2257,17 +2257,6 @@ static int sdv_around(const sdv_level *level, int h)
                                                                                        : across;
 }
 
-// Do as many faces close around the vertex of h as it has?
-static int sdv_ring_closes(const sdv_level *level, int h)
-{
-    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
-    for (int i = 1; i < faces; i++) {
-        at = sdv_around(level, at);
-        if (at < 0 || at == h) return 0;
-    }
-    return sdv_around(level, at) == h;
-}
-
 // The face-vertex on the other side of the smooth edge that leads on from h: the same edge, led
 // back. -1 across a sharp edge.
 static int sdv_across(const sdv_level *level, int h)
@@ -7400,15 +7389,15 @@ static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
 // Do creases go straight on through a regular vertex, with the same sharpness?
 static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 {
-    int h = level->vertex_first[v];
+    int first = level->vertex_first[v], h = first;
     float s[4];
     if (rules->loop || level->vertex_sharpness[v] > 0) return 0;
-    if (!sdv_has_regular_faces(level, v, 4, 4) || !sdv_ring_closes(level, h)) return 0;
+    if (!sdv_has_regular_faces(level, v, 4, 4)) return 0;
     for (int i = 0; i < 4; i++, h = sdv_around(level, h)) {
-        if (level->across[level->across[h]] != h) return 0;
+        if (h < 0 || (i > 0 && h == first) || level->across[level->across[h]] != h) return 0;
         s[i] = level->sharpness[h];
     }
-    return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
+    return h == first && memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
 }
 
 // Returns the kind of a vertex where something is sharp. Edged: it is on a crease that stays sharp.
