@@ -125,7 +125,7 @@ SANITIZE  = -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 SANITIZED_LOGS = $(MAKE) --no-print-directory logs CFLAGS="$(SANITIZE)"
 PLAIN_TESTS = $(filter-out exact_oracle,$(PLAIN))
 SANITIZED = $(OWN:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
-CHECK_LOGS = $(CHECK)/simd.log $(COMPILERS:%=$(CHECK)/%.log)
+CHECK_LOGS = $(CHECK)/simd.log $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log)
 
 sanitize_own:
 	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)"
@@ -140,6 +140,9 @@ $(COMPILERS:%=$(CHECK)/%.log): $(CHECK)/%.log: FORCE
 
 $(CHECK)/simd.log: FORCE
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/simd.sh
+
+$(CHECK)/growth.log: $(OUT)/test_growth FORCE
+	$(RUN) $< 11
 
 check: $(CHECK_LOGS) sanitize_own sanitize_plain
 	@sh tests/lib/sum.sh $(SANITIZED) $(CHECK_LOGS)
