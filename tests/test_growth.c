@@ -249,6 +249,21 @@ static void small_repeats(subdiv_scheme scheme, int n)
     }
 }
 
+// Faces of many sizes, next to each other at a vertex.
+static void sizes(subdiv_scheme scheme, int n)
+{
+    int sides[CAGE_FACES], first, used = 0;
+    cage_clear(&cage, scheme);
+    new_vertices(1);
+    for (int size = 3; used < 4 * n; used += size++) {
+        first = cage.mesh.vertex_count - (used > 0);
+        new_vertices(size - (used > 0));
+        sides[0] = 0;
+        for (int i = 1; i < size; i++) sides[i] = first + i - 1;
+        cage_face(&cage, size, sides);
+    }
+}
+
 static void alone(subdiv_scheme scheme, int n)
 {
     cage_clear(&cage, scheme);
@@ -274,13 +289,14 @@ static const struct { const char *name; void (*build)(subdiv_scheme scheme, int 
     { "copies", copies }, { "triangles", triangles }, { "turned copies", turned_copies },
     { "wheel", wheel }, { "half wheel", half_wheel }, { "thick wheel", thick_wheel },
     { "bipyramid", bipyramid }, { "polygons", polygons }, { "polygon", polygon },
-    { "repeats", repeats }, { "small repeats", small_repeats }, { "alone", alone },
-    { "strip", strip }, { "apart", apart }
+    { "repeats", repeats }, { "small repeats", small_repeats }, { "sizes", sizes },
+    { "alone", alone }, { "strip", strip }, { "apart", apart }
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-// What a cage may have on top. Each edge of each face, or every other one, is in the list of
-// creases, which so names an edge once for each of its faces; or all lists name one item n times.
+// What a cage may have on top. Each edge of each face is in the list of creases, which so names an
+// edge once for each of its faces; or every other one, with many values; or all lists name one item
+// n times.
 enum { NO_LISTS, EVERY_EDGE, EVERY_OTHER, SAME_ENTRIES, LISTS };
 enum { NO_UVS, ONE_VALUE, SAME_AS_VERTICES, ALL_DIFFERENT, BY_TURNS, UV_KINDS };
 
@@ -292,8 +308,8 @@ static void add_lists(int how, int n)
         int size = m->face_sizes[f];
         for (int i = 0; i < size; i++) {
             int a = m->face_vertices[h + i], b = m->face_vertices[h + (i + 1) % size];
-            if (how == EVERY_EDGE || (how == EVERY_OTHER && (f + i) % 2))
-                cage_crease(&cage, a, b, f % 3 ? 1.5 : f % 2 ? 0.5 : SUBDIV_INFINITE);
+            if (how == EVERY_EDGE) cage_crease(&cage, a, b, f % 3 ? 1.5 : SUBDIV_INFINITE);
+            if (how == EVERY_OTHER && (f + i) % 2) cage_crease(&cage, a, b, f % 40 / 16.0);
         }
         h += size;
         if (how == EVERY_EDGE && f % 3 == 0) cage_hole(&cage, f);
