@@ -31,7 +31,7 @@ TEST_FLAGS = $(subst -O2,-O1,$(FLAGS)) $(THREADS)
 OWN      = evaluate memory exact patches obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
            recorded creases check errors uv partial_uvs vertex_rules
-TESTS    = $(OWN) $(PLAIN)
+TESTS    = $(OWN) $(PLAIN) growth
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
            07_threads 08_tessellate 09_stencils 10_spines
 HELPERS  = $(wildcard tests/lib/*.h)
@@ -76,6 +76,14 @@ $(OWN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(HELPERS) subdiv.h | $(OU
 
 $(PLAIN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(OUT)/plain.o $(HELPERS)
 	$(CC) $(TEST_FLAGS) $(SHARED) $< $(OUT)/plain.o -o $@ -lm
+
+# Its implementation reports each block of code that runs, and what it copies and clears.
+$(OUT)/counted.o: subdiv.h | $(OUT)
+	$(CC) $(FLAGS) -fsanitize-coverage=trace-pc -U_FORTIFY_SOURCE -Dmemcpy=counted_memcpy \
+		-Dmemset=counted_memset -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
+
+$(OUT)/test_growth: tests/test_growth.c $(OUT)/counted.o $(HELPERS)
+	$(CC) $(FLAGS) $< $(OUT)/counted.o -o $@ -lm
 
 $(OUT)/opensubdiv: $(wildcard tests/opensubdiv/*) $(OUT)/plain.o $(HELPERS)
 	$(CXX) -std=c++14 $(CFLAGS) $(SHARED) -I. tests/opensubdiv/opensubdiv.cpp $(OUT)/plain.o \
@@ -123,7 +131,7 @@ SANITIZE  = -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 SANITIZED_LOGS = $(MAKE) --no-print-directory logs CFLAGS="$(SANITIZE)"
 PLAIN_TESTS = $(filter-out exact_oracle,$(PLAIN))
 SANITIZED = $(OWN:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
-CHECK_LOGS = $(CHECK)/simd.log $(COMPILERS:%=$(CHECK)/%.log)
+CHECK_LOGS = $(CHECK)/simd.log $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log)
 
 sanitize_own:
 	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)"
@@ -138,6 +146,9 @@ $(COMPILERS:%=$(CHECK)/%.log): $(CHECK)/%.log: FORCE
 
 $(CHECK)/simd.log: FORCE
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/simd.sh
+
+$(CHECK)/growth.log: $(OUT)/test_growth FORCE
+	$(RUN) $< 11
 
 check: $(CHECK_LOGS) sanitize_own sanitize_plain
 	@sh tests/lib/sum.sh $(SANITIZED) $(CHECK_LOGS)

@@ -120,6 +120,8 @@
      where it is. Its tangents at a crease or boundary are wrong unless there are 1 or 2 faces
      (Loop: 1 to 3) on that side, and those of a corner are two edges. It writes them out of bounds
      where a vertex has more faces than edges.
+   * A crease of two non-manifold edges runs through a vertex only if every sheet of faces there
+     leads from the one to the other; else the vertex is sharp. OpenSubdiv only counts faces.
    * UVs: where values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
    * Defaults: the boundary is "edge", not "none"; the rule for UVs is "corners only", not "all".
      Indices are checked. Valence has no limit.
@@ -1708,10 +1710,11 @@ typedef struct sdv_level {
     const struct sdv_order *order;      // where the cage's points stand on a later level, or NULL
     int   *face_point;                  // [face_count]         work points of the face points
 
-    // Faces under SUBDIV_EXACT and SUBDIV_PLAIN: see >>split.
+    // Faces and vertices under SUBDIV_EXACT and SUBDIV_PLAIN: see >>split.
     sdv_place *places;                  // [face_count]         where they are; NULL on level 0
     unsigned char *core;                // [face_count]         becomes leaves
     unsigned char *rough;               // [face_count]         in the core, and not a patch
+    unsigned char *kinds;               // [vertex_count]       how the surface goes on: sdv_kind
 } sdv_level;
 
 // A face has the face-vertices from sdv_face_start up to, but without, sdv_face_end.
@@ -1808,6 +1811,7 @@ static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *lev
     level->face_point = SDV_NEW(context, arena, int, faces);
     level->core = SDV_NEW(context, arena, unsigned char, faces);
     level->rough = SDV_NEW(context, arena, unsigned char, faces);
+    level->kinds = SDV_NEW(context, arena, unsigned char, vertices);
     if (!context->result) memset(level->creased, 0, vertices);
 }
 
@@ -1958,7 +1962,8 @@ static float sdv_clamp_sharpness(float s)
     return s > SUBDIV_INFINITE ? SUBDIV_INFINITE : s > 0 ? s : 0;
 }
 
-// The user's creases and corners. A crease that is no edge is skipped.
+// The user's creases, each at the first face-vertex of its edge, and corners. A crease that is no
+// edge is skipped.
 static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const subdiv_mesh *mesh)
 {
     memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
@@ -1966,8 +1971,9 @@ static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const sub
     for (int i = 0; i < mesh->crease_count; i++) {
         int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
         int e = sdv_find_edge(level, a, b);
+        float s = sdv_clamp_sharpness(mesh->crease_sharpness[i]);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
-        else sdv_sharpen_edge(level, e, sdv_clamp_sharpness(mesh->crease_sharpness[i]));
+        else level->sharpness[level->edge_first[e]] = s;
     }
     for (int i = 0; i < mesh->corner_count; i++)
         level->vertex_sharpness[mesh->corner_vertices[i]] =
@@ -1986,13 +1992,14 @@ enum { SDV_DROPPED = 2 };
 static void sdv_open_boundary(sdv_cage *cage)
 {
     const sdv_level *level = &cage->level;
-    for (int h = 0; h < level->face_vertex_count; h++) {
-        if (!sdv_is_boundary(level, h) || level->sharpness[h] >= SUBDIV_INFINITE) continue;
-        int ends[2] = { level->face_vertices[h], level->face_vertices[sdv_next(level, h)] };
-        for (int i = 0; i < 2; i++)
-            for (int k = level->vertex_first[ends[i]]; k >= 0; k = level->vertex_next[k])
-                cage->hole[sdv_face_of(level, k)] = SDV_DROPPED;
-    }
+    const int *vertices = level->face_vertices;
+    unsigned char *open = cage->vertex_nonmanifold;             // which is not yet known
+    memset(open, 0, (size_t)level->vertex_count);
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (sdv_is_boundary(level, h) && level->sharpness[h] < SUBDIV_INFINITE)
+            open[vertices[h]] = open[vertices[sdv_next(level, h)]] = 1;
+    for (int h = 0; h < level->face_vertex_count; h++)
+        if (open[vertices[h]]) cage->hole[sdv_face_of(level, h)] = SDV_DROPPED;
 }
 
 // Around a vertex: how many edges, and of them boundary and non-manifold ones.
@@ -2016,16 +2023,29 @@ static sdv_edges_at sdv_count_edges_at(const sdv_cage *cage, int v)
     return edges;
 }
 
+// Does a crease of two non-manifold edges run through v? Then each sheet of faces there leads from
+// the one edge to the other, and there are at least three. Walks from the first face of each sheet
+// to its last, counter-clockwise; faces of a ring are not met.
 static int sdv_is_nonmanifold_crease(const sdv_cage *cage, int v)
 {
+    const sdv_level *level = &cage->level;
+    const unsigned char *odd = cage->edge_nonmanifold;
     sdv_edges_at edges = sdv_count_edges_at(cage, v);
-    return edges.nonmanifold == 2 && edges.boundary == 0 &&
-           cage->level.vertex_faces[v] > edges.count;
+    int met = 0;
+    if (edges.nonmanifold != 2 || edges.boundary > 0) return 0;
+    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
+        int from = level->face_edges[h], last = sdv_previous(level, h);
+        if (!odd[from]) continue;
+        for (met++; !odd[level->face_edges[last]]; met++)
+            last = sdv_previous(level, level->across[last]);
+        if (level->face_edges[last] == from) return 0;
+    }
+    return met == level->vertex_faces[v] && met > edges.count;
 }
 
 // Adds what is sharp by shape [OSD]: boundary and non-manifold edges; under "edge and corner" the
 // vertices with one face; non-manifold vertices, but for a non-manifold edge that runs through.
-// Marks the ends of all sharp edges.
+// Gives the sharpness of an edge to all its face-vertices, and marks the ends of sharp edges.
 static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
 {
     sdv_level *level = &cage->level;
@@ -2033,9 +2053,10 @@ static void sdv_implied_sharpness(sdv_cage *cage, subdiv_boundary boundary)
     memset(nonmanifold, 0, (size_t)level->vertex_count);
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], odd = cage->edge_nonmanifold[e];
-        if ((odd || sdv_is_boundary(level, h)) && level->sharpness[h] < SUBDIV_INFINITE)
-            sdv_sharpen_edge(level, e, SDV_IMPLIED);
-        if (level->sharpness[h] <= 0) continue;
+        float s = level->sharpness[h];
+        if ((odd || sdv_is_boundary(level, h)) && s < SUBDIV_INFINITE) s = SDV_IMPLIED;
+        if (s <= 0) continue;
+        sdv_sharpen_edge(level, e, s);
         int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
         if (odd) nonmanifold[a] = nonmanifold[b] = 1;
         level->creased[a] = level->creased[b] = 1;
@@ -2243,6 +2264,19 @@ static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edg
     return fading;
 }
 
+// Counts the edges at a vertex that stay sharp forever.
+static int sdv_forever_edges(const sdv_level *level, int v)
+{
+    int count = 0;
+    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
+        int two[2] = { h, sdv_previous(level, h) };
+        for (int i = 0; i < 2; i++)
+            count += sdv_is_edge_at(level, two[i], i == 0) &&
+                     level->sharpness[two[i]] >= SUBDIV_INFINITE;
+    }
+    return count;
+}
+
 // Is nothing at a vertex semi-sharp?
 static int sdv_vertex_settled(const sdv_level *level, int v)
 {
@@ -2289,24 +2323,6 @@ static int sdv_around(const sdv_level *level, int h)
     int before = sdv_previous(level, h), across = level->across[before];
     return across == before || level->face_vertices[across] != level->face_vertices[h] ? -1
                                                                                        : across;
-}
-
-// Do as many faces close around the vertex of h as it has?
-static int sdv_ring_closes(const sdv_level *level, int h)
-{
-    int faces = level->vertex_faces[level->face_vertices[h]], at = h;
-    for (int i = 1; i < faces; i++) {
-        at = sdv_around(level, at);
-        if (at < 0 || at == h) return 0;
-    }
-    return sdv_around(level, at) == h;
-}
-
-static int sdv_same_edge(const sdv_level *level, int h, int other)
-{
-    int k = h;
-    while (k != other && level->across[k] != h) k = level->across[k];
-    return k == other;
 }
 
 #if !defined(SUBDIV_NO_EXACT) || !defined(SUBDIV_NO_TOOLS)
@@ -2632,7 +2648,7 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 // The same goes for a corner between two creases, with the mask of its vertex point. Where the wave
 // shrinks faster than the creases, their plane is left: t1 = e_0 + e_k - 2v. Where it shrinks as
 // fast, L = c, it turns to that plane by the same bit on each level; then t1 is what is there after
-// a thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent
+// three thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent
 // plane; t0 and t1 span the mean of its faces' planes.
 static void sdv_crease_tangents(const sdv_rules *rules, sdv_mask v, int k, double *t0, double *t1)
 {
@@ -2641,7 +2657,7 @@ static void sdv_crease_tangents(const sdv_rules *rules, sdv_mask v, int k, doubl
     sdv_wave wave = sdv_wave_of(rules, a);
     double g = wave.face, end = wave.factor - c, middle = wave.factor - v.self;
     int corner = v.crease <= 0, plane = k == 1 || (corner && end < -1e-9);
-    if (corner && end < 0.001) end = 0.001;
+    if (corner && end < 0.0003) end = 0.0003;
     double p = rules->loop ? 4 * edge.face * sin(a) : (g / 4 + edge.face) * sin(a);
     double q = (rules->loop ? 4 * edge.self : 4 * edge.self + 2 * edge.face + g / 2) * r;
     double determinant = end * middle - 2 * c * v.crease;
@@ -4323,7 +4339,7 @@ typedef struct sdv_ray {                // an edge at the vertex: its sharpness 
 
 typedef struct sdv_sector {
     int      faces, edges;              // a ring has as many edges as faces, else one more
-    int      first, slit;               // its first face-vertex; it begins and ends at one edge
+    int      first, ring;               // its first face-vertex; no edge of it is infinitely sharp
     int      count;
     sdv_ray *rays;                      // [count] the edges, then sharp ones of other sectors
     float    corner;                    // the sharpness of the vertex
@@ -4462,12 +4478,10 @@ static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *
 }
 
 // Kinds of limit rows whose weights depend on the number of faces alone: of sectors where nothing
-// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; of
-// linear surfaces, with two edges for tangents; and where faces make no sector, as a crease is not
-// manifold or a vertex is twice in a face.
+// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; and of
+// linear surfaces, with two edges for tangents.
 typedef enum sdv_limit_kind {
-    SDV_RING, SDV_SLIT, SDV_SPAN, SDV_SPIKE, SDV_WEDGE, SDV_TIP, SDV_LOOSE_CREASE, SDV_LOOSE_RING,
-    SDV_LIMIT_KINDS
+    SDV_RING, SDV_SLIT, SDV_SPAN, SDV_SPIKE, SDV_WEDGE, SDV_TIP, SDV_LIMIT_KINDS
 } sdv_limit_kind;
 
 enum { SDV_FADED = 16 };
@@ -4490,32 +4504,22 @@ typedef struct sdv_limit_writer {       // writes limit rows
     int        *edge, *place;           // see sdv_find_rays
 } sdv_limit_writer;
 
-// Makes the mask of a kind. Its points are in the order of sdv_add_fan or sdv_add_tip.
+// Makes the mask of a kind. Its points are in the order of sdv_limit_row.
 static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_arena *arena,
                                             sdv_limit_kind kind, int faces)
 {
-    static const sdv_rule sectors[SDV_TIP] = { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER,
-                                               SDV_CORNER };
-    const sdv_rules *rules = limit->rules;
-    int edges = kind == SDV_TIP ? 0 : kind == SDV_LOOSE_CREASE ? 2 : faces;
-    int points = 3 + edges + (kind == SDV_LOOSE_RING && !rules->loop ? faces : 0);
-    double *rows = limit->rows;
-    if (kind < SDV_TIP) {
-        sdv_settle(&limit->states[0], sectors[kind], faces, kind == SDV_SPAN || kind == SDV_WEDGE);
-        sdv_settled_rows(rules, &limit->states[0], rows, limit->room);
-        points = sdv_sector_points(rules, &limit->states[0]);
-    } else {
-        sdv_rule rule = kind == SDV_TIP ? SDV_CORNER : edges == 2 ? SDV_CREASE : SDV_SMOOTH;
-        sdv_mask mask = sdv_limit_mask(rules, rule, faces);
-        for (int i = 0; i < 3 * points; i++) rows[i] = 0;
-        rows[0] = mask.self;
-        for (int i = 3; i < points; i++)
-            rows[i] = i < 3 + edges ? mask.edge + mask.crease : mask.face;
-        rows[points + 1] = rows[2 * points + 2] = 1;
+    static const sdv_rule rules[SDV_TIP] = { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER,
+                                             SDV_CORNER };
+    static const double tip[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    const double *rows = kind == SDV_TIP ? tip : limit->rows;
+    sdv_limit_weights made = { 3, NULL };
+    if (kind != SDV_TIP) {
+        sdv_settle(&limit->states[0], rules[kind], faces, kind == SDV_SPAN || kind == SDV_WEDGE);
+        sdv_settled_rows(limit->rules, &limit->states[0], limit->rows, limit->room);
+        made.count = sdv_sector_points(limit->rules, &limit->states[0]);
     }
-    sdv_limit_weights made = { points, NULL };
-    made.weights = SDV_NEW(limit->writer->context, arena, float, 3 * (size_t)points);
-    for (int i = 0; i < 3 * points && made.weights; i++) made.weights[i] = (float)rows[i];
+    made.weights = SDV_NEW(limit->writer->context, arena, float, 3 * (size_t)made.count);
+    for (int i = 0; i < 3 * made.count && made.weights; i++) made.weights[i] = (float)rows[i];
     return made;
 }
 
@@ -4536,7 +4540,7 @@ static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int
 
 // Appends the points of count faces from h on, counter-clockwise: the neighbours (at a crease also
 // the one behind the last face), then the vertices across the faces.
-static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
+static void sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
 {
     int *across = point + count + crease;
     for (int i = 0; i < count; i++) {
@@ -4545,13 +4549,16 @@ static int *sdv_add_fan(const sdv_level *level, int h, int count, int crease, in
         if (crease && i + 1 == count) *point = sdv_point_behind(level, h);
         h = sdv_around(level, h);
     }
-    return across;
 }
 
-// Finds the faces of the sector that has the face of h.
+// Finds the faces of the sector that has the face of h: all in a ring, where nothing is sharp.
 static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
 {
-    int first = h, ring = 0, at, q;
+    int v = level->face_vertices[h], first = h, ring = 0, at, q;
+    s->first = h;
+    s->faces = level->vertex_faces[v];
+    s->ring = 1;
+    if (!level->creased[v] && level->vertex_sharpness[v] < SUBDIV_INFINITE) return;
     while (!ring && level->sharpness[first] < SUBDIV_INFINITE && level->across[first] != first) {
         at = sdv_next(level, level->across[first]);
         ring = at == h;
@@ -4567,10 +4574,8 @@ static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
         if (q == before || q == first) break;
         if (sdv_sharpness_before(level, before) >= SUBDIV_INFINITE) break;
     }
-    // A slit begins and ends at one edge. Its faces close to a ring around this.
-    s->slit = !ring && sdv_same_edge(level, first, sdv_previous(level, at));
-    s->edges = s->faces + !(ring || s->slit);
     s->first = first;
+    s->ring = ring;
 }
 
 // Finds how the edge of h fades at the vertex of h or, with end 1, where it ends.
@@ -4590,11 +4595,11 @@ static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
 
 // Finds the rays of a sector, and those of other sharp edges at the vertex. An edge is meant by its
 // last face-vertex. Which ones the sector has tell limit->edge, by place, and limit->place, by
-// edge. Returns how many stay sharp forever.
-static int sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
+// edge.
+static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
-    int v = level->face_vertices[s->first], forever = 0;
+    int v = level->face_vertices[s->first];
     s->corner = level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
         int end = i == s->faces, h = end ? sdv_previous(level, at) : at, edge = h;
@@ -4615,24 +4620,6 @@ static int sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
             sdv_ray ray = sdv_ray_of(limit, h, end);
             if (ray.now > 0) s->rays[s->count++] = ray;
         }
-    for (int i = 0; i < s->count; i++) forever += s->rays[i].now >= SUBDIV_INFINITE;
-    return forever;
-}
-
-// Appends the points of a tip: for the tangents, the two neighbours in the face of h; for the
-// position of a loose crease, those along it; of a loose ring, all around.
-static int *sdv_add_tip(const sdv_level *level, int h, sdv_limit_kind kind, int loop, int *point)
-{
-    int v = level->face_vertices[h];
-    *point++ = sdv_point_ahead(level, h);
-    *point++ = sdv_point_behind(level, h);
-    if (kind == SDV_LOOSE_CREASE) return sdv_add_neighbours(level, v, SDV_CREASE, 1, point);
-    if (kind == SDV_TIP) return point;
-    for (int i = level->vertex_first[v]; i >= 0; i = level->vertex_next[i])
-        *point++ = sdv_point_ahead(level, i);
-    for (int i = level->vertex_first[v]; i >= 0 && !loop; i = level->vertex_next[i])
-        *point++ = sdv_point_across(level, i);
-    return point;
 }
 
 // Adds a limit row whose points are in limit->writer->points.
@@ -4725,37 +4712,30 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
     const sdv_rules *rules = limit->rules;
-    int v = level->face_vertices[h], loop = rules->loop, faces = level->vertex_faces[v], open = 0;
-    int *point = limit->writer->points;
+    int v = level->face_vertices[h], faces = 0, open = 0, *point = limit->writer->points;
     sdv_sector *s = &limit->states[0];
     sdv_limit_kind kind = SDV_TIP;
-    sdv_rule rule = rules->linear ? SDV_CORNER : sdv_vertex_fading(level, v).rule;
     *point++ = level->first_point + v;
-    if (rule == SDV_SMOOTH) {
-        kind = sdv_ring_closes(level, h) ? SDV_RING : SDV_LOOSE_RING;
-        s->first = h;
-        s->faces = faces;
-    } else if (!rules->linear) {
+    if (rules->linear) {
+        point[0] = sdv_point_ahead(level, h);
+        point[1] = sdv_point_behind(level, h);
+    } else {
+        static const sdv_limit_kind rings[4] = { SDV_RING, SDV_SLIT, SDV_RING, SDV_SPIKE };
+        float corner = level->vertex_sharpness[v];
         sdv_find_sector(level, h, s);
-        int whole = s->faces == faces && s->edges == faces;
-        open = s->edges > s->faces;
+        sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
+                                        sdv_forever_edges(level, v));
+        faces = s->faces;
+        open = !s->ring && rule != SDV_DART;
+        s->edges = faces + open;
+        kind = !open ? rings[rule] : rule == SDV_CREASE ? SDV_SPAN : SDV_WEDGE;
+        sdv_add_fan(level, s->first, faces, open, rules->loop, point);
         if (!sdv_vertex_settled(level, v)) {
-            int forever = sdv_find_rays(limit, s), corner = s->corner >= SUBDIV_INFINITE;
-            if (corner || forever > 2 || (forever == 2 ? open : whole)) {
-                sdv_add_fan(level, s->first, s->faces, open, loop, point);
-                sdv_fading_row(limit, target);
-                return;
-            }
+            sdv_find_rays(limit, s);
+            sdv_fading_row(limit, target);
+            return;
         }
-        if (rule == SDV_DART) kind = whole ? SDV_SLIT : SDV_LOOSE_RING;
-        if (rule == SDV_CREASE) kind = open ? SDV_SPAN : SDV_LOOSE_CREASE;
-        if (rule == SDV_CORNER) kind = s->slit || open ? SDV_WEDGE : SDV_SPIKE;
-        open = kind == SDV_SPAN || kind == SDV_WEDGE;
     }
-    if (kind < SDV_TIP) faces = s->faces;
-    if (kind == SDV_TIP || kind == SDV_LOOSE_CREASE) faces = 0;
-    if (kind < SDV_TIP) sdv_add_fan(level, s->first, faces, open, loop, point);
-    else sdv_add_tip(level, h, kind, loop, point);
     sdv_limit_batch_row(limit, kind, faces, target);
 }
 
@@ -5483,14 +5463,7 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 // May a vertex be smooth, or the end of a single crease, on this level or a later one?
 static int sdv_may_be_smooth(const sdv_level *level, int v)
 {
-    int forever = level->vertex_sharpness[v] >= SUBDIV_INFINITE ? 2 : 0;
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++)
-            forever += sdv_is_edge_at(level, two[i], i == 0) &&
-                       level->sharpness[two[i]] >= SUBDIV_INFINITE;
-    }
-    return forever < 2;
+    return level->vertex_sharpness[v] < SUBDIV_INFINITE && sdv_forever_edges(level, v) < 2;
 }
 
 // Asks the callback of a mesh for the mask of a valence, unless it is known. limit: such a vertex
@@ -8079,15 +8052,15 @@ static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
 // Do creases go straight on through a regular vertex, with the same sharpness?
 static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 {
-    int h = level->vertex_first[v];
+    int first = level->vertex_first[v], h = first;
     float s[4];
     if (rules->loop || level->vertex_sharpness[v] > 0) return 0;
-    if (!sdv_has_regular_faces(level, v, 4, 4) || !sdv_ring_closes(level, h)) return 0;
+    if (!sdv_has_regular_faces(level, v, 4, 4)) return 0;
     for (int i = 0; i < 4; i++, h = sdv_around(level, h)) {
-        if (level->across[level->across[h]] != h) return 0;
+        if (h < 0 || (i > 0 && h == first) || level->across[level->across[h]] != h) return 0;
         s[i] = level->sharpness[h];
     }
-    return memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
+    return h == first && memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
 }
 
 // Returns the kind of a vertex where something is sharp. Edged: it is on a crease that stays sharp.
@@ -8148,9 +8121,7 @@ static sdv_fan sdv_find_fan(const sdv_level *level, sdv_kind kind, int h, int lo
         count += sdv_size_of(level, i) == size ? 1 : faces;
     }
     if (kind == SDV_PINNED) return count == 1 ? SDV_FAN_CORNER : SDV_FAN_ROUGH;
-    // The two edges are the crease, unless a non-manifold edge is both.
-    int before = sdv_previous(level, left);
-    if (count != faces || sdv_same_edge(level, right, before)) return SDV_FAN_ROUGH;
+    if (count != faces) return SDV_FAN_ROUGH;
     return right == h ? SDV_FAN_FIRST : left == h ? SDV_FAN_LAST : SDV_FAN_MIDDLE;
 }
 
@@ -8261,8 +8232,9 @@ static int sdv_find_strips(sdv_writer *writer, float low, float high)
 // Looks at the edges and vertices of a face, unless all is free: which edges are sharp to the end,
 // which semi-sharp, and how its vertices' fans go on. Does it have a patch?
 static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                         const unsigned char *kinds, int h, int size, sdv_patch *patch)
+                         int h, int size, sdv_patch *patch)
 {
+    const unsigned char *kinds = level->kinds;
     float semi[4] = { 0, 0, 0, 0 };
     for (int i = 0; i < size; i++) {
         float s = level->sharpness[h + i];
@@ -8286,7 +8258,7 @@ static int sdv_find_fans(sdv_writer *writer, const sdv_level *level, const sdv_r
 
 // Makes the patch of face f, if it has one. free: so are all its vertices.
 static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_rules *rules,
-                          const unsigned char *kinds, int f, int is_free, sdv_patch *patch)
+                          int f, int is_free, sdv_patch *patch)
 {
     int h = sdv_face_start(level, f), size = rules->loop ? 3 : 4;
     sdv_place place = sdv_place_of(level, f, h);
@@ -8296,13 +8268,13 @@ static int sdv_make_patch(sdv_writer *writer, const sdv_level *level, const sdv_
     patch->row = place.row;
     patch->column = place.column;
     patch->step = (signed char)place.step;
-    return is_free || sdv_find_fans(writer, level, rules, kinds, h, size, patch);
+    return is_free || sdv_find_fans(writer, level, rules, h, size, patch);
 }
 
 // Returns the kinds of a face's vertices, or rough if the face does not have the regular size.
-static inline int sdv_face_kinds(const sdv_level *level, const unsigned char *kinds, int f,
-                                 int size)
+static inline int sdv_face_kinds(const sdv_level *level, int f, int size)
 {
+    const unsigned char *kinds = level->kinds;
     int start = sdv_face_start(level, f);
     const int *v = level->face_vertices + start;
     if (sdv_face_end(level, f) - start != size) return SDV_ROUGH;
@@ -8316,27 +8288,24 @@ static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *le
                              const sdv_rules *rules, sdv_patches *patches)
 {
     sdv_context *context = writer->context;
-    sdv_arena scratch = sdv_scratch();
     int size = rules->loop ? 3 : 4, most = level->face_count;
     size_t width = (size_t)sdv_control_points(rules);
     memcpy(level->rough, level->core, (size_t)level->face_count);
-    unsigned char *kinds = SDV_NEW(context, &scratch, unsigned char, level->vertex_count);
-    for (int v = 0; v < level->vertex_count && !context->result; v++)
-        kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
-    for (int f = 0; f < level->face_count && !context->result; f++)
-        most -= !level->core[f] || (sdv_face_kinds(level, kinds, f, size) & SDV_ROUGH);
+    for (int v = 0; v < level->vertex_count; v++)
+        level->kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
+    for (int f = 0; f < level->face_count; f++)
+        most -= !level->core[f] || (sdv_face_kinds(level, f, size) & SDV_ROUGH);
     patches->items = SDV_NEW(context, arena, sdv_patch, most);
     patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
     for (int f = 0; f < level->face_count && !context->result; f++) {
-        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, kinds, f, size);
+        int h = sdv_face_start(level, f), found = sdv_face_kinds(level, f, size);
         sdv_patch *patch = &patches->items[patches->count];
         if (!level->core[f] || (found & SDV_ROUGH)) continue;
-        if (!sdv_make_patch(writer, level, rules, kinds, f, found == SDV_FREE, patch)) continue;
+        if (!sdv_make_patch(writer, level, rules, f, found == SDV_FREE, patch)) continue;
         sdv_gather(level, rules, patch, h, patches->points + width * (size_t)patches->count);
         level->rough[f] = 0;
         patches->count++;
     }
-    sdv_arena_free(&scratch);
 }
 
 // -------------------------------------------------------------------------- >>exact-surface
@@ -8692,27 +8661,36 @@ static int sdv_find_nest_kind(sdv_exact_maker *maker, int faces, int ring, sdv_r
     return count;
 }
 
-// Is the vertex of h regular as seen from its face, with nothing semi-sharp?
-static sdv_fan sdv_fan_at(const sdv_level *level, const sdv_rules *rules, int h)
+// Returns the rule of a vertex that may have nests, as nothing is semi-sharp there or at its
+// partner; else SDV_NO_NEST.
+enum { SDV_NO_NEST = SDV_CORNER + 1 };
+
+static int sdv_nest_rule(const sdv_level *level, int v)
 {
-    sdv_kind kind = sdv_vertex_kind(level, rules, level->face_vertices[h]);
-    return kind == SDV_LINED ? SDV_FAN_ROUGH : sdv_find_fan(level, kind, h, rules->loop);
+    int partner = level->partner ? level->partner[v] : -1;
+    if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
+        return SDV_NO_NEST;
+    return (int)sdv_vertex_fading(level, v).rule;
+}
+
+// Is the vertex of h regular as seen from its face, with nothing semi-sharp?
+static sdv_fan sdv_fan_at(const sdv_level *level, int loop, int h)
+{
+    sdv_kind kind = (sdv_kind)level->kinds[level->face_vertices[h]];
+    return kind == SDV_LINED ? SDV_FAN_ROUGH : sdv_find_fan(level, kind, h, loop);
 }
 
 // Are the neighbours in the faces from h on regular, creased only along the first and last edge?
-static int sdv_is_nest(const sdv_level *level, const sdv_rules *rules, int h, int faces, int ring)
+static int sdv_is_nest(const sdv_level *level, int loop, int h, int faces, int ring)
 {
-    int v = level->face_vertices[h], partner = level->partner ? level->partner[v] : -1;
-    if (!sdv_vertex_settled(level, v) || (partner >= 0 && !sdv_vertex_settled(level, partner)))
-        return 0;
     for (int i = 0; i < faces; i++) {
         int next = sdv_next(level, h), before = sdv_previous(level, h);
-        sdv_fan fan = sdv_fan_at(level, rules, next);
+        sdv_fan fan = sdv_fan_at(level, loop, next);
         if (i > 0 || ring ? fan != SDV_FAN_RING : fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)
             return 0;
-        if (rules->loop ? level->sharpness[next] > 0
-                        : sdv_fan_at(level, rules, sdv_next(level, next)) != SDV_FAN_RING) return 0;
-        fan = sdv_fan_at(level, rules, before);
+        if (loop ? level->sharpness[next] > 0
+                 : sdv_fan_at(level, loop, sdv_next(level, next)) != SDV_FAN_RING) return 0;
+        fan = sdv_fan_at(level, loop, before);
         if (i + 1 == faces && !ring && (fan == SDV_FAN_ROUGH || fan == SDV_FAN_CORNER)) return 0;
         if (i + 1 < faces) h = sdv_around(level, h);
     }
@@ -8747,25 +8725,20 @@ static void sdv_new_nest(sdv_exact_maker *maker, sdv_level *level, int depth, in
     }
 }
 
-// Looks for a nest at the vertex of h, and marks the face-vertices there as seen.
+// Looks for a nest at the vertex of h, which has this rule, and marks its face-vertices as seen.
 static void sdv_find_nest(sdv_exact_maker *maker, sdv_level *level, int depth, int h,
-                          unsigned char *seen)
+                          int rule, unsigned char *seen)
 {
     int first = h, last, faces = 1, i;
     while ((i = sdv_clockwise(level, first)) >= 0 && i != h) first = i;
     int ring = i == h;
     seen[last = first] = 1;
     for (; (i = sdv_counter_clockwise(level, last)) >= 0 && i != first; faces++) seen[last = i] = 1;
-    sdv_rule rule = sdv_vertex_fading(level, level->face_vertices[h]).rule;
-    // A slit: the faces begin and end at the same sharp edge, which at a dart is the only one.
-    // Apart: at a vertex that is not manifold a crease may run beside these faces, not along them;
-    // then they have no nest before the last level, where the vertex has all but arrived.
-    int slit = !ring && sdv_same_edge(level, first, sdv_previous(level, last));
-    int dart = rule == SDV_DART && slit, apart = rule == SDV_CREASE && (ring || slit);
-    if (apart && depth + 1 < SDV_EXACT_LEVELS) return;
-    if (!sdv_is_nest(level, &maker->surface->rules, first, faces, ring)) return;
-    if (apart || (!dart && rule != (ring ? SDV_SMOOTH : SDV_CREASE))) rule = SDV_CORNER;
-    sdv_new_nest(maker, level, depth, first, faces, ring || dart, rule);
+    if (rule == SDV_NO_NEST || !sdv_is_nest(level, maker->surface->rules.loop, first, faces, ring))
+        return;
+    int dart = rule == SDV_DART, plain = rule == (ring ? SDV_SMOOTH : SDV_CREASE);
+    sdv_new_nest(maker, level, depth, first, faces, ring || dart,
+                 dart || plain ? (sdv_rule)rule : SDV_CORNER);
 }
 
 // Turns the rough faces of nests into leaves.
@@ -8774,11 +8747,16 @@ static void sdv_find_nests(sdv_exact_maker *maker, sdv_level *level, int depth)
     sdv_context *context = maker->writer->context;
     sdv_arena scratch = sdv_scratch();
     unsigned char *seen = SDV_NEW(context, &scratch, unsigned char, level->face_vertex_count);
-    if (seen) memset(seen, 0, (size_t)level->face_vertex_count);
-    for (int h = 0; h < level->face_vertex_count && !context->result; h++)
-        if (level->rough[sdv_face_of(level, h)] && !seen[h] &&
-            sdv_fan_at(level, &maker->surface->rules, h) == SDV_FAN_ROUGH)
-            sdv_find_nest(maker, level, depth, h, seen);
+    signed char *rules = SDV_NEW(context, &scratch, signed char, level->vertex_count);
+    if (!context->result) memset(seen, 0, (size_t)level->face_vertex_count);
+    if (!context->result) memset(rules, -1, (size_t)level->vertex_count);
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) {
+        if (!level->rough[sdv_face_of(level, h)] || seen[h] ||
+            sdv_fan_at(level, maker->surface->rules.loop, h) != SDV_FAN_ROUGH) continue;
+        signed char *rule = &rules[level->face_vertices[h]];
+        if (*rule < 0) *rule = (signed char)sdv_nest_rule(level, level->face_vertices[h]);
+        sdv_find_nest(maker, level, depth, h, *rule, seen);
+    }
     sdv_arena_free(&scratch);
 }
 
@@ -11398,6 +11376,7 @@ typedef struct sdv_inside {
     int margin;                         // pieces that strips replace at column 0 and row 0,
     int last;                           // and at the last column and row
     int across;                         // the one side that is joined with the side across, or -1
+    int most;                           // pieces along a side, of the grid or of an edge
 } sdv_inside;
 
 typedef struct sdv_tiling {             // points of a cage, or of the topology of its UVs
@@ -11994,11 +11973,7 @@ static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, i
 // belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
-    int most = tile->grid->columns > tile->grid->rows ? tile->grid->columns : tile->grid->rows;
-    for (int i = 0; i < tile->sides; i++) {
-        int rate = (sdv_edge_rate(tile, i) - 1) / (1 + tile->ngon) + 1;
-        if (rate > most) most = rate;
-    }
+    int most = tile->grid->most;
     sdv_area area = sdv_nest_area(tile, face, 0, 0);
     int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
     int corner = (x == 0 || x == units) && (y == 0 || y == units), depth = 0;
@@ -12072,6 +12047,20 @@ static void sdv_tile_points_job(void *context, int job)
     sdv_arena_free(&arena);
 }
 
+// Finds the largest number of pieces along a side of each grid.
+static void sdv_find_most_pieces(const sdv_tiling *tiling)
+{
+    for (int f = 0; f < tiling->cage->face_count; f++) {
+        sdv_tile tile = sdv_tile_at(tiling, f);
+        int most = tile.grid->columns > tile.grid->rows ? tile.grid->columns : tile.grid->rows;
+        for (int i = 0; i < tile.sides; i++) {
+            int rate = (sdv_edge_rate(&tile, i) - 1) / (1 + tile.ngon) + 1;
+            if (rate > most) most = rate;
+        }
+        tile.grid->most = most;
+    }
+}
+
 // Makes the first count points of a tiling and, unless NULL, their normals.
 static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
                                  const sdv_tiling *tiling, const sdv_exact_work *source,
@@ -12083,6 +12072,7 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     sdv_window out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     sdv_leaf_points l;
     if (context->result) return;
+    sdv_find_most_pieces(tiling);
     memset(&l, 0, sizeof l);
     l.tiling = tiling;
     l.source = source;

@@ -14,11 +14,10 @@
 #include "lib/random_cage.h"
 #include "lib/test.h"
 
-// Vertices that are not manifold are left out, as a crease may run beside the faces there.
-enum { FEATURES = RANDOM_MANIFOLD, CAGES = 400, LEVELS = 4 };
+enum { FEATURES = RANDOM_ALL & ~RANDOM_DEGENERATE & ~RANDOM_UVS, CAGES = 400, LEVELS = 4 };
 
 static const double point_tolerance = 1e-6;       // of the extent of the cage
-static const double normal_tolerance = 0.02;      // degrees; hardly any is turned by more than 0.01
+static const double normal_tolerance = 0.04;      // degrees; hardly any is turned by more than 0.01
 
 static char context[96];
 

@@ -837,6 +837,58 @@ static void test_fins(void)
     }
 }
 
+static unsigned random_state;
+
+static int below(int n)                                   // 0 <= result < n
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    return (int)((random_state >> 8) % (unsigned)n);
+}
+
+// Adds a sheet of faces at vertex 0, wound either way, from one of its neighbours to another.
+static void add_sheet(int from, int to)
+{
+    int turned = below(2), least = from == to ? 3 : 1, faces = least + below(3);
+    for (int i = 0, a = from, b; i < faces; i++, a = b) {
+        b = i + 1 < faces ? cage_vertex(&cage, i, below(9), below(9)) : to;
+        if (cage.mesh.scheme == SUBDIV_LOOP) cage_triangle(&cage, 0, turned ? b : a, turned ? a : b);
+        else cage_quad(&cage, 0, turned ? b : a, cage_vertex(&cage, below(9), i, 3), turned ? a : b);
+    }
+}
+
+// A crease of non-manifold edges runs through a vertex if three sheets or more lead from the one to
+// the other and there is no other sheet: none that ends where it began, closes around the vertex or
+// has a boundary. Else the vertex is a corner. The sheets are in random order.
+static void test_sheets(void)
+{
+    enum { STARS = 2000 };
+    int through = 0;
+    random_state = 1;
+    for (int i = 0; i < STARS; i++) {
+        int left[3], others[4] = { 0, 0, 0, 0 }, all = 0;      // others: of each kind
+        cage_clear(&cage, below(2) ? SUBDIV_LOOP : SUBDIV_CATMULL_CLARK);
+        for (int v = 0; v < 3; v++) cage_vertex(&cage, v, below(9), below(9));
+        left[0] = 3 + below(4);                           // sheets from 1 to 2
+        for (int k = 0; k < 4; k++) all += others[k] = below(4) == 0;
+        for (int rest = left[0] + all; rest > 0; rest--) {
+            int k = 3, pick = below(rest);
+            for (; k >= 0 && pick >= others[k]; k--) pick -= others[k];
+            if (k < 0) left[0]--, below(2) ? add_sheet(1, 2) : add_sheet(2, 1);
+            else others[k] = 0;
+            int a = k >= 2 ? cage_vertex(&cage, 7, k, i % 5) : k + 1;
+            if (k >= 0 && k < 3) add_sheet(a, a);
+            if (k == 3) add_sheet(1, a);
+        }
+        probe_start(&cage.mesh);
+        if (all) add_vertex(1, 0);
+        else add_crease_vertex(1, 0, 1, 2);
+        check_vertex(0);
+        probe_end();
+        through += !all;
+    }
+    CHECK(through > STARS / 5 && through < STARS / 2);
+}
+
 static void test_bow_tie(void)
 {
     for (int i = 0; i < 2; i++) {
@@ -954,6 +1006,7 @@ int main(void)
     RUN(test_holes);
     RUN(test_fins);
     RUN(test_ending_fin);
+    RUN(test_sheets);
     RUN(test_bow_tie);
     RUN(test_cones);
     RUN(test_twisted_edge);

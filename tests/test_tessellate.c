@@ -484,14 +484,14 @@ static void test_picture(void)
 }
 
 // Across a rate of 1 the two other sides of a quad are joined, whichever they are, without points
-// inside; unless the face has a rate of its own.
+// inside: by as few triangles as there can be. Unless the face has a rate of its own.
 static void test_rate_of_one(void)
 {
-    static const int rates[][4] = { { 4, 1, 5, 1 }, { 1, 5, 1, 4 }, { 100, 1, 101, 1 },
-                                    { 1, 4, 1, 1 }, { 1, 1, 4, 1 }, { 3, 1, 1, 1 } };
-    static const int triangles[] = { 9, 9, 201, 5, 5, 4 };
-    for (int i = 0; i < 12; i++) {
-        const int *r = rates[i % 6], face_rate = 3;
+    static const int rates[] = { 1, 2, 3, 4, 5, 7, 100, 101 };
+    for (int i = 0; i < 256; i++) {
+        const int face_rate = 3, first = rates[i % 8], second = rates[i / 8 % 8], turn = i / 64 % 2;
+        const int r[4] = { turn ? 1 : first, turn ? first : 1, turn ? 1 : second, turn ? second : 1 };
+        const int points = r[0] + r[1] + r[2] + r[3];
         test_cage c;
         plan p;
         subdiv_mesh fine;
@@ -499,11 +499,11 @@ static void test_rate_of_one(void)
         build_square(&c);
         how.edge_rates = r;
         how.triangles = 1;
-        if (i >= 6) how.face_rates = &face_rate;
+        if (i >= 128) how.face_rates = &face_rate;
         plan_make(&p, &c.mesh, r, how.face_rates);
         CHECK_EQUAL(subdiv_tessellate(&fine, &c.mesh, &how, NULL), SUBDIV_OK);
-        CHECK_EQUAL(fine.vertex_count, r[0] + r[1] + r[2] + r[3] + (i < 6 ? 0 : 4));
-        if (i < 6) CHECK_EQUAL(fine.face_count, triangles[i]);
+        CHECK_EQUAL(fine.vertex_count, points + (i < 128 ? 0 : 4));
+        if (i < 128) CHECK_EQUAL(fine.face_count, points - 2);
         check_tessellation(&fine, &p, NULL);
         subdiv_mesh_free(&fine);
         plan_free(&p);

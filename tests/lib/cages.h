@@ -9,7 +9,13 @@
 #include "subdiv.h"
 #include "order.h"
 
-enum { CAGE_VERTICES = 320, CAGE_FACES = 512, CAGE_FACE_VERTICES = 4096, CAGE_TAGS = 1024 };
+#ifndef CAGE_SCALE                                // a test may define more room
+#define CAGE_SCALE 1
+#endif
+enum {
+    CAGE_VERTICES = 320 * CAGE_SCALE, CAGE_FACES = 512 * CAGE_SCALE,
+    CAGE_FACE_VERTICES = 4096 * CAGE_SCALE, CAGE_TAGS = 1024 * CAGE_SCALE
+};
 
 typedef struct test_cage {
     subdiv_mesh mesh;                             // its arrays are those below

@@ -447,6 +447,38 @@ static inline int oracle_is_fan(const oracle *o, int v, int *face_count)
     return found == *face_count;
 }
 
+// Does every sheet of faces at v reach both edges there that are not manifold? Spreads from each of
+// the two over edges at v that are manifold.
+static inline int oracle_sheets_lead_through(const oracle *o, const unsigned char *odd, int v)
+{
+    const oracle_mesh *m = &o->cage;
+    static unsigned char in[2][ORACLE_MOST];                // edges and, behind, face-vertices
+    int found[2] = { -1, -1 }, all = 1;
+    for (int e = 0; e < m->edge_count; e++)
+        if (odd[e] && (m->ends[e][0] == v || m->ends[e][1] == v)) found[found[0] >= 0] = e;
+    for (int i = 0, grown = 1; i < 2; i++, grown = 1) {
+        static unsigned char edge_in[ORACLE_MOST];
+        memset(in[i], 0, sizeof in[i]);
+        memset(edge_in, 0, sizeof edge_in);
+        edge_in[found[i]] = 1;
+        while (grown) {
+            grown = 0;
+            for (int f = 0; f < m->face_count; f++)
+                for (int h = m->start[f]; h < m->start[f + 1]; h++) {
+                    const int out = m->edges[h], back = m->edges[oracle_turn(m, f, h, -1)];
+                    if (m->vertices[h] != v || in[i][h] || !(edge_in[out] || edge_in[back])) continue;
+                    in[i][h] = 1;
+                    grown = 1;
+                    if (!odd[out]) edge_in[out] = 1;
+                    if (!odd[back]) edge_in[back] = 1;
+                }
+        }
+    }
+    for (int h = 0; h < m->start[m->face_count]; h++)
+        all &= m->vertices[h] != v || (in[0][h] && in[1][h]);
+    return all;
+}
+
 // Boundaries and what is not manifold are sharp forever, but a vertex where fins pass through.
 static inline void oracle_sharpen(oracle *o, const subdiv_mesh *cage)
 {
@@ -479,7 +511,8 @@ static inline void oracle_sharpen(oracle *o, const subdiv_mesh *cage)
             boundary += o->edge_faces[e] < 2;
             odd_edges += odd[e];
         }
-        const int through = odd_edges == 2 && boundary == 0 && faces > edges;
+        const int through = odd_edges == 2 && boundary == 0 && faces > edges
+                         && oracle_sheets_lead_through(o, odd, v);
         if ((odd_edges || !fan) && !through) m->corner[v] = SUBDIV_INFINITE;
         if (cage->boundary == SUBDIV_BOUNDARY_EDGE_AND_CORNER && faces == 1 && edges == 2)
             m->corner[v] = SUBDIV_INFINITE;

@@ -69,6 +69,7 @@ static void compare_cage(const subdiv_mesh &cage, int first, int last, const std
     totals.cages++;
     totals.hidden += std::count(ref.hidden.begin(), ref.hidden.end(), 1);
     totals.put_right += ref.put_right;
+    totals.blocked += ref.blocked;
     for (int l = first; l <= last && !test_bad; l++) compare_level(ref, cage, l, l % 2 == 0);
     if (test_bad) test_failed++;
     else test_passed++;
@@ -250,8 +251,8 @@ static int report(void)
            "OpenSubdiv's differ; %lld normals, %lld beside creases where OpenSubdiv's differ or are "
            "not to be had; %lld are 0\n", totals.limit_points, totals.largest_limit_error,
            totals.fading_limits, totals.limit_normals, totals.odd_sides, totals.no_normals);
-    printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1\n",
-           totals.put_right);
+    printf("%lld edge points of OpenSubdiv put right, Chaikin weights above 1; %lld vertices that "
+           "it is told are sharp\n", totals.put_right, totals.blocked);
     for (const auto &skip : totals.skips)
         printf("skipped: %ld %s\n", skip.second, skip.first.c_str());
     return test_end("opensubdiv");

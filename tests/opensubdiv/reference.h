@@ -3,8 +3,10 @@
 #ifndef REFERENCE_H
 #define REFERENCE_H
 
+#include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +49,7 @@ struct Reference {
     int put_right = 0;                     // edge points where OpenSubdiv's are known to be wrong
     std::vector<char> alternating;         // by cage vertex: see find_alternating
     int alternating_count = 0;
+    int blocked = 0;                       // cage vertices that are sharp: see leads_through
 };
 
 static int face_size(const subdiv_mesh &mesh, int face)
@@ -73,7 +76,36 @@ static Sdc::Options sdc_options(const subdiv_mesh &cage)
     return options;
 }
 
-static Far::TopologyRefiner *make_refiner(const subdiv_mesh &cage, int levels)
+// Does every sheet of faces at v reach two edges that are not manifold? A sheet is joined at edges
+// that are.
+static bool leads_through(const Far::TopologyLevel &level, int v)
+{
+    const Far::ConstIndexArray faces = level.GetVertexFaces(v);
+    const Far::ConstLocalIndexArray at = level.GetVertexFaceLocalIndices(v);
+    std::vector<int> sheet;
+    for (int i = 0; i < faces.size(); i++) sheet.push_back(i);
+    const auto edge = [&](int i, int side) {
+        const Far::ConstIndexArray edges = level.GetFaceEdges(faces[i]);
+        return edges[(at[i] + side * (edges.size() - 1)) % edges.size()];
+    };
+    for (int i = 0; i < faces.size(); i++)
+        for (int j = 0; j < 4 * i; j++) {
+            const int e = edge(i, j % 2), from = sheet[(size_t)i], to = sheet[(size_t)(j / 4)];
+            if (e == edge(j / 4, j / 2 % 2) && !level.IsEdgeNonManifold(e))
+                std::replace(sheet.begin(), sheet.end(), from, to);
+        }
+    std::vector<std::set<int>> reached((size_t)faces.size());
+    for (int i = 0; i < 2 * faces.size(); i++)
+        if (level.IsEdgeNonManifold(edge(i / 2, i % 2)))
+            reached[(size_t)sheet[(size_t)i / 2]].insert(edge(i / 2, i % 2));
+    for (int s : sheet) if (reached[(size_t)s].size() != 2) return false;
+    return true;
+}
+
+// OpenSubdiv lets a crease of two non-manifold edges run through a vertex by the numbers of its
+// faces and edges alone. Where a sheet of faces does not lead from the one to the other, it is told
+// that the vertex is sharp: blocked counts these.
+static Far::TopologyRefiner *make_refiner(const subdiv_mesh &cage, int levels, int *blocked = nullptr)
 {
     std::vector<int> sizes;
     for (int f = 0; f < cage.face_count; f++) sizes.push_back(face_size(cage, f));
@@ -101,12 +133,27 @@ static Far::TopologyRefiner *make_refiner(const subdiv_mesh &cage, int levels)
                                    cage.scheme == SUBDIV_BILINEAR ? Sdc::SCHEME_BILINEAR :
                                                                     Sdc::SCHEME_CATMARK;
     typedef Far::TopologyRefinerFactory<Far::TopologyDescriptor> Factory;
-    Far::TopologyRefiner *refiner = Factory::Create(d, Factory::Options(scheme, sdc_options(cage)));
+    const Factory::Options options(scheme, sdc_options(cage));
+    std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(d, options));
     if (!refiner) return nullptr;
+    const Far::TopologyLevel &level = refiner->GetLevel(0);
+    std::vector<int> corners(cage.corner_vertices, cage.corner_vertices + cage.corner_count);
+    std::vector<float> sharpness(cage.corner_sharpness, cage.corner_sharpness + cage.corner_count);
+    for (int v = 0; v < cage.vertex_count; v++) {
+        if (!level.IsVertexNonManifold(v) || level.GetVertexSharpness(v) >= SUBDIV_INFINITE ||
+            leads_through(level, v)) continue;
+        corners.push_back(v);
+        sharpness.push_back(SUBDIV_INFINITE);
+    }
+    d.numCorners = (int)corners.size();
+    d.cornerVertexIndices = corners.data();
+    d.cornerWeights = sharpness.data();
+    if (blocked) *blocked = d.numCorners - cage.corner_count;
+    if (d.numCorners > cage.corner_count) refiner.reset(Factory::Create(d, options));
     Far::TopologyRefiner::UniformOptions uniform(levels);
     uniform.fullTopologyInLastLevel = true;
     refiner->RefineUniform(uniform);
-    return refiner;
+    return refiner.release();
 }
 
 // Where child j of a face lies. A quad's children keep the axes of their parent, and so do a
@@ -285,7 +332,7 @@ static bool has_broken_ring(const Far::TopologyLevel &level)
 // Returns why there is none, or NULL.
 static const char *make_reference(Reference &ref, const subdiv_mesh &cage, int levels)
 {
-    ref.refiner.reset(make_refiner(cage, levels));
+    ref.refiner.reset(make_refiner(cage, levels, &ref.blocked));
     if (!ref.refiner) return "cages that OpenSubdiv refuses";
     if (has_broken_ring(ref.refiner->GetLevel(0)))
         return "cages where OpenSubdiv takes a vertex that a face repeats for manifold";

@@ -18,7 +18,7 @@ static const double sharpness_tolerance = 1e-5;   // Chaikin adds up in the orde
 
 struct Totals {
     long long cages = 0, uvs = 0, vertices = 0, faces = 0, creases = 0, corners = 0, hidden = 0;
-    long long put_right = 0;
+    long long put_right = 0, blocked = 0;
     long long limit_points = 0, fading_limits = 0, limit_normals = 0, odd_sides = 0, no_normals = 0;
     double largest_error = 0, largest_limit_error = 0;
     std::map<std::string, long> skips;
