@@ -9220,6 +9220,8 @@ static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynom
 typedef struct sdv_nest_state {
     const subdiv_surface *surface;
     const sdv_nest_kind *kind;
+    const int    *points;               // of the first level, among the work points
+    const double *work;
     double *w;                          // [4 * work_count] its points, then those of the next level
     double  base[4], shrink;
 } sdv_nest_state;
@@ -9230,15 +9232,16 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
                           const double *work, double *w)
 {
     const sdv_nest *nest = &surface->exact->nests[number];
-    const int *points = surface->exact->nest_points + nest->first;
     s->surface = surface;
     s->kind = &surface->exact->kinds[nest->kind];
+    s->points = surface->exact->nest_points + nest->first;
+    s->work = work;
     s->w = w;
     s->shrink = 1;
-    for (int c = 0; c < 4; c++) s->base[c] = work[4 * (size_t)points[0] + (size_t)c];
+    memcpy(s->base, work + 4 * (size_t)s->points[0], sizeof s->base);
     for (int i = 0; i < s->kind->points; i++)
         for (int c = 0; c < 4; c++)
-            w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
+            w[4 * i + c] = work[4 * (size_t)s->points[i] + (size_t)c] - s->base[c];
 }
 
 // Makes the points of a nest's next level.
@@ -9566,22 +9569,28 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
     sdv_put_columns(rows, loop, at, order, out);
 }
 
-// Finds how a part of a patch weighs its control points, in values and derivatives, by evaluating
-// unit vectors, four at a time. weights [16], of which Loop has 12.
-static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
-                              const sdv_where *at, double (*weights)[6])
+// Makes the polynomial of unit vectors: lane i is what control point first + i weighs in it.
+static void sdv_unit_polynomial(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                                int first, float *data)
 {
     static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
     double unit[16][4] = { { 0 } }, origin[4];
-    float data[4 * SDV_SLOTS], w[4];
     sdv_polynomial q;
     sdv_double_patch from = sdv_double_patch_of(surface, patch, same, unit[0]);
+    for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
+    sdv_make_polynomial(&from, part, &q, origin);
+    sdv_keep_polynomial(&q, origin, 1, 4, data);
+}
+
+// Finds how a part of a patch weighs its control points, in values and derivatives. weights [16],
+// of which Loop has 12.
+static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                              const sdv_where *at, double (*weights)[6])
+{
+    float data[4 * SDV_SLOTS], w[4];
     for (int first = 0; first < sdv_control_points(&surface->rules); first += 4) {
         sdv_four values[6];
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
-        sdv_make_polynomial(&from, part, &q, origin);
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
-        sdv_keep_polynomial(&q, origin, 1, 4, data);
+        sdv_unit_polynomial(surface, patch, part, first, data);
         sdv_polynomial_values(data, surface->rules.loop, 4, at, 2, values);
         for (int d = 0; d < 6; d++) {
             sdv_store(w, values[d]);
@@ -9621,62 +9630,101 @@ static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, i
 // A sample in a nest, four channels at a time.
 typedef struct sdv_nest_sample {
     sdv_nest_state state;
-    int     face;
-    double  x, y;                       // as seen from the vertex
+    int     nest, face;
+    const sdv_patch *like;              // a patch whose sharp edges are those of the units; or NULL
+    float   units[16 * SDV_SLOTS];      // from sdv_unit_polynomial
+    int     made;                       // 4 face + child, whose polynomial is here; or -1: not even
+    double  c[SDV_SLOTS][4];            // the points of the next level are made
     double  values[6][4];               // what comes out; derivatives are those in x and y
     double  tangents[2][4];             // for the normal
 } sdv_nest_sample;
 
-// Applies the limit masks of a nest: of its vertex, as seen from there, and of two tangents.
+// Applies the limit masks of a nest: of its vertex, as seen from its first level, and of two
+// tangents.
 static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
 {
     const sdv_nest_kind *kind = s->kind;
+    const double *base = s->work + 4 * (size_t)s->points[0];
     for (int k = 0; k < 3; k++)
         for (int c = 0; c < 4; c++) {
             limit[k][c] = 0;
             for (int i = 0; i < kind->points; i++)
-                limit[k][c] += kind->limit[k * kind->points + i] * s->w[4 * i + c];
+                limit[k][c] += kind->limit[k * kind->points + i] *
+                               (s->work[4 * (size_t)s->points[i] + (size_t)c] - base[c]);
         }
 }
 
-// Finds how the child of a nest's face at (x, y), which is not in the next nest, weighs its control
-// points, and returns these. On a sharp edge the points beside it weigh nothing at all: there the
-// surface may grow without bound as seen from the vertex, while along the edge it does not.
-static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
-                                    int face, double x, double y, double (*weights)[6])
+// Makes the polynomial of a patch of a nest from points in doubles. On an edge the points beside it
+// weigh nothing at all, or cancel out: as seen from the vertex, the surface may grow without bound
+// there, while along the edge it does not.
+static void sdv_nest_polynomial(sdv_nest_sample *s, const sdv_patch *patch, const int *points)
 {
-    double scale = 1;
-    int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
-    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
-    const int *points;
-    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
-    sdv_patch_weights(surface, patch, 0, &at, weights);
-    return points;
+    const sdv_nest_state *state = &s->state;
+    if (!s->like || s->like->sharp != patch->sharp ||
+        memcmp(s->like->fan, patch->fan, sizeof patch->fan) != 0)
+        for (int i = 0; i < state->kind->width; i += 4)
+            sdv_unit_polynomial(state->surface, patch, 0, i, s->units + SDV_SLOTS * i);
+    s->like = patch;
+    memset(s->c, 0, sizeof s->c);
+    for (int i = 0; i < state->kind->width; i++)
+        for (int k = 0; k < SDV_SLOTS; k++) {
+            double unit = (double)s->units[SDV_SLOTS * (i & ~3) + 4 * k + (i & 3)];
+            for (int c = 0; c < 4; c++) s->c[k][c] += unit * state->w[4 * points[i] + c];
+        }
+}
+
+// The powers of a coordinate, and their derivatives times those of the coordinate.
+static void sdv_find_powers(double x, double scale, double (*powers)[5])
+{
+    for (int d = 0; d < 3; d++) powers[d][0] = d == 0;
+    for (int i = 0; i < 4; i++)
+        for (int d = 0; d < 3; d++)
+            powers[d][i + 1] = x * powers[d][i] + (d ? d * scale * powers[d - 1][i] : 0);
+}
+
+// Sums the coefficients of a polynomial times powers of x and y.
+SDV_INLINE void sdv_sum_powers(const double (*coefficients)[4], int loop, const double *x,
+                               const double *y, double *sum)
+{
+    for (int c = 0; c < 4; c++) sum[c] = 0;
+    for (int k = 0; k < (loop ? 14 : SDV_SLOTS); k++) {
+        double weight = x[sdv_powers[loop][k][0]] * y[sdv_powers[loop][k][1]];
+        for (int c = 0; c < 4; c++) sum[c] += weight * coefficients[k][c];
+    }
 }
 
 // Evaluates the child of a nest's face at (x, y), which is not in the next nest.
-static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
+static void sdv_nest_child(sdv_nest_sample *s, double x, double y, int order)
 {
+    static const unsigned char derivatives[6][2] = { {0,0}, {1,0}, {0,1}, {2,0}, {1,1}, {0,2} };
     const sdv_nest_state *state = &s->state;
-    double weights[16][6];
-    const int *points = sdv_child_weights(state->surface, state->kind, s->face, x, y, weights);
-    sdv_nest_refine(&s->state);
-    memset(s->values, 0, sizeof s->values);
-    for (int i = 0; i < state->kind->width; i++)
-        for (int d = 0; d < 6; d++)
-            for (int c = 0; c < 4; c++)
-                s->values[d][c] += weights[i][d] * state->w[4 * points[i] + c];
-    for (int c = 0; c < 4; c++) {
-        s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
-        for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
+    int loop = state->surface->rules.loop;
+    double scale = 1, across[3][5], up[3][5], sum[4];
+    int child = sdv_descend(loop, &x, &y, &scale), number = 4 * s->face + child;
+    if (s->made < 0) sdv_nest_refine(&s->state);
+    if (s->made != number) {
+        const int *points;
+        const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
+        sdv_nest_polynomial(s, patch, points);
+        s->made = number;
+    }
+    sdv_find_powers(x, scale, across);
+    sdv_find_powers(y, scale, up);
+    for (int d = 0; d < (order + 1) * (order + 2) / 2; d++) {
+        const double (*c)[4] = (const double (*)[4])s->c, *at = across[derivatives[d][0]];
+        double times = d == 0 ? state->shrink : d < 3 ? 1 : 1 / state->shrink;
+        if (loop) sdv_sum_powers(c, 1, at, up[derivatives[d][1]], sum);
+        else sdv_sum_powers(c, 0, at, up[derivatives[d][1]], sum);
+        for (int k = 0; k < 4; k++) s->values[d][k] = times * sum[k] + (d ? 0 : state->base[k]);
     }
     memcpy(s->tangents, s->values[1], sizeof s->tangents);
 }
 
-static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
+// Goes on to a level of a nest, counted from its first one.
+static void sdv_nest_go_down(sdv_nest_sample *s, int level)
 {
-    for (int i = 0; i < levels; i++) {
-        sdv_nest_refine(&s->state);
+    for (double shrink = ldexp(1, -level); s->state.shrink > shrink; s->made = -1) {
+        if (s->made < 0) sdv_nest_refine(&s->state);
         sdv_nest_descend(&s->state);
     }
 }
@@ -9691,7 +9739,8 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
         double limit[3][4];
         sdv_nest_masks(&s->state, limit);
         for (int c = 0; c < 4; c++) {
-            s->values[0][c] = s->state.base[c] + s->state.shrink * limit[0][c];
+            s->values[0][c] = s->state.work[4 * (size_t)s->state.points[0] + (size_t)c] +
+                              limit[0][c];
             for (int i = 0; i < 2; i++)
                 s->values[1 + i][c] = cos((s->face + i) * a) * limit[1][c] +
                                       sin((s->face + i) * a) * limit[2][c];
@@ -9700,11 +9749,11 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
     } else {
         double along[2][4];
         sdv_nest_go_down(s, SDV_NEST_FAR);
-        sdv_nest_child(s, 0.5, 0);
+        sdv_nest_child(s, 0.5, 0, 1);
         memcpy(along[0], s->values[1], sizeof along[0]);
-        sdv_nest_child(s, 0, 0.5);
+        sdv_nest_child(s, 0, 0.5, 1);
         memcpy(along[1], s->values[2], sizeof along[1]);
-        sdv_nest_child(s, 0.5, 0.5);
+        sdv_nest_child(s, 0.5, 0.5, 1);
         memcpy(s->values[1], along, sizeof along);
         memcpy(s->values[0], s->state.base, sizeof s->state.base);
     }
@@ -9713,14 +9762,13 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
 
 // Near a vertex with one face on a side of its crease tangents are parallel. There the normal is
 // that of the vertex, whose second tangent is how the crease bends.
-static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
+static void sdv_nest_normal(sdv_nest_sample *s)
 {
     const double *a = s->tangents[0], *b = s->tangents[1];
     double limit[3][4], n[3];
     sdv_cross(a, b, n);
     int parallel = sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
     if (!s->state.kind->limit || !parallel) return;
-    sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
     sdv_nest_masks(&s->state, limit);
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
@@ -9739,30 +9787,6 @@ static int sdv_nest_levels(int loop, double x, double y)
     int down;
     frexp(loop ? x + y : x > y ? x : y, &down);
     return down > 0 ? 0 : -down;
-}
-
-// Evaluates a sample from the nest's points, or from those after the last polynomials.
-static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e, int nest, int c,
-                              double *w)
-{
-    const subdiv_surface *surface = e->surface;
-    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
-    int kept = !vertex && down >= SDV_NEST_DEPTH;
-    const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
-    sdv_nest_load(&s->state, surface, nest, work, w);
-    if (kept) {                         // what sdv_nest_polynomials ended with
-        const double *base = sdv_kept_nest(e, nest, c);
-        s->state.shrink = ldexp(1, -SDV_NEST_DEPTH);
-        memcpy(s->state.base, base, sizeof s->state.base);
-        memcpy(w, base + 4, 4 * sizeof(double) * (size_t)s->state.kind->points);
-    }
-    if (vertex) {
-        sdv_nest_vertex(s);
-    } else {
-        sdv_nest_go_down(s, kept ? down - SDV_NEST_DEPTH : down);
-        sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
-    }
-    if (e->normals && c == 0) sdv_nest_normal(s, nest, work);
 }
 
 // Turns derivatives in x and y into those in u and v, with the scale of the face.
@@ -9794,27 +9818,115 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
     sdv_unit_cross(s->tangents[0], s->tangents[1], 1e-28, e->normals + e->normal_stride * i);
 }
 
-static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
+// Starts where sdv_nest_polynomials has ended.
+static void sdv_load_kept(const sdv_exact_evaluation *e, int nest, int c, sdv_nest_sample *s)
 {
-    const subdiv_surface *surface = e->surface;
-    int loop = surface->rules.loop;
-    const sdv_nest_face *face = &surface->exact->nest_faces[leaf->nest_face];
-    const signed char *t = sdv_turns[loop][face->turn];
-    int count = sdv_nest_work(surface->exact, face->nest);
-    double stack[4 * SDV_NEST_STACK], *w = stack;
+    const sdv_exact *exact = e->surface->exact;
+    const double *kept = sdv_kept_nest(e, nest, c);
+    sdv_nest_state *state = &s->state;
+    s->nest = nest;
+    s->made = -1;
+    state->surface = e->surface;
+    state->kind = &exact->kinds[exact->nests[nest].kind];
+    state->points = exact->nest_points + exact->nests[nest].first;
+    state->work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
+    state->shrink = ldexp(1, -SDV_NEST_DEPTH);
+    memcpy(state->base, kept, sizeof state->base);
+    memcpy(state->w, kept + 4, 4 * sizeof(double) * (size_t)state->kind->points);
+}
+
+// Samples nearer to the vertices of nests than polynomials are kept wait until there are many, or
+// no others are left. Then they are sorted: all those of a nest share one way down, and those of a
+// patch its polynomial. (Of nests and faces whose numbers end in the same bits, some are made again.)
+enum { SDV_QUEUE = 1024 };
+
+typedef struct sdv_waiting {
+    double x, y;                        // on their level, as seen from the vertex; 0: the vertex
+    float  scale;                       // of the leaf
+    int    face, i;                     // of a nest; the location's number
+} sdv_waiting;
+
+typedef struct sdv_queue {
+    int         count, failed;          // failed: there was no memory for them
+    int         most_work;              // of their nests
+    uint32_t    keys[SDV_QUEUE];        // from the highest bit on: nest, level, face, quarter
+    int         order[2][SDV_QUEUE];    // sorted, and while they are
+    sdv_waiting items[SDV_QUEUE];
+} sdv_queue;
+
+static void sdv_sort_queue(sdv_queue *queue)
+{
+    for (int k = 0; k < queue->count; k++) queue->order[0][k] = k;
+    for (int byte = 0; byte < 4 && queue->count > 1; byte++) {
+        const int *from = queue->order[byte & 1];
+        int *to = queue->order[~byte & 1], starts[257] = { 0 };
+        for (int k = 0; k < queue->count; k++) starts[(queue->keys[k] >> 8 * byte & 255) + 1]++;
+        for (int k = 0; k < 255; k++) starts[k + 1] += starts[k];
+        for (int k = 0; k < queue->count; k++)
+            to[starts[queue->keys[from[k]] >> 8 * byte & 255]++] = from[k];
+    }
+}
+
+// Evaluates a sample that waited, four channels from c on.
+static void sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_waiting *at, int level, int c,
+                            sdv_nest_sample *s)
+{
+    const sdv_nest_face *face = &e->surface->exact->nest_faces[at->face];
+    if (s->nest != face->nest) sdv_load_kept(e, face->nest, c, s);
+    s->face = at->face - e->surface->exact->nests[face->nest].face;
+    if (at->x <= 0 && at->y <= 0) {
+        sdv_nest_vertex(s);
+    } else {
+        sdv_nest_go_down(s, level);
+        sdv_nest_child(s, at->x, at->y, e->order);
+    }
+    if (e->normals && c == 0) sdv_nest_normal(s);
+    sdv_nest_turn(s, sdv_turns[e->surface->rules.loop][face->turn], (double)at->scale);
+    sdv_put_nest_sample(e, s, c, (size_t)at->i);
+}
+
+static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
+{
+    double stack[4 * SDV_NEST_STACK];
     sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
-    s.face = leaf->nest_face - surface->exact->nests[face->nest].face;
-    sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &s.x, &s.y);
-    if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
-    for (int c = 0; c < e->channels && w; c += 4) {
-        sdv_nest_evaluate(&s, e, face->nest, c, w);
-        sdv_nest_turn(&s, t, leaf->sx);
-        sdv_put_nest_sample(e, &s, c, i);
+    s.state.w = stack;
+    s.like = NULL;
+    if (queue->most_work > SDV_NEST_STACK)
+        s.state.w = SDV_NEW(&context, &arena, double, 4 * (size_t)queue->most_work);
+    sdv_sort_queue(queue);
+    for (int c = 0; c < e->channels && s.state.w; c += 4) {
+        s.nest = -1;
+        for (int k = 0; k < queue->count; k++) {
+            int i = queue->order[0][k];
+            sdv_sample_nest(e, &queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
+        }
     }
+    queue->failed |= !s.state.w;
+    queue->count = queue->most_work = 0;
     sdv_arena_free(&arena);
-    return w != NULL;
+}
+
+static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i,
+                        sdv_queue *queue)
+{
+    const sdv_exact *exact = e->surface->exact;
+    const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
+    int loop = e->surface->rules.loop, work = sdv_nest_work(exact, face->nest), level;
+    if (queue->count == SDV_QUEUE) sdv_empty_queue(e, queue);
+    sdv_waiting *at = &queue->items[queue->count];
+    sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &at->x, &at->y);
+    level = at->x > 0 || at->y > 0 ? sdv_nest_levels(loop, at->x, at->y) : SDV_NEST_FAR;
+    at->x = ldexp(at->x, level);
+    at->y = ldexp(at->y, level);
+    at->scale = (float)leaf->sx;
+    at->face = leaf->nest_face;
+    at->i = (int)i;
+    queue->keys[queue->count++] =
+        (uint32_t)face->nest << 20 | (uint32_t)level << 12 |
+        ((uint32_t)at->face & 1023) << 2 | (uint32_t)(at->y >= 0.5) << 1 | (uint32_t)(at->x >= 0.5);
+    if (work > queue->most_work) queue->most_work = work;
 }
 
 // Writes the zeros of a face without a surface.
@@ -9826,13 +9938,14 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
 }
 
 // Evaluates a location by its leaf, as its cell has no polynomial.
-static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
+static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i,
+                             sdv_queue *queue)
 {
     sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
     sdv_find_polynomial(e->surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
     if (leaf.below_kept)
-        e->failed[job] |= !sdv_sample_nest(e, &leaf, i);
+        sdv_enqueue(e, &leaf, i, queue);
     else if (leaf.patch || leaf.nest_face >= 0)
         sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i);
     else
@@ -9870,8 +9983,9 @@ static int sdv_find_batch(const sdv_exact_evaluation *e, size_t i, size_t end,
 
 // Evaluates a batch of locations from i on, and fetches the polynomials of the next batch. lanes,
 // order: constants for what is asked for most; lanes 0: whatever e asks for.
-SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
-                              const sdv_sample_batch *batch, const sdv_sample_batch *next, size_t i)
+SDV_INLINE void sdv_put_batch(const sdv_exact_evaluation *e, int loop, int lanes, int order,
+                              const sdv_sample_batch *batch, const sdv_sample_batch *next, size_t i,
+                              sdv_queue *queue)
 {
     const sdv_lookup *l = &batch->at;
     size_t third = SDV_SLOTS * (size_t)e->channels / 3;
@@ -9883,7 +9997,7 @@ SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int la
             sdv_prefetch(next->data[k] + third);
             sdv_prefetch(next->data[k] + 2 * third);
         }
-        if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, job, i);
+        if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, i, queue);
         else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
         else sdv_put_channels(e, batch->data[k], loop, &at, i);
     }
@@ -9897,6 +10011,8 @@ static void sdv_locations_job(void *context, int job)
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
     sdv_sample_batch batches[2], *batch = batches, *next = batches + 1;
+    sdv_queue queue;
+    queue.count = queue.failed = queue.most_work = 0;
     e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
     while (i < end && !e->refused[job]) {
         sdv_sample_batch *last = batch;
@@ -9905,12 +10021,14 @@ static void sdv_locations_job(void *context, int job)
         i += (size_t)batch->count;
         e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
         size_t first = i - (size_t)batch->count;
-        if (loop && order == 0) sdv_put_batch(e, job, 1, 3, 0, batch, next, first);
-        else if (loop && order == 1) sdv_put_batch(e, job, 1, 3, 1, batch, next, first);
-        else if (order == 0) sdv_put_batch(e, job, 0, 3, 0, batch, next, first);
-        else if (order == 1) sdv_put_batch(e, job, 0, 3, 1, batch, next, first);
-        else sdv_put_batch(e, job, loop, 0, 0, batch, next, first);
+        if (loop && order == 0) sdv_put_batch(e, 1, 3, 0, batch, next, first, &queue);
+        else if (loop && order == 1) sdv_put_batch(e, 1, 3, 1, batch, next, first, &queue);
+        else if (order == 0) sdv_put_batch(e, 0, 3, 0, batch, next, first, &queue);
+        else if (order == 1) sdv_put_batch(e, 0, 3, 1, batch, next, first, &queue);
+        else sdv_put_batch(e, loop, 0, 0, batch, next, first, &queue);
     }
+    sdv_empty_queue(e, &queue);
+    e->failed[job] = (unsigned char)queue.failed;
 }
 
 // The first location that is not there.
@@ -10692,12 +10810,17 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// Adds the weights of the patch at (x, y), in one part up to another.
+// Adds the weights of the child of a nest's face at (x, y), which is not in the next nest, in one
+// part up to another.
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                             double x, double y, int part, int end, double *w)
 {
-    double weights[16][6];
-    const int *points = sdv_child_weights(surface, kind, face, x, y, weights);
+    double weights[16][6], scale = 1;
+    int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
+    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
+    const int *points;
+    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
+    sdv_patch_weights(surface, patch, 0, &at, weights);
     for (int i = 0; i < kind->width; i++)
         for (int k = part; k < end; k++) w[3 * points[i] + k] += weights[i][k];
 }
@@ -10714,7 +10837,7 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
     }
 }
 
-// Weighs the points of a nest at (x, y) on a face of it, as sdv_nest_evaluate does.
+// Weighs the points of a nest at (x, y) on a face of it, as sdv_sample_nest does.
 static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                            double x, double y, double *w)
 {
@@ -11438,10 +11561,11 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
     }
     l->nest = nest;
     l->part = 0;
+    vertex.made = -1;
+    vertex.like = NULL;
     for (int depth = 0; depth <= most; depth++) {
         int last = depth == most;
-        if (last) sdv_nest_load(nest, surface, number, l->source->points, w);
-        else sdv_nest_refine(nest);
+        if (!last) sdv_nest_refine(nest);
         l->vertex = last ? &vertex : NULL;
         for (int i = 0; i < nest->kind->faces; i++) {
             vertex.face = i;
