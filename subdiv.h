@@ -489,6 +489,10 @@ typedef struct subdiv_derivatives {
 // (under opt->triangulate: triangles), holes included. Faces that boundary "none" drops, and faces
 // without face-varying values, have no surface: they give zeros.
 //
+// Faces evaluate the points that they share to the same bits: those of a vertex, and those of an
+// edge at t and, from the other end, 1 - t (closer to a vertex than t = 0.001 only if 1 - t is not
+// rounded); in an n-gon also those of the edges and vertices between its quads.
+//
 // Derivatives are with respect to u and v; on a crease they belong to the face's side. Beyond the
 // range of floats they are not finite. At some vertices, results differ from those close by:
 //
@@ -7739,6 +7743,8 @@ typedef struct sdv_exact {
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
     unsigned *cells;                    // see >>cells
+    int *home;                          // [vertices and edges of the cage] the face-vertex whose
+                                        //      face evaluates what several faces have, or -1
     sdv_nest_kind *kinds;
     sdv_nest *nests;
     int *nest_points;                   // work points
@@ -8444,14 +8450,26 @@ SDV_INLINE int sdv_root_cell(const sdv_level *cage, int loop, int h)
     return cage->face_size == (loop ? 3 : 4) ? sdv_face_of(cage, h) : h;
 }
 
+static int sdv_in_ngon(const sdv_level *cage, int loop, int h)
+{
+    return sdv_size_of(cage, h) != (loop ? 3 : 4);
+}
+
+// The face-vertex that stands for the face of h, or for the quad of an n-gon at h.
+static int sdv_grid_of(const sdv_level *cage, int loop, int h)
+{
+    return sdv_in_ngon(cage, loop, h) ? h : sdv_face_start(cage, sdv_face_of(cage, h));
+}
+
 // The square of a face after so many levels of refinement, which is at a place of a grid. The quads
 // of an n-gon are there after one.
 static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h, int column,
                                 int row, int step)
 {
     const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop, above = step < 0, ngon = sdv_size_of(cage, h) != (loop ? 3 : 4);
-    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h), level - ngon, column - above,
+    int loop = surface->rules.loop, above = step < 0;
+    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h),
+                          level - sdv_in_ngon(cage, loop, h), column - above,
                           row - above, above };
     return square;
 }
@@ -8599,6 +8617,21 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
+// Finds the homes of vertices and edges: the first face there that has a surface.
+static void sdv_find_homes(sdv_context *context, subdiv_surface *surface)
+{
+    const sdv_level *cage = &surface->order.cage;
+    sdv_exact *exact = surface->exact;
+    int loop = surface->rules.loop, homes = cage->vertex_count + cage->edge_count;
+    int *home = exact->home = SDV_NEW(context, &surface->arena, int, homes);
+    for (int i = 0; i < homes && home; i++) home[i] = -1;
+    for (int h = cage->face_vertex_count - 1; h >= 0 && home; h--) {
+        int grid = sdv_grid_of(cage, loop, h);
+        if (exact->cells[sdv_root_cell(cage, loop, grid)] == SDV_CELL_NONE) continue;
+        home[cage->face_vertices[h]] = home[cage->vertex_count + cage->face_edges[h]] = h;
+    }
+}
+
 // Makes the cells of all faces, and one more for faces without values, which have no surface, just
 // as those that boundary "none" drops.
 static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
@@ -8619,6 +8652,7 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
         for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
             exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
     }
+    sdv_find_homes(context, surface);
 }
 
 // The cell of a face, or of the quad at its corner; *odd: there is no such corner.
@@ -8661,6 +8695,7 @@ typedef struct sdv_lookup {
     float u[SDV_LOOKUP], v[SDV_LOOKUP];
     float left[SDV_LOOKUP], bottom[SDV_LOOKUP];         // of their squares of the last level
     int   first[SDV_LOOKUP], second[SDV_LOOKUP];        // their numbers in the two grids
+    float inside[SDV_LOOKUP];
     unsigned cells[SDV_LOOKUP];
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
@@ -8726,9 +8761,25 @@ SDV_INLINE int sdv_find_roots(const subdiv_surface *surface, int loop, int count
     return !odd;
 }
 
-SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_lookup *l)
+// How close to a vertex coordinates along edges are not rounded, as points there may move faster.
+#define SDV_CLOSE 0.001f
+
+// Returns 0 or less if a place on a face is on an edge. On the long side of a triangle, u may be
+// 1 - v after rounding.
+SDV_INLINE float sdv_edge_gap(int loop, float u, float v)
+{
+    float low = u < v ? u : v, high = u < v ? v : u, gap = 1 - high;
+    float rounded = 1 - low - high + (low > SDV_CLOSE ? 0.0f : 1.0f);
+    if (loop) gap -= low;
+    if (loop) gap = rounded < gap ? rounded : gap;
+    return low < gap ? low : gap;
+}
+
+// Finds the polynomials of locations. Those on edges, which several faces have, are left out.
+SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop, int count, sdv_lookup *l)
 {
     const unsigned *cells = surface->exact->cells;
+    for (int k = 0; k < count; k++) l->inside[k] = sdv_edge_gap(loop, l->u[k], l->v[k]);
     for (int k = 0; k < count; k++) {
         unsigned cell = cells[l->face[k]], grid = 0u - (cell & 1);
         cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
@@ -8736,7 +8787,7 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_loo
             cell = cells[(cell >> 1) + (unsigned)l->second[k]];
             if (cell & 1) cell = SDV_CELL_NONE;
         }
-        l->cells[k] = cell < SDV_CELL_LEAF ? cell : SDV_CELL_FAR;
+        l->cells[k] = cell < SDV_CELL_LEAF && l->inside[k] > 0 ? cell : SDV_CELL_FAR;
     }
 }
 
@@ -8775,7 +8826,7 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
         for (int k = 0; k < count; k++) if (!sdv_is_location(surface, locations[k])) return 0;
     sdv_find_squares(l, count, loop);
     int found = sdv_find_roots(surface, loop, count, l);
-    sdv_find_cells(surface, count, l);
+    sdv_find_cells(surface, loop, count, l);
     sdv_find_scales(l, count, loop);
     sdv_find_places(l, count, loop);
     return found;
@@ -8814,29 +8865,97 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
     return at.level;
 }
 
-// Finds the leaf of a location: down to its cell, then once more as far down as the leaf is.
-static sdv_leaf sdv_locate(const subdiv_surface *surface, const subdiv_location *at)
+// A place on a face of the cage, or on the quad of an n-gon.
+typedef struct sdv_spot {
+    int    grid;                        // from sdv_grid_of; -1: a face without values
+    double u, v;
+} sdv_spot;
+
+static sdv_spot sdv_spot_of(const subdiv_surface *surface, const subdiv_location *at)
+{
+    int f = surface->own_face ? surface->own_face[at->face] : at->face;
+    double u = (double)sdv_on_face(at->u), v = (double)sdv_on_face(at->v);
+    sdv_spot spot = { -1, u, surface->rules.loop && u + v > 1 ? 1 - u : v };
+    if (f >= 0) spot.grid = sdv_face_start(&surface->order.cage, f) + at->corner;
+    return spot;
+}
+
+static unsigned sdv_first_cell_of(const subdiv_surface *surface, const sdv_spot *spot)
+{
+    int loop = surface->rules.loop;
+    return spot->grid < 0 ? SDV_CELL_NONE :
+           surface->exact->cells[sdv_root_cell(&surface->order.cage, loop, spot->grid)];
+}
+
+// Rounds a coordinate along an edge as 1 - t does, by which it is seen from the other end.
+static double sdv_snap(double t)
+{
+    return t < 0.5 && t > (double)SDV_CLOSE ? 1 - (double)(float)(1 - t) : t;
+}
+
+// The place on the edge that leads on from h, after t of it.
+static sdv_spot sdv_spot_on_edge(const sdv_level *cage, int loop, int h, double t)
+{
+    sdv_spot spot = { sdv_grid_of(cage, loop, h), 2 * t, 0 }, at_end = { -1, 0, 2 - 2 * t };
+    int sides = loop ? 3 : 4, turn = h - spot.grid, ngon = sdv_in_ngon(cage, loop, h);
+    if (!ngon) sdv_turn_place(loop, turn ? sides - turn : 0, t, 0, &spot.u, &spot.v);
+    if (ngon) at_end.grid = sdv_next(cage, h);
+    return ngon && t > 0.5 ? at_end : spot;
+}
+
+// The place after t of the edge of h, on the face that evaluates it for all.
+static sdv_spot sdv_home_on_edge(const subdiv_surface *surface, int h, double t)
 {
     const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop, f = surface->own_face ? surface->own_face[at->face] : at->face;
-    double u = (double)sdv_on_face(at->u), v = (double)sdv_on_face(at->v);
-    unsigned odd = 0;
-    unsigned cell = surface->exact->cells[sdv_first_cell(surface, loop, at->face, at->corner,
-                                                         &odd)];
+    const int *home = surface->exact->home, *vertices = cage->face_vertices;
+    int loop = surface->rules.loop, ends[2] = { vertices[h], vertices[sdv_next(cage, h)] };
+    int k = ends[0] == ends[1] ? h : home[cage->vertex_count + cage->face_edges[h]];
+    if (t <= 0 || t >= 1) return sdv_spot_on_edge(cage, loop, home[ends[t > 0]], 0);
+    return sdv_spot_on_edge(cage, loop, k, vertices[k] == ends[0] ? t : 1 - t);
+}
+
+// Finds where a place on an edge, or on a spoke of an n-gon, is evaluated: on the first face that
+// has it, or the first quad. Returns 0 for a place inside a face.
+static int sdv_find_home(const subdiv_surface *surface, const sdv_spot *at, sdv_spot *home)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, h = at->grid;
+    float u = (float)at->u, v = (float)at->v;
+    int side = v <= 0 ? 0 : u <= 0 && v < 1 ? 3 : loop || u >= 1 ? 1 : 2;
+    double t = side % 2 ? at->v : at->u;            // on sides 2 and 3 from the end
+    if (sdv_edge_gap(loop, u, v) > 0 || sdv_first_cell_of(surface, at) == SDV_CELL_NONE) return 0;
+    int ngon = sdv_in_ngon(cage, loop, h);
+    if (!ngon) h += side - (loop && side == 3);
+    else if (side >= 2) h = sdv_previous(cage, h);
+    if (ngon && (side == 1 || side == 2)) {
+        sdv_spot spoke = { h, 1, sdv_snap(t) };
+        if (spoke.v >= 1) spoke.grid = sdv_face_start(cage, sdv_face_of(cage, h));  // the centre
+        *home = spoke.v > 0 ? spoke : sdv_home_on_edge(surface, h, 0.5);
+        return 1;
+    }
+    t = sdv_snap(ngon ? t / 2 : t);
+    *home = sdv_home_on_edge(surface, h, side < 2 ? t : 1 - t);
+    return 1;
+}
+
+// Finds the leaf of a place: down to its cell, then once more as far down as the leaf is.
+static sdv_leaf sdv_locate(const subdiv_surface *surface, const sdv_spot *at)
+{
+    int loop = surface->rules.loop;
+    unsigned cell = sdv_first_cell_of(surface, at);
     sdv_leaf leaf;
     memset(&leaf, 0, sizeof leaf);
     leaf.nest_face = -1;
     if (cell == SDV_CELL_NONE) return leaf;
-    if (loop && u + v > 1) v = 1 - u;
-    for (double x = u, y = v, scale = 1; cell & 1; ) {
+    for (double x = at->u, y = at->v, scale = 1; cell & 1; ) {
         int child = sdv_descend(loop, &x, &y, &scale);
         child = 4 * child + sdv_descend(loop, &x, &y, &scale);
         cell = surface->exact->cells[(cell >> 1) + sdv_grid_cells[loop][child]];
     }
     int level = sdv_leaf_of_cell(surface, cell, &leaf);
-    level -= sdv_face_end(cage, f) - sdv_face_start(cage, f) != (loop ? 3 : 4);
-    leaf.x = u;
-    leaf.y = v;
+    level -= sdv_in_ngon(&surface->order.cage, loop, at->grid);
+    leaf.x = at->u;
+    leaf.y = at->v;
     leaf.sx = 1;
     for (int i = 0; i < level; i++) sdv_descend(loop, &leaf.x, &leaf.y, &leaf.sx);
     leaf.sy = leaf.sx;
@@ -9837,16 +9956,18 @@ static void sdv_load_kept(const sdv_exact_evaluation *e, int nest, int c, sdv_ne
 
 // Samples nearer to the vertices of nests than polynomials are kept wait until there are many, or
 // no others are left. Then they are sorted: all those of a nest share one way down, and those of a
-// patch its polynomial. (Of nests and faces whose numbers end in the same bits, some are made again.)
+// patch its polynomial.
 enum { SDV_QUEUE = 1024 };
 
 typedef struct sdv_waiting {
     double x, y;                        // on their level, as seen from the vertex; 0: the vertex
     float  scale;                       // of the leaf
     int    face, i;                     // of a nest; the location's number
+    const sdv_exact_evaluation *asked;  // what is asked of it
 } sdv_waiting;
 
 typedef struct sdv_queue {
+    sdv_exact_evaluation points, rest;  // of what is asked for: the points alone, all else
     int         count, failed;          // failed: there was no memory for them
     int         most_work;              // of their nests
     uint32_t    keys[SDV_QUEUE];        // from the highest bit on: nest, level, face, quarter
@@ -9868,9 +9989,9 @@ static void sdv_sort_queue(sdv_queue *queue)
 }
 
 // Evaluates a sample that waited, four channels from c on.
-static void sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_waiting *at, int level, int c,
-                            sdv_nest_sample *s)
+static void sdv_sample_nest(const sdv_waiting *at, int level, int c, sdv_nest_sample *s)
 {
+    const sdv_exact_evaluation *e = at->asked;
     const sdv_nest_face *face = &e->surface->exact->nest_faces[at->face];
     if (s->nest != face->nest) sdv_load_kept(e, face->nest, c, s);
     s->face = at->face - e->surface->exact->nests[face->nest].face;
@@ -9900,7 +10021,7 @@ static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
         s.nest = -1;
         for (int k = 0; k < queue->count; k++) {
             int i = queue->order[0][k];
-            sdv_sample_nest(e, &queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
+            sdv_sample_nest(&queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
         }
     }
     queue->failed |= !s.state.w;
@@ -9923,6 +10044,7 @@ static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, siz
     at->scale = (float)leaf->sx;
     at->face = leaf->nest_face;
     at->i = (int)i;
+    at->asked = e;
     queue->keys[queue->count++] =
         (uint32_t)face->nest << 20 | (uint32_t)level << 12 |
         ((uint32_t)at->face & 1023) << 2 | (uint32_t)(at->y >= 0.5) << 1 | (uint32_t)(at->x >= 0.5);
@@ -9937,11 +10059,11 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-// Evaluates a location by its leaf, as its cell has no polynomial.
-static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i,
-                             sdv_queue *queue)
+// Evaluates a place by its leaf.
+static void sdv_put_spot(const sdv_exact_evaluation *e, int loop, const sdv_spot *spot, size_t i,
+                         sdv_queue *queue)
 {
-    sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
+    sdv_leaf leaf = sdv_locate(e->surface, spot);
     sdv_find_polynomial(e->surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
     if (leaf.below_kept)
@@ -9950,6 +10072,16 @@ static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i,
         sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i);
     else
         sdv_put_zeros(e, i);
+}
+
+// Evaluates a location whose cell has no polynomial, or one on an edge: its point at home, so that
+// it has the same bits on all faces, and its derivatives on its own face.
+static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i, sdv_queue *queue)
+{
+    sdv_spot spot = sdv_spot_of(e->surface, &e->locations[i]), home;
+    int shared = e->out[0] && sdv_find_home(e->surface, &spot, &home);
+    if (shared) sdv_put_spot(&queue->points, loop, &home, i, queue);
+    if (!shared || e->order > 0) sdv_put_spot(shared ? &queue->rest : e, loop, &spot, i, queue);
 }
 
 // A batch of locations that are looked up, and where their polynomials are.
@@ -10012,7 +10144,10 @@ static void sdv_locations_job(void *context, int job)
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
     sdv_sample_batch batches[2], *batch = batches, *next = batches + 1;
     sdv_queue queue;
-    queue.count = queue.failed = queue.most_work = 0;
+    queue.points = queue.rest = *e;
+    memset(queue.points.out + 1, 0, sizeof e->out - sizeof e->out[0]);
+    queue.points.normals = queue.rest.out[0] = NULL;
+    queue.points.order = queue.count = queue.failed = queue.most_work = 0;
     e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
     while (i < end && !e->refused[job]) {
         sdv_sample_batch *last = batch;
@@ -10889,7 +11024,8 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     sdv_stencil_maker_new(context, &make, surface, count, 3);
     double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context->result; i++) {
-        sdv_leaf leaf = sdv_locate(surface, &locations[i]);
+        sdv_spot spot = sdv_spot_of(surface, &locations[i]);
+        sdv_leaf leaf = sdv_locate(surface, &spot);
         if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
         else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
