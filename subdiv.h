@@ -507,7 +507,7 @@ typedef struct subdiv_derivatives {
 // Errors: ARGUMENT if normals have fewer than 3 channels or the surface was not prepared for
 // SUBDIV_EXACT. Three errors may come after part of out has been written: INDEX for a location that
 // does not exist, ARGUMENT for one outside its face by more than rounding, and MEMORY, as samples
-// close to a vertex of high valence take some.
+// close to an extraordinary vertex take some: one call for many of them shares most of the work.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -8345,7 +8345,8 @@ typedef struct sdv_leaf {
     const sdv_patch *patch;             // its leaf is a patch of these control points,
     const int       *points;
     int    nest_face;                   // or a face of a nest, or -1: its face has no surface
-    int    below_kept;                  // in a nest, nearer to the vertex than polynomials are kept
+    int    below_kept;                  // levels down in a nest, if that is below polynomials kept:
+                                        // x, y are on that level, as seen from the vertex
     size_t polynomial;
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
@@ -8370,6 +8371,24 @@ static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
     leaf->polynomial += (size_t)(row * along->count + column);
 }
 
+// Finds a place on a face of a nest as seen from the vertex.
+static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
+{
+    sdv_turn_place(loop, turn, u, v, x, y);
+    if (*x < 0) *x = 0;
+    if (*y < 0) *y = 0;
+}
+
+// Returns on how many levels down (x, y), as seen from the vertex, still is in the nest. The vertex
+// is on all levels.
+static int sdv_nest_levels(int loop, double x, double y)
+{
+    int down;
+    if (x <= 0 && y <= 0) return SDV_NEST_FAR;
+    frexp(loop ? x + y : x > y ? x : y, &down);
+    return down > 0 ? 0 : -down;
+}
+
 // Finds the child that a location on a face of a nest is on, on the level that has it, as seen from
 // the vertex. The place on the child is as seen from the face again.
 static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
@@ -8379,7 +8398,10 @@ static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
     sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
     while ((loop ? x + y : x > y ? x : y) < 0.5) {
         if (++depth == SDV_NEST_DEPTH) {
-            leaf->below_kept = 1;
+            sdv_nest_place(loop, turn, leaf->x, leaf->y, &x, &y);
+            leaf->below_kept = sdv_nest_levels(loop, x, y);
+            leaf->x = ldexp(x, leaf->below_kept);
+            leaf->y = ldexp(y, leaf->below_kept);
             return;
         }
         x *= 2;
@@ -8880,6 +8902,7 @@ static sdv_spot sdv_spot_of(const subdiv_surface *surface, const subdiv_location
     return spot;
 }
 
+// The cell of the whole face, or quad, that a place is on.
 static unsigned sdv_first_cell_of(const subdiv_surface *surface, const sdv_spot *spot)
 {
     int loop = surface->rules.loop;
@@ -8921,10 +8944,10 @@ static int sdv_find_home(const subdiv_surface *surface, const sdv_spot *at, sdv_
     const sdv_level *cage = &surface->order.cage;
     int loop = surface->rules.loop, h = at->grid;
     float u = (float)at->u, v = (float)at->v;
-    int side = v <= 0 ? 0 : u <= 0 && v < 1 ? 3 : loop || u >= 1 ? 1 : 2;
-    double t = side % 2 ? at->v : at->u;            // on sides 2 and 3 from the end
     if (sdv_edge_gap(loop, u, v) > 0 || sdv_first_cell_of(surface, at) == SDV_CELL_NONE) return 0;
+    int side = v <= 0 ? 0 : u <= 0 && v < 1 ? 3 : loop || u >= 1 ? 1 : 2;
     int ngon = sdv_in_ngon(cage, loop, h);
+    double t = side % 2 ? at->v : at->u;            // on sides 2 and 3 from the end
     if (!ngon) h += side - (loop && side == 3);
     else if (side >= 2) h = sdv_previous(cage, h);
     if (ngon && (side == 1 || side == 2)) {
@@ -9784,12 +9807,14 @@ static void sdv_nest_polynomial(sdv_nest_sample *s, const sdv_patch *patch, cons
         for (int i = 0; i < state->kind->width; i += 4)
             sdv_unit_polynomial(state->surface, patch, 0, i, s->units + SDV_SLOTS * i);
     s->like = patch;
-    memset(s->c, 0, sizeof s->c);
-    for (int i = 0; i < state->kind->width; i++)
-        for (int k = 0; k < SDV_SLOTS; k++) {
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        double sum[4] = { 0, 0, 0, 0 };
+        for (int i = 0; i < state->kind->width; i++) {
             double unit = (double)s->units[SDV_SLOTS * (i & ~3) + 4 * k + (i & 3)];
-            for (int c = 0; c < 4; c++) s->c[k][c] += unit * state->w[4 * points[i] + c];
+            for (int c = 0; c < 4; c++) sum[c] += unit * state->w[4 * points[i] + c];
         }
+        memcpy(s->c[k], sum, sizeof sum);
+    }
 }
 
 // The powers of a coordinate, and their derivatives times those of the coordinate.
@@ -9802,14 +9827,16 @@ static void sdv_find_powers(double x, double scale, double (*powers)[5])
 }
 
 // Sums the coefficients of a polynomial times powers of x and y.
-SDV_INLINE void sdv_sum_powers(const double (*coefficients)[4], int loop, const double *x,
-                               const double *y, double *sum)
+static void sdv_sum_powers(const double (*coefficients)[4], int loop, const double *x,
+                           const double *y, double *out)
 {
-    for (int c = 0; c < 4; c++) sum[c] = 0;
-    for (int k = 0; k < (loop ? 14 : SDV_SLOTS); k++) {
-        double weight = x[sdv_powers[loop][k][0]] * y[sdv_powers[loop][k][1]];
+    const unsigned char (*powers)[2] = sdv_powers[loop];
+    double sum[4] = { 0, 0, 0, 0 };
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        double weight = x[powers[k][0]] * y[powers[k][1]];
         for (int c = 0; c < 4; c++) sum[c] += weight * coefficients[k][c];
     }
+    memcpy(out, sum, sizeof sum);
 }
 
 // Evaluates the child of a nest's face at (x, y), which is not in the next nest.
@@ -9818,7 +9845,7 @@ static void sdv_nest_child(sdv_nest_sample *s, double x, double y, int order)
     static const unsigned char derivatives[6][2] = { {0,0}, {1,0}, {0,1}, {2,0}, {1,1}, {0,2} };
     const sdv_nest_state *state = &s->state;
     int loop = state->surface->rules.loop;
-    double scale = 1, across[3][5], up[3][5], sum[4];
+    double scale = 1, across[3][5], up[3][5];
     int child = sdv_descend(loop, &x, &y, &scale), number = 4 * s->face + child;
     if (s->made < 0) sdv_nest_refine(&s->state);
     if (s->made != number) {
@@ -9829,12 +9856,12 @@ static void sdv_nest_child(sdv_nest_sample *s, double x, double y, int order)
     }
     sdv_find_powers(x, scale, across);
     sdv_find_powers(y, scale, up);
-    for (int d = 0; d < (order + 1) * (order + 2) / 2; d++) {
-        const double (*c)[4] = (const double (*)[4])s->c, *at = across[derivatives[d][0]];
-        double times = d == 0 ? state->shrink : d < 3 ? 1 : 1 / state->shrink;
-        if (loop) sdv_sum_powers(c, 1, at, up[derivatives[d][1]], sum);
-        else sdv_sum_powers(c, 0, at, up[derivatives[d][1]], sum);
-        for (int k = 0; k < 4; k++) s->values[d][k] = times * sum[k] + (d ? 0 : state->base[k]);
+    for (int d = 0; d < (order + 1) * (order + 2) / 2; d++)
+        sdv_sum_powers((const double (*)[4])s->c, loop, across[derivatives[d][0]],
+                       up[derivatives[d][1]], s->values[d]);
+    for (int c = 0; c < 4; c++) {
+        s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
+        for (int d = 3; d < 6 && order > 1; d++) s->values[d][c] /= state->shrink;
     }
     memcpy(s->tangents, s->values[1], sizeof s->tangents);
 }
@@ -9892,31 +9919,16 @@ static void sdv_nest_normal(sdv_nest_sample *s)
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// Finds a place on a face of a nest as seen from the vertex.
-static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
-{
-    sdv_turn_place(loop, turn, u, v, x, y);
-    if (*x < 0) *x = 0;
-    if (*y < 0) *y = 0;
-}
-
-// Returns on how many levels down (x, y), as seen from the vertex, still is in the nest.
-static int sdv_nest_levels(int loop, double x, double y)
-{
-    int down;
-    frexp(loop ? x + y : x > y ? x : y, &down);
-    return down > 0 ? 0 : -down;
-}
-
 // Turns derivatives in x and y into those in u and v, with the scale of the face.
-static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
+static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale, int order)
 {
     double ss = scale * scale;
     for (int c = 0; c < 4; c++) {
         double dx = s->values[1][c], dy = s->values[2][c];
-        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
         s->values[1][c] = scale * (t[0] * dx + t[2] * dy);
         s->values[2][c] = scale * (t[1] * dx + t[3] * dy);
+        if (order < 2) continue;
+        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
         s->values[3][c] = ss * (t[0] * t[0] * dxx + 2 * t[0] * t[2] * dxy + t[2] * t[2] * dyy);
         s->values[4][c] = ss * (t[0] * t[1] * dxx + (t[0] * t[3] + t[1] * t[2]) * dxy +
                                 t[2] * t[3] * dyy);
@@ -9957,7 +9969,7 @@ static void sdv_load_kept(const sdv_exact_evaluation *e, int nest, int c, sdv_ne
 // Samples nearer to the vertices of nests than polynomials are kept wait until there are many, or
 // no others are left. Then they are sorted: all those of a nest share one way down, and those of a
 // patch its polynomial.
-enum { SDV_QUEUE = 1024 };
+enum { SDV_QUEUE = 2048 };
 
 typedef struct sdv_waiting {
     double x, y;                        // on their level, as seen from the vertex; 0: the vertex
@@ -9968,13 +9980,29 @@ typedef struct sdv_waiting {
 
 typedef struct sdv_queue {
     sdv_exact_evaluation points, rest;  // of what is asked for: the points alone, all else
-    int         count, failed;          // failed: there was no memory for them
-    int         most_work;              // of their nests
-    uint32_t    keys[SDV_QUEUE];        // from the highest bit on: nest, level, face, quarter
-    int         order[2][SDV_QUEUE];    // sorted, and while they are
-    sdv_waiting items[SDV_QUEUE];
+    sdv_context  context;
+    sdv_arena    arena;
+    int          room, count;
+    int          most_work;             // of their nests
+    sdv_waiting *items;                 // [room] NULL before the first one
+    uint32_t    *keys;                  // [room] from the highest bit: nest, level, face, quarter
+    int         *order[2];              // [room] sorted, and while they are
 } sdv_queue;
 
+// Makes an empty queue for a job's share of the locations.
+static void sdv_queue_new(const sdv_exact_evaluation *e, size_t share, sdv_queue *queue)
+{
+    memset(queue, 0, sizeof *queue);
+    queue->points = queue->rest = *e;
+    memset(queue->points.out + 1, 0, sizeof e->out - sizeof e->out[0]);
+    queue->points.normals = queue->rest.out[0] = NULL;
+    queue->points.order = 0;
+    queue->context.user = e->opt ? e->opt->user : NULL;
+    queue->arena = sdv_new_arena(0);
+    queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
+}
+
+// Sorts a queue byte by byte, from the lowest one on.
 static void sdv_sort_queue(sdv_queue *queue)
 {
     for (int k = 0; k < queue->count; k++) queue->order[0][k] = k;
@@ -10002,20 +10030,20 @@ static void sdv_sample_nest(const sdv_waiting *at, int level, int c, sdv_nest_sa
         sdv_nest_child(s, at->x, at->y, e->order);
     }
     if (e->normals && c == 0) sdv_nest_normal(s);
-    sdv_nest_turn(s, sdv_turns[e->surface->rules.loop][face->turn], (double)at->scale);
+    sdv_nest_turn(s, sdv_turns[e->surface->rules.loop][face->turn], (double)at->scale, e->order);
     sdv_put_nest_sample(e, s, c, (size_t)at->i);
 }
 
+// Evaluates the samples of a queue.
 static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
 {
     double stack[4 * SDV_NEST_STACK];
-    sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
     s.state.w = stack;
     s.like = NULL;
     if (queue->most_work > SDV_NEST_STACK)
-        s.state.w = SDV_NEW(&context, &arena, double, 4 * (size_t)queue->most_work);
+        s.state.w = SDV_NEW(&queue->context, &arena, double, 4 * (size_t)queue->most_work);
     sdv_sort_queue(queue);
     for (int c = 0; c < e->channels && s.state.w; c += 4) {
         s.nest = -1;
@@ -10024,29 +10052,34 @@ static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
             sdv_sample_nest(&queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
         }
     }
-    queue->failed |= !s.state.w;
     queue->count = queue->most_work = 0;
     sdv_arena_free(&arena);
 }
 
+// Adds a sample to the queue.
 static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i,
                         sdv_queue *queue)
 {
     const sdv_exact *exact = e->surface->exact;
     const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
-    int loop = e->surface->rules.loop, work = sdv_nest_work(exact, face->nest), level;
-    if (queue->count == SDV_QUEUE) sdv_empty_queue(e, queue);
+    int work = sdv_nest_work(exact, face->nest);
+    if (!queue->items) {
+        queue->items = SDV_NEW(&queue->context, &queue->arena, sdv_waiting, queue->room);
+        queue->keys = SDV_NEW(&queue->context, &queue->arena, uint32_t, queue->room);
+        for (int k = 0; k < 2; k++)
+            queue->order[k] = SDV_NEW(&queue->context, &queue->arena, int, queue->room);
+    }
+    if (queue->context.result) return;
+    if (queue->count == queue->room) sdv_empty_queue(e, queue);
     sdv_waiting *at = &queue->items[queue->count];
-    sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &at->x, &at->y);
-    level = at->x > 0 || at->y > 0 ? sdv_nest_levels(loop, at->x, at->y) : SDV_NEST_FAR;
-    at->x = ldexp(at->x, level);
-    at->y = ldexp(at->y, level);
+    at->x = leaf->x;
+    at->y = leaf->y;
     at->scale = (float)leaf->sx;
     at->face = leaf->nest_face;
     at->i = (int)i;
     at->asked = e;
     queue->keys[queue->count++] =
-        (uint32_t)face->nest << 20 | (uint32_t)level << 12 |
+        (uint32_t)face->nest << 20 | (uint32_t)leaf->below_kept << 12 |
         ((uint32_t)at->face & 1023) << 2 | (uint32_t)(at->y >= 0.5) << 1 | (uint32_t)(at->x >= 0.5);
     if (work > queue->most_work) queue->most_work = work;
 }
@@ -10144,10 +10177,7 @@ static void sdv_locations_job(void *context, int job)
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
     sdv_sample_batch batches[2], *batch = batches, *next = batches + 1;
     sdv_queue queue;
-    queue.points = queue.rest = *e;
-    memset(queue.points.out + 1, 0, sizeof e->out - sizeof e->out[0]);
-    queue.points.normals = queue.rest.out[0] = NULL;
-    queue.points.order = queue.count = queue.failed = queue.most_work = 0;
+    sdv_queue_new(e, end - i, &queue);
     e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
     while (i < end && !e->refused[job]) {
         sdv_sample_batch *last = batch;
@@ -10163,7 +10193,8 @@ static void sdv_locations_job(void *context, int job)
         else sdv_put_batch(e, loop, 0, 0, batch, next, first, &queue);
     }
     sdv_empty_queue(e, &queue);
-    e->failed[job] = (unsigned char)queue.failed;
+    e->failed[job] = queue.context.result != SUBDIV_OK;
+    sdv_arena_free(&queue.arena);
 }
 
 // The first location that is not there.
@@ -10983,7 +11014,6 @@ static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *k
     }
     for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
     if (vertex) {
-        down = SDV_NEST_FAR;
         sdv_weigh_child(surface, kind, face, 0.5, 0, 1, 2, w);
         sdv_weigh_child(surface, kind, face, 0, 0.5, 2, 3, w);
     } else {

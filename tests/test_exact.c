@@ -718,7 +718,7 @@ static void test_single_faces(void)
 
 enum { MANY = 5000 };
 
-// A third of them where polynomials meet.
+// A third of them where polynomials meet, a third close to vertex 0.
 static void random_places(random_cage *c, subdiv_location *at)
 {
     const subdiv_mesh *m = &c->mesh;
@@ -731,6 +731,10 @@ static void random_places(random_cage *c, subdiv_location *at)
         if (i % 3 == 0) {
             at[i].u = floorf(at[i].u * 17) / 16;
             at[i].v = floorf(at[i].v * 17) / 16;
+        } else if (i % 3 == 1) {
+            float closer = ldexpf(1, -random_below(c, 100));
+            at[i].u *= closer;
+            at[i].v *= closer;
         }
         if (m->scheme == SUBDIV_LOOP && at[i].u + at[i].v > 1) {
             at[i].u = 1 - at[i].u;
