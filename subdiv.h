@@ -9979,7 +9979,7 @@ typedef struct sdv_waiting {
 } sdv_waiting;
 
 typedef struct sdv_queue {
-    sdv_exact_evaluation points, rest;  // of what is asked for: the points alone, all else
+    sdv_exact_evaluation points, rest;  // what is asked for, see sdv_part_asked
     sdv_context  context;
     sdv_arena    arena;
     int          room, count;
@@ -9992,14 +9992,22 @@ typedef struct sdv_queue {
 // Makes an empty queue for a job's share of the locations.
 static void sdv_queue_new(const sdv_exact_evaluation *e, size_t share, sdv_queue *queue)
 {
-    memset(queue, 0, sizeof *queue);
+    queue->points.surface = NULL;
+    memset(&queue->context, 0, sizeof queue->context);
+    queue->context.user = e->opt ? e->opt->user : NULL;
+    queue->arena = sdv_new_arena(0);
+    queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
+    queue->count = queue->most_work = 0;
+    queue->items = NULL;
+}
+
+// Parts what is asked for, for the first location on an edge.
+static void sdv_part_asked(const sdv_exact_evaluation *e, sdv_queue *queue)
+{
     queue->points = queue->rest = *e;
     memset(queue->points.out + 1, 0, sizeof e->out - sizeof e->out[0]);
     queue->points.normals = queue->rest.out[0] = NULL;
     queue->points.order = 0;
-    queue->context.user = e->opt ? e->opt->user : NULL;
-    queue->arena = sdv_new_arena(0);
-    queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
 }
 
 // Sorts a queue byte by byte, from the lowest one on.
@@ -10113,6 +10121,7 @@ static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i, 
 {
     sdv_spot spot = sdv_spot_of(e->surface, &e->locations[i]), home;
     int shared = e->out[0] && sdv_find_home(e->surface, &spot, &home);
+    if (shared && !queue->points.surface) sdv_part_asked(e, queue);
     if (shared) sdv_put_spot(&queue->points, loop, &home, i, queue);
     if (!shared || e->order > 0) sdv_put_spot(shared ? &queue->rest : e, loop, &spot, i, queue);
 }
@@ -10192,7 +10201,7 @@ static void sdv_locations_job(void *context, int job)
         else if (order == 1) sdv_put_batch(e, 0, 3, 1, batch, next, first, &queue);
         else sdv_put_batch(e, loop, 0, 0, batch, next, first, &queue);
     }
-    sdv_empty_queue(e, &queue);
+    if (queue.count) sdv_empty_queue(e, &queue);
     e->failed[job] = queue.context.result != SUBDIV_OK;
     sdv_arena_free(&queue.arena);
 }
@@ -15018,6 +15027,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_CELL_LEAF
 #undef SDV_CELL_NONE
 #undef SDV_CELL_FAR
+#undef SDV_CLOSE
 #undef SDV_CELL_POLYNOMIALS
 
 #if defined(__GNUC__) && defined(__cplusplus)
