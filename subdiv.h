@@ -524,6 +524,10 @@ typedef struct subdiv_derivatives {
 // (under opt->triangulate: triangles), holes included. Faces that boundary "none" drops, and faces
 // without face-varying values, have no surface: they give zeros.
 //
+// Faces evaluate the points that they share to the same bits: those of a vertex, and those of an
+// edge at t and, from the other end, 1 - t (closer to a vertex than t = 0.001 only if 1 - t is not
+// rounded); in an n-gon also those of the edges and vertices between its quads.
+//
 // Derivatives are with respect to u and v; on a crease they belong to the face's side. Beyond the
 // range of floats they are not finite. At some vertices, results differ from those close by:
 //
@@ -538,7 +542,7 @@ typedef struct subdiv_derivatives {
 // Errors: ARGUMENT if normals have fewer than 3 channels or the surface was not prepared for
 // SUBDIV_EXACT. Three errors may come after part of out has been written: INDEX for a location that
 // does not exist, ARGUMENT for one outside its face by more than rounding, and MEMORY, as samples
-// close to a vertex of high valence take some.
+// close to an extraordinary vertex take some: one call for many of them shares most of the work.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -8372,6 +8376,8 @@ typedef struct sdv_exact {
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
     unsigned *cells;                    // see >>cells
+    int *home;                          // [vertices and edges of the cage] the face-vertex whose
+                                        //      face evaluates what several faces have, or -1
     sdv_nest_kind *kinds;
     sdv_nest *nests;
     int *nest_points;                   // work points
@@ -8922,7 +8928,8 @@ typedef struct sdv_leaf {
     const sdv_patch *patch;             // its leaf is a patch of these control points,
     const int       *points;
     int    nest_face;                   // or a face of a nest, or -1: its face has no surface
-    int    below_kept;                  // in a nest, nearer to the vertex than polynomials are kept
+    int    below_kept;                  // levels down in a nest, if that is below polynomials kept:
+                                        // x, y are on that level, as seen from the vertex
     size_t polynomial;
     double x, y, sx, sy;                // of the coordinates on the face, times sx and sy
 } sdv_leaf;
@@ -8947,6 +8954,24 @@ static void sdv_find_part(const subdiv_surface *surface, sdv_leaf *leaf)
     leaf->polynomial += (size_t)(row * along->count + column);
 }
 
+// Finds a place on a face of a nest as seen from the vertex.
+static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
+{
+    sdv_turn_place(loop, turn, u, v, x, y);
+    if (*x < 0) *x = 0;
+    if (*y < 0) *y = 0;
+}
+
+// Returns on how many levels down (x, y), as seen from the vertex, still is in the nest. The vertex
+// is on all levels, of which any will do.
+static int sdv_nest_levels(int loop, double x, double y)
+{
+    int down;
+    if (x <= 0 && y <= 0) return SDV_NEST_DEPTH;
+    frexp(loop ? x + y : x > y ? x : y, &down);
+    return down > 0 ? 0 : -down;
+}
+
 // Finds the child that a location on a face of a nest is on, on the level that has it, as seen from
 // the vertex. The place on the child is as seen from the face again.
 static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
@@ -8956,7 +8981,10 @@ static void sdv_find_in_nest(const sdv_exact *exact, int loop, sdv_leaf *leaf)
     sdv_turn_place(loop, turn, leaf->x, leaf->y, &x, &y);
     while ((loop ? x + y : x > y ? x : y) < 0.5) {
         if (++depth == SDV_NEST_DEPTH) {
-            leaf->below_kept = 1;
+            sdv_nest_place(loop, turn, leaf->x, leaf->y, &x, &y);
+            leaf->below_kept = sdv_nest_levels(loop, x, y);
+            leaf->x = ldexp(x, leaf->below_kept);
+            leaf->y = ldexp(y, leaf->below_kept);
             return;
         }
         x *= 2;
@@ -9027,14 +9055,26 @@ SDV_INLINE int sdv_root_cell(const sdv_level *cage, int loop, int h)
     return cage->face_size == (loop ? 3 : 4) ? sdv_face_of(cage, h) : h;
 }
 
+static int sdv_in_ngon(const sdv_level *cage, int loop, int h)
+{
+    return sdv_size_of(cage, h) != (loop ? 3 : 4);
+}
+
+// The face-vertex that stands for the face of h, or for the quad of an n-gon at h.
+static int sdv_grid_of(const sdv_level *cage, int loop, int h)
+{
+    return sdv_in_ngon(cage, loop, h) ? h : sdv_face_start(cage, sdv_face_of(cage, h));
+}
+
 // The square of a face after so many levels of refinement, which is at a place of a grid. The quads
 // of an n-gon are there after one.
 static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h, int column,
                                 int row, int step)
 {
     const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop, above = step < 0, ngon = sdv_size_of(cage, h) != (loop ? 3 : 4);
-    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h), level - ngon, column - above,
+    int loop = surface->rules.loop, above = step < 0;
+    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h),
+                          level - sdv_in_ngon(cage, loop, h), column - above,
                           row - above, above };
     return square;
 }
@@ -9182,6 +9222,21 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
+// Finds the homes of vertices and edges: the first face there that has a surface.
+static void sdv_find_homes(sdv_context *context, subdiv_surface *surface)
+{
+    const sdv_level *cage = &surface->order.cage;
+    sdv_exact *exact = surface->exact;
+    int loop = surface->rules.loop, homes = cage->vertex_count + cage->edge_count;
+    int *home = exact->home = SDV_NEW(context, &surface->arena, int, homes);
+    for (int i = 0; i < homes && home; i++) home[i] = -1;
+    for (int h = cage->face_vertex_count - 1; h >= 0 && home; h--) {
+        int grid = sdv_grid_of(cage, loop, h);
+        if (exact->cells[sdv_root_cell(cage, loop, grid)] == SDV_CELL_NONE) continue;
+        home[cage->face_vertices[h]] = home[cage->vertex_count + cage->face_edges[h]] = h;
+    }
+}
+
 // Makes the cells of all faces, and one more for faces without values, which have no surface, just
 // as those that boundary "none" drops.
 static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
@@ -9202,6 +9257,7 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
         for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
             exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
     }
+    sdv_find_homes(context, surface);
 }
 
 // The cell of a face, or of the quad at its corner; *odd: there is no such corner.
@@ -9244,6 +9300,7 @@ typedef struct sdv_lookup {
     float u[SDV_LOOKUP], v[SDV_LOOKUP];
     float left[SDV_LOOKUP], bottom[SDV_LOOKUP];         // of their squares of the last level
     int   first[SDV_LOOKUP], second[SDV_LOOKUP];        // their numbers in the two grids
+    float inside[SDV_LOOKUP];
     unsigned cells[SDV_LOOKUP];
     float x[SDV_LOOKUP], y[SDV_LOOKUP], sx[SDV_LOOKUP], sy[SDV_LOOKUP];     // see sdv_where
 } sdv_lookup;
@@ -9309,9 +9366,25 @@ SDV_INLINE int sdv_find_roots(const subdiv_surface *surface, int loop, int count
     return !odd;
 }
 
-SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_lookup *l)
+// How close to a vertex coordinates along edges are not rounded, as points there may move faster.
+#define SDV_CLOSE 0.001f
+
+// Returns 0 or less if a place on a face is on an edge. On the long side of a triangle, u may be
+// 1 - v after rounding.
+SDV_INLINE float sdv_edge_gap(int loop, float u, float v)
+{
+    float low = u < v ? u : v, high = u < v ? v : u, gap = 1 - high;
+    float rounded = 1 - low - high + (low > SDV_CLOSE ? 0.0f : 1.0f);
+    if (loop) gap -= low;
+    if (loop) gap = rounded < gap ? rounded : gap;
+    return low < gap ? low : gap;
+}
+
+// Finds the polynomials of locations. Those on edges, which several faces have, are left out.
+SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop, int count, sdv_lookup *l)
 {
     const unsigned *cells = surface->exact->cells;
+    for (int k = 0; k < count; k++) l->inside[k] = sdv_edge_gap(loop, l->u[k], l->v[k]);
     for (int k = 0; k < count; k++) {
         unsigned cell = cells[l->face[k]], grid = 0u - (cell & 1);
         cell = (cell & ~grid) | (cells[((cell >> 1) + (unsigned)l->first[k]) & grid] & grid);
@@ -9319,7 +9392,7 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int count, sdv_loo
             cell = cells[(cell >> 1) + (unsigned)l->second[k]];
             if (cell & 1) cell = SDV_CELL_NONE;
         }
-        l->cells[k] = cell < SDV_CELL_LEAF ? cell : SDV_CELL_FAR;
+        l->cells[k] = cell < SDV_CELL_LEAF && l->inside[k] > 0 ? cell : SDV_CELL_FAR;
     }
 }
 
@@ -9358,7 +9431,7 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
         for (int k = 0; k < count; k++) if (!sdv_is_location(surface, locations[k])) return 0;
     sdv_find_squares(l, count, loop);
     int found = sdv_find_roots(surface, loop, count, l);
-    sdv_find_cells(surface, count, l);
+    sdv_find_cells(surface, loop, count, l);
     sdv_find_scales(l, count, loop);
     sdv_find_places(l, count, loop);
     return found;
@@ -9397,29 +9470,98 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
     return at.level;
 }
 
-// Finds the leaf of a location: down to its cell, then once more as far down as the leaf is.
-static sdv_leaf sdv_locate(const subdiv_surface *surface, const subdiv_location *at)
+// A place on a face of the cage, or on the quad of an n-gon.
+typedef struct sdv_spot {
+    int    grid;                        // from sdv_grid_of; -1: a face without values
+    double u, v;
+} sdv_spot;
+
+static sdv_spot sdv_spot_of(const subdiv_surface *surface, const subdiv_location *at)
+{
+    int f = surface->own_face ? surface->own_face[at->face] : at->face;
+    double u = (double)sdv_on_face(at->u), v = (double)sdv_on_face(at->v);
+    sdv_spot spot = { -1, u, surface->rules.loop && u + v > 1 ? 1 - u : v };
+    if (f >= 0) spot.grid = sdv_face_start(&surface->order.cage, f) + at->corner;
+    return spot;
+}
+
+// The cell of the whole face, or quad, that a place is on.
+static unsigned sdv_first_cell_of(const subdiv_surface *surface, const sdv_spot *spot)
+{
+    int loop = surface->rules.loop;
+    return spot->grid < 0 ? SDV_CELL_NONE :
+           surface->exact->cells[sdv_root_cell(&surface->order.cage, loop, spot->grid)];
+}
+
+// Rounds a coordinate along an edge as 1 - t does, by which it is seen from the other end.
+static double sdv_snap(double t)
+{
+    return t < 0.5 && t > (double)SDV_CLOSE ? 1 - (double)(float)(1 - t) : t;
+}
+
+// The place on the edge that leads on from h, after t of it.
+static sdv_spot sdv_spot_on_edge(const sdv_level *cage, int loop, int h, double t)
+{
+    sdv_spot spot = { sdv_grid_of(cage, loop, h), 2 * t, 0 }, at_end = { -1, 0, 2 - 2 * t };
+    int sides = loop ? 3 : 4, turn = h - spot.grid, ngon = sdv_in_ngon(cage, loop, h);
+    if (!ngon) sdv_turn_place(loop, turn ? sides - turn : 0, t, 0, &spot.u, &spot.v);
+    if (ngon) at_end.grid = sdv_next(cage, h);
+    return ngon && t > 0.5 ? at_end : spot;
+}
+
+// The place after t of the edge of h, on the face that evaluates it for all.
+static sdv_spot sdv_home_on_edge(const subdiv_surface *surface, int h, double t)
 {
     const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop, f = surface->own_face ? surface->own_face[at->face] : at->face;
-    double u = (double)sdv_on_face(at->u), v = (double)sdv_on_face(at->v);
-    unsigned odd = 0;
-    unsigned cell = surface->exact->cells[sdv_first_cell(surface, loop, at->face, at->corner,
-                                                         &odd)];
+    const int *home = surface->exact->home, *vertices = cage->face_vertices;
+    int loop = surface->rules.loop, ends[2] = { vertices[h], vertices[sdv_next(cage, h)] };
+    int k = ends[0] == ends[1] ? h : home[cage->vertex_count + cage->face_edges[h]];
+    if (t <= 0 || t >= 1) return sdv_spot_on_edge(cage, loop, home[ends[t > 0]], 0);
+    return sdv_spot_on_edge(cage, loop, k, vertices[k] == ends[0] ? t : 1 - t);
+}
+
+// Finds where a place on an edge, or on a spoke of an n-gon, is evaluated: on the first face that
+// has it, or the first quad. Returns 0 for a place inside a face.
+static int sdv_find_home(const subdiv_surface *surface, const sdv_spot *at, sdv_spot *home)
+{
+    const sdv_level *cage = &surface->order.cage;
+    int loop = surface->rules.loop, h = at->grid;
+    float u = (float)at->u, v = (float)at->v;
+    if (sdv_edge_gap(loop, u, v) > 0 || sdv_first_cell_of(surface, at) == SDV_CELL_NONE) return 0;
+    int side = v <= 0 ? 0 : u <= 0 && v < 1 ? 3 : loop || u >= 1 ? 1 : 2;
+    int ngon = sdv_in_ngon(cage, loop, h);
+    double t = side % 2 ? at->v : at->u;            // on sides 2 and 3 from the end
+    if (!ngon) h += side - (loop && side == 3);
+    else if (side >= 2) h = sdv_previous(cage, h);
+    if (ngon && (side == 1 || side == 2)) {
+        sdv_spot spoke = { h, 1, sdv_snap(t) };
+        if (spoke.v >= 1) spoke.grid = sdv_face_start(cage, sdv_face_of(cage, h));  // the centre
+        *home = spoke.v > 0 ? spoke : sdv_home_on_edge(surface, h, 0.5);
+        return 1;
+    }
+    t = sdv_snap(ngon ? t / 2 : t);
+    *home = sdv_home_on_edge(surface, h, side < 2 ? t : 1 - t);
+    return 1;
+}
+
+// Finds the leaf of a place: down to its cell, then once more as far down as the leaf is.
+static sdv_leaf sdv_locate(const subdiv_surface *surface, const sdv_spot *at)
+{
+    int loop = surface->rules.loop;
+    unsigned cell = sdv_first_cell_of(surface, at);
     sdv_leaf leaf;
     memset(&leaf, 0, sizeof leaf);
     leaf.nest_face = -1;
     if (cell == SDV_CELL_NONE) return leaf;
-    if (loop && u + v > 1) v = 1 - u;
-    for (double x = u, y = v, scale = 1; cell & 1; ) {
+    for (double x = at->u, y = at->v, scale = 1; cell & 1; ) {
         int child = sdv_descend(loop, &x, &y, &scale);
         child = 4 * child + sdv_descend(loop, &x, &y, &scale);
         cell = surface->exact->cells[(cell >> 1) + sdv_grid_cells[loop][child]];
     }
     int level = sdv_leaf_of_cell(surface, cell, &leaf);
-    level -= sdv_face_end(cage, f) - sdv_face_start(cage, f) != (loop ? 3 : 4);
-    leaf.x = u;
-    leaf.y = v;
+    level -= sdv_in_ngon(&surface->order.cage, loop, at->grid);
+    leaf.x = at->u;
+    leaf.y = at->v;
     leaf.sx = 1;
     for (int i = 0; i < level; i++) sdv_descend(loop, &leaf.x, &leaf.y, &leaf.sx);
     leaf.sy = leaf.sx;
@@ -9803,6 +9945,8 @@ static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynom
 typedef struct sdv_nest_state {
     const subdiv_surface *surface;
     const sdv_nest_kind *kind;
+    const int    *points;               // of the first level, among the work points
+    const double *work;
     double *w;                          // [4 * work_count] its points, then those of the next level
     double  base[4], shrink;
 } sdv_nest_state;
@@ -9813,15 +9957,16 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
                           const double *work, double *w)
 {
     const sdv_nest *nest = &surface->exact->nests[number];
-    const int *points = surface->exact->nest_points + nest->first;
     s->surface = surface;
     s->kind = &surface->exact->kinds[nest->kind];
+    s->points = surface->exact->nest_points + nest->first;
+    s->work = work;
     s->w = w;
     s->shrink = 1;
-    for (int c = 0; c < 4; c++) s->base[c] = work[4 * (size_t)points[0] + (size_t)c];
+    memcpy(s->base, work + 4 * (size_t)s->points[0], sizeof s->base);
     for (int i = 0; i < s->kind->points; i++)
         for (int c = 0; c < 4; c++)
-            w[4 * i + c] = work[4 * (size_t)points[i] + (size_t)c] - s->base[c];
+            w[4 * i + c] = work[4 * (size_t)s->points[i] + (size_t)c] - s->base[c];
 }
 
 // Makes the points of a nest's next level.
@@ -10149,22 +10294,28 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
     sdv_put_columns(rows, loop, at, order, out);
 }
 
-// Finds how a part of a patch weighs its control points, in values and derivatives, by evaluating
-// unit vectors, four at a time. weights [16], of which Loop has 12.
-static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
-                              const sdv_where *at, double (*weights)[6])
+// Makes the polynomial of unit vectors: lane i is what control point first + i weighs in it.
+static void sdv_unit_polynomial(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                                int first, float *data)
 {
     static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
     double unit[16][4] = { { 0 } }, origin[4];
-    float data[4 * SDV_SLOTS], w[4];
     sdv_polynomial q;
     sdv_double_patch from = sdv_double_patch_of(surface, patch, same, unit[0]);
+    for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
+    sdv_make_polynomial(&from, part, &q, origin);
+    sdv_keep_polynomial(&q, origin, 1, 4, data);
+}
+
+// Finds how a part of a patch weighs its control points, in values and derivatives. weights [16],
+// of which Loop has 12.
+static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                              const sdv_where *at, double (*weights)[6])
+{
+    float data[4 * SDV_SLOTS], w[4];
     for (int first = 0; first < sdv_control_points(&surface->rules); first += 4) {
         sdv_four values[6];
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
-        sdv_make_polynomial(&from, part, &q, origin);
-        for (int i = 0; i < 4; i++) unit[first + i][i] = 0;
-        sdv_keep_polynomial(&q, origin, 1, 4, data);
+        sdv_unit_polynomial(surface, patch, part, first, data);
         sdv_polynomial_values(data, surface->rules.loop, 4, at, 2, values);
         for (int d = 0; d < 6; d++) {
             sdv_store(w, values[d]);
@@ -10204,62 +10355,105 @@ static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, i
 // A sample in a nest, four channels at a time.
 typedef struct sdv_nest_sample {
     sdv_nest_state state;
-    int     face;
-    double  x, y;                       // as seen from the vertex
+    int     nest, face, vertex;         // vertex: the sample is there
+    const sdv_patch *like;              // a patch whose sharp edges are those of the units; or NULL
+    float   units[16 * SDV_SLOTS];      // from sdv_unit_polynomial
+    int     made;                       // 4 face + child, whose polynomial is here; or -1: not even
+    double  c[SDV_SLOTS][4];            // the points of the next level are made
     double  values[6][4];               // what comes out; derivatives are those in x and y
     double  tangents[2][4];             // for the normal
 } sdv_nest_sample;
 
-// Applies the limit masks of a nest: of its vertex, as seen from there, and of two tangents.
+// Applies the limit masks of a nest: of its vertex, as seen from its first level, and of two
+// tangents.
 static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
 {
     const sdv_nest_kind *kind = s->kind;
+    const double *base = s->work + 4 * (size_t)s->points[0];
     for (int k = 0; k < 3; k++)
         for (int c = 0; c < 4; c++) {
             limit[k][c] = 0;
             for (int i = 0; i < kind->points; i++)
-                limit[k][c] += kind->limit[k * kind->points + i] * s->w[4 * i + c];
+                limit[k][c] += kind->limit[k * kind->points + i] *
+                               (s->work[4 * (size_t)s->points[i] + (size_t)c] - base[c]);
         }
 }
 
-// Finds how the child of a nest's face at (x, y), which is not in the next nest, weighs its control
-// points, and returns these. On a sharp edge the points beside it weigh nothing at all: there the
-// surface may grow without bound as seen from the vertex, while along the edge it does not.
-static const int *sdv_child_weights(const subdiv_surface *surface, const sdv_nest_kind *kind,
-                                    int face, double x, double y, double (*weights)[6])
+// Makes the polynomial of a patch of a nest from points in doubles. On an edge the points beside it
+// weigh nothing at all, or cancel out: as seen from the vertex, the surface may grow without bound
+// there, while along the edge it does not.
+static void sdv_nest_polynomial(sdv_nest_sample *s, const sdv_patch *patch, const int *points)
 {
-    double scale = 1;
-    int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
-    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
-    const int *points;
-    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
-    sdv_patch_weights(surface, patch, 0, &at, weights);
-    return points;
+    const sdv_nest_state *state = &s->state;
+    if (!s->like || s->like->sharp != patch->sharp ||
+        memcmp(s->like->fan, patch->fan, sizeof patch->fan) != 0)
+        for (int i = 0; i < state->kind->width; i += 4)
+            sdv_unit_polynomial(state->surface, patch, 0, i, s->units + SDV_SLOTS * i);
+    s->like = patch;
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        double sum[4] = { 0, 0, 0, 0 };
+        for (int i = 0; i < state->kind->width; i++) {
+            double unit = (double)s->units[SDV_SLOTS * (i & ~3) + 4 * k + (i & 3)];
+            for (int c = 0; c < 4; c++) sum[c] += unit * state->w[4 * points[i] + c];
+        }
+        memcpy(s->c[k], sum, sizeof sum);
+    }
+}
+
+// The powers of a coordinate, and their derivatives times those of the coordinate.
+static void sdv_find_powers(double x, double scale, double (*powers)[5])
+{
+    for (int d = 0; d < 3; d++) powers[d][0] = d == 0;
+    for (int i = 0; i < 4; i++)
+        for (int d = 0; d < 3; d++)
+            powers[d][i + 1] = x * powers[d][i] + (d ? d * scale * powers[d - 1][i] : 0);
+}
+
+// Sums the coefficients of a polynomial times powers of x and y.
+static void sdv_sum_powers(const double (*coefficients)[4], int loop, const double *x,
+                           const double *y, double *out)
+{
+    const unsigned char (*powers)[2] = sdv_powers[loop];
+    double sum[4] = { 0, 0, 0, 0 };
+    for (int k = 0; k < SDV_SLOTS; k++) {
+        double weight = x[powers[k][0]] * y[powers[k][1]];
+        for (int c = 0; c < 4; c++) sum[c] += weight * coefficients[k][c];
+    }
+    memcpy(out, sum, sizeof sum);
 }
 
 // Evaluates the child of a nest's face at (x, y), which is not in the next nest.
-static void sdv_nest_child(sdv_nest_sample *s, double x, double y)
+static void sdv_nest_child(sdv_nest_sample *s, double x, double y, int order)
 {
+    static const unsigned char derivatives[6][2] = { {0,0}, {1,0}, {0,1}, {2,0}, {1,1}, {0,2} };
     const sdv_nest_state *state = &s->state;
-    double weights[16][6];
-    const int *points = sdv_child_weights(state->surface, state->kind, s->face, x, y, weights);
-    sdv_nest_refine(&s->state);
-    memset(s->values, 0, sizeof s->values);
-    for (int i = 0; i < state->kind->width; i++)
-        for (int d = 0; d < 6; d++)
-            for (int c = 0; c < 4; c++)
-                s->values[d][c] += weights[i][d] * state->w[4 * points[i] + c];
+    int loop = state->surface->rules.loop;
+    double scale = 1, across[3][5], up[3][5];
+    int child = sdv_descend(loop, &x, &y, &scale), number = 4 * s->face + child;
+    if (s->made < 0) sdv_nest_refine(&s->state);
+    if (s->made != number) {
+        const int *points;
+        const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
+        sdv_nest_polynomial(s, patch, points);
+        s->made = number;
+    }
+    sdv_find_powers(x, scale, across);
+    sdv_find_powers(y, scale, up);
+    for (int d = 0; d < (order + 1) * (order + 2) / 2; d++)
+        sdv_sum_powers((const double (*)[4])s->c, loop, across[derivatives[d][0]],
+                       up[derivatives[d][1]], s->values[d]);
     for (int c = 0; c < 4; c++) {
         s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
-        for (int d = 3; d < 6; d++) s->values[d][c] /= state->shrink;
+        for (int d = 3; d < 6 && order > 1; d++) s->values[d][c] /= state->shrink;
     }
     memcpy(s->tangents, s->values[1], sizeof s->tangents);
 }
 
-static void sdv_nest_go_down(sdv_nest_sample *s, int levels)
+// Goes on to a level of a nest, counted from its first one.
+static void sdv_nest_go_down(sdv_nest_sample *s, int level)
 {
-    for (int i = 0; i < levels; i++) {
-        sdv_nest_refine(&s->state);
+    for (double shrink = ldexp(1, -level); s->state.shrink > shrink; s->made = -1) {
+        if (s->made < 0) sdv_nest_refine(&s->state);
         sdv_nest_descend(&s->state);
     }
 }
@@ -10271,7 +10465,7 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
     double a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces, limit[3][4];
     sdv_nest_masks(&s->state, limit);
     for (int c = 0; c < 4; c++) {
-        s->values[0][c] = s->state.base[c] + s->state.shrink * limit[0][c];
+        s->values[0][c] = s->state.work[4 * (size_t)s->state.points[0] + (size_t)c] + limit[0][c];
         for (int i = 0; i < 2; i++)
             s->values[1 + i][c] = cos((s->face + i) * a) * limit[1][c] +
                                   sin((s->face + i) * a) * limit[2][c];
@@ -10282,67 +10476,27 @@ static void sdv_nest_vertex(sdv_nest_sample *s)
 
 // Near a vertex with one face on a side of its crease tangents are parallel. There the normal is
 // that of the vertex, whose second tangent is how the crease bends.
-static void sdv_nest_normal(sdv_nest_sample *s, int nest, const double *work)
+static void sdv_nest_normal(sdv_nest_sample *s)
 {
     const double *a = s->tangents[0], *b = s->tangents[1];
     double limit[3][4], n[3];
     sdv_cross(a, b, n);
     int parallel = sdv_dot3(n, n) <= 1e-10 * sdv_dot3(a, a) * sdv_dot3(b, b);
     if (s->state.kind->rule != SDV_CREASE || !parallel) return;
-    sdv_nest_load(&s->state, s->state.surface, nest, work, s->state.w);
     sdv_nest_masks(&s->state, limit);
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// Finds a place on a face of a nest as seen from the vertex.
-static void sdv_nest_place(int loop, int turn, double u, double v, double *x, double *y)
-{
-    sdv_turn_place(loop, turn, u, v, x, y);
-    if (*x < 0) *x = 0;
-    if (*y < 0) *y = 0;
-}
-
-// Returns on how many levels down (x, y), as seen from the vertex, still is in the nest.
-static int sdv_nest_levels(int loop, double x, double y)
-{
-    int down;
-    frexp(loop ? x + y : x > y ? x : y, &down);
-    return down > 0 ? 0 : -down;
-}
-
-// Evaluates a sample from the nest's points, or from those after the last polynomials.
-static void sdv_nest_evaluate(sdv_nest_sample *s, const sdv_exact_evaluation *e, int nest, int c,
-                              double *w)
-{
-    const subdiv_surface *surface = e->surface;
-    int vertex = s->x <= 0 && s->y <= 0, down = sdv_nest_levels(surface->rules.loop, s->x, s->y);
-    int kept = !vertex && down >= SDV_NEST_DEPTH;
-    const double *work = e->memory.work + (size_t)c * (size_t)surface->work_count;
-    sdv_nest_load(&s->state, surface, nest, work, w);
-    if (kept) {                         // what sdv_nest_polynomials ended with
-        const double *base = sdv_kept_nest(e, nest, c);
-        s->state.shrink = ldexp(1, -SDV_NEST_DEPTH);
-        memcpy(s->state.base, base, sizeof s->state.base);
-        memcpy(w, base + 4, 4 * sizeof(double) * (size_t)s->state.kind->points);
-    }
-    if (vertex) {
-        sdv_nest_vertex(s);
-    } else {
-        sdv_nest_go_down(s, kept ? down - SDV_NEST_DEPTH : down);
-        sdv_nest_child(s, ldexp(s->x, down), ldexp(s->y, down));
-    }
-    if (e->normals && c == 0) sdv_nest_normal(s, nest, work);
-}
-
 // Turns derivatives in x and y into those in u and v, with the scale of the face.
-static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale)
+static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale, int order)
 {
     double ss = scale * scale;
     for (int c = 0; c < 4; c++) {
         double dx = s->values[1][c], dy = s->values[2][c];
-        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
         s->values[1][c] = scale * (t[0] * dx + t[2] * dy);
         s->values[2][c] = scale * (t[1] * dx + t[3] * dy);
+        if (order < 2) continue;
+        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
         s->values[3][c] = ss * (t[0] * t[0] * dxx + 2 * t[0] * t[2] * dxy + t[2] * t[2] * dyy);
         s->values[4][c] = ss * (t[0] * t[1] * dxx + (t[0] * t[3] + t[1] * t[2]) * dxy +
                                 t[2] * t[3] * dyy);
@@ -10361,31 +10515,152 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
         }
     if (!e->normals || c > 0) return;
     const double *a = s->tangents[0], *b = s->tangents[1];
-    double fold = s->x <= 0 && s->y <= 0 ? sdv_fold * (sdv_dot3(a, a) + sdv_dot3(b, b)) : 0;
+    double fold = s->vertex ? sdv_fold * (sdv_dot3(a, a) + sdv_dot3(b, b)) : 0;
     sdv_unit_cross(a, b, 1e-28, fold, e->normals + e->normal_stride * i);
 }
 
-static int sdv_sample_nest(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i)
+// Starts where sdv_nest_polynomials has ended.
+static void sdv_load_kept(const sdv_exact_evaluation *e, int nest, int c, sdv_nest_sample *s)
 {
-    const subdiv_surface *surface = e->surface;
-    int loop = surface->rules.loop;
-    const sdv_nest_face *face = &surface->exact->nest_faces[leaf->nest_face];
-    const signed char *t = sdv_turns[loop][face->turn];
-    int count = sdv_nest_work(surface->exact, face->nest);
-    double stack[4 * SDV_NEST_STACK], *w = stack;
-    sdv_context context = { SUBDIV_OK, NULL, e->opt ? e->opt->user : NULL, NULL };
+    const sdv_exact *exact = e->surface->exact;
+    const double *kept = sdv_kept_nest(e, nest, c);
+    sdv_nest_state *state = &s->state;
+    s->nest = nest;
+    s->made = -1;
+    state->surface = e->surface;
+    state->kind = &exact->kinds[exact->nests[nest].kind];
+    state->points = exact->nest_points + exact->nests[nest].first;
+    state->work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
+    state->shrink = ldexp(1, -SDV_NEST_DEPTH);
+    memcpy(state->base, kept, sizeof state->base);
+    memcpy(state->w, kept + 4, 4 * sizeof(double) * (size_t)state->kind->points);
+}
+
+// Samples nearer to the vertices of nests than polynomials are kept wait until there are many, or
+// no others are left. Then they are sorted: all those of a nest share one way down, and those of a
+// patch its polynomial.
+enum { SDV_QUEUE = 2048 };
+
+typedef struct sdv_waiting {
+    double x, y;                        // on their level, as seen from the vertex; 0: the vertex
+    float  scale;                       // of the leaf
+    int    face, i;                     // of a nest; the location's number
+    const sdv_exact_evaluation *asked;  // what is asked of it
+} sdv_waiting;
+
+typedef struct sdv_queue {
+    sdv_exact_evaluation points, rest;  // what is asked for, see sdv_part_asked
+    sdv_context  context;
+    sdv_arena    arena;
+    int          room, count;
+    int          most_work;             // of their nests
+    sdv_waiting *items;                 // [room] NULL before the first one
+    uint32_t    *keys;                  // [room] from the highest bit: nest, level, face, quarter
+    int         *order[2];              // [room] sorted, and while they are
+} sdv_queue;
+
+// Makes an empty queue for a job's share of the locations.
+static void sdv_queue_new(const sdv_exact_evaluation *e, size_t share, sdv_queue *queue)
+{
+    queue->points.surface = NULL;
+    memset(&queue->context, 0, sizeof queue->context);
+    queue->context.user = e->opt ? e->opt->user : NULL;
+    queue->arena = sdv_new_arena(0);
+    queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
+    queue->count = queue->most_work = 0;
+    queue->items = NULL;
+}
+
+// Parts what is asked for, for the first location on an edge.
+static void sdv_part_asked(const sdv_exact_evaluation *e, sdv_queue *queue)
+{
+    queue->points = queue->rest = *e;
+    memset(queue->points.out + 1, 0, sizeof e->out - sizeof e->out[0]);
+    queue->points.normals = queue->rest.out[0] = NULL;
+    queue->points.order = 0;
+}
+
+// Sorts a queue byte by byte, from the lowest one on.
+static void sdv_sort_queue(sdv_queue *queue)
+{
+    for (int k = 0; k < queue->count; k++) queue->order[0][k] = k;
+    for (int byte = 0; byte < 4 && queue->count > 1; byte++) {
+        const int *from = queue->order[byte & 1];
+        int *to = queue->order[~byte & 1], starts[257] = { 0 };
+        for (int k = 0; k < queue->count; k++) starts[(queue->keys[k] >> 8 * byte & 255) + 1]++;
+        for (int k = 0; k < 255; k++) starts[k + 1] += starts[k];
+        for (int k = 0; k < queue->count; k++)
+            to[starts[queue->keys[from[k]] >> 8 * byte & 255]++] = from[k];
+    }
+}
+
+// Evaluates a sample that waited, four channels from c on.
+static void sdv_sample_nest(const sdv_waiting *at, int level, int c, sdv_nest_sample *s)
+{
+    const sdv_exact_evaluation *e = at->asked;
+    const sdv_nest_face *face = &e->surface->exact->nest_faces[at->face];
+    if (s->nest != face->nest) sdv_load_kept(e, face->nest, c, s);
+    s->face = at->face - e->surface->exact->nests[face->nest].face;
+    s->vertex = at->x <= 0 && at->y <= 0;
+    if (s->vertex) {
+        sdv_nest_vertex(s);
+    } else {
+        sdv_nest_go_down(s, level);
+        sdv_nest_child(s, at->x, at->y, e->order);
+    }
+    if (e->normals && c == 0) sdv_nest_normal(s);
+    sdv_nest_turn(s, sdv_turns[e->surface->rules.loop][face->turn], (double)at->scale, e->order);
+    sdv_put_nest_sample(e, s, c, (size_t)at->i);
+}
+
+// Evaluates the samples of a queue.
+static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
+{
+    double stack[4 * SDV_NEST_STACK];
     sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
-    s.face = leaf->nest_face - surface->exact->nests[face->nest].face;
-    sdv_nest_place(loop, face->turn, leaf->x, leaf->y, &s.x, &s.y);
-    if (count > SDV_NEST_STACK) w = SDV_NEW(&context, &arena, double, 4 * (size_t)count);
-    for (int c = 0; c < e->channels && w; c += 4) {
-        sdv_nest_evaluate(&s, e, face->nest, c, w);
-        sdv_nest_turn(&s, t, leaf->sx);
-        sdv_put_nest_sample(e, &s, c, i);
+    s.state.w = stack;
+    s.like = NULL;
+    if (queue->most_work > SDV_NEST_STACK)
+        s.state.w = SDV_NEW(&queue->context, &arena, double, 4 * (size_t)queue->most_work);
+    sdv_sort_queue(queue);
+    for (int c = 0; c < e->channels && s.state.w; c += 4) {
+        s.nest = -1;
+        for (int k = 0; k < queue->count; k++) {
+            int i = queue->order[0][k];
+            sdv_sample_nest(&queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
+        }
     }
+    queue->count = queue->most_work = 0;
     sdv_arena_free(&arena);
-    return w != NULL;
+}
+
+// Adds a sample to the queue.
+static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, size_t i,
+                        sdv_queue *queue)
+{
+    const sdv_exact *exact = e->surface->exact;
+    const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
+    int work = sdv_nest_work(exact, face->nest);
+    if (!queue->items) {
+        queue->items = SDV_NEW(&queue->context, &queue->arena, sdv_waiting, queue->room);
+        queue->keys = SDV_NEW(&queue->context, &queue->arena, uint32_t, queue->room);
+        for (int k = 0; k < 2; k++)
+            queue->order[k] = SDV_NEW(&queue->context, &queue->arena, int, queue->room);
+    }
+    if (queue->context.result) return;
+    if (queue->count == queue->room) sdv_empty_queue(e, queue);
+    sdv_waiting *at = &queue->items[queue->count];
+    at->x = leaf->x;
+    at->y = leaf->y;
+    at->scale = (float)leaf->sx;
+    at->face = leaf->nest_face;
+    at->i = (int)i;
+    at->asked = e;
+    queue->keys[queue->count++] =
+        (uint32_t)face->nest << 20 | (uint32_t)leaf->below_kept << 12 |
+        ((uint32_t)at->face & 1023) << 2 | (uint32_t)(at->y >= 0.5) << 1 | (uint32_t)(at->x >= 0.5);
+    if (work > queue->most_work) queue->most_work = work;
 }
 
 // Writes the zeros of a face without a surface.
@@ -10396,18 +10671,30 @@ static void sdv_put_zeros(const sdv_exact_evaluation *e, size_t i)
     for (int c = 0; c < 3 && e->normals; c++) e->normals[e->normal_stride * i + (size_t)c] = 0;
 }
 
-// Evaluates a location by its leaf, as its cell has no polynomial.
-static void sdv_put_location(sdv_exact_evaluation *e, int loop, int job, size_t i)
+// Evaluates a place by its leaf.
+static void sdv_put_spot(const sdv_exact_evaluation *e, int loop, const sdv_spot *spot, size_t i,
+                         sdv_queue *queue)
 {
-    sdv_leaf leaf = sdv_locate(e->surface, &e->locations[i]);
+    sdv_leaf leaf = sdv_locate(e->surface, spot);
     sdv_find_polynomial(e->surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
     if (leaf.below_kept)
-        e->failed[job] |= !sdv_sample_nest(e, &leaf, i);
+        sdv_enqueue(e, &leaf, i, queue);
     else if (leaf.patch || leaf.nest_face >= 0)
         sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i);
     else
         sdv_put_zeros(e, i);
+}
+
+// Evaluates a location whose cell has no polynomial, or one on an edge: its point at home, so that
+// it has the same bits on all faces, and its derivatives on its own face.
+static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i, sdv_queue *queue)
+{
+    sdv_spot spot = sdv_spot_of(e->surface, &e->locations[i]), home;
+    int shared = e->out[0] && sdv_find_home(e->surface, &spot, &home);
+    if (shared && !queue->points.surface) sdv_part_asked(e, queue);
+    if (shared) sdv_put_spot(&queue->points, loop, &home, i, queue);
+    if (!shared || e->order > 0) sdv_put_spot(shared ? &queue->rest : e, loop, &spot, i, queue);
 }
 
 // A batch of locations that are looked up, and where their polynomials are.
@@ -10441,8 +10728,9 @@ static int sdv_find_batch(const sdv_exact_evaluation *e, size_t i, size_t end,
 
 // Evaluates a batch of locations from i on, and fetches the polynomials of the next batch. lanes,
 // order: constants for what is asked for most; lanes 0: whatever e asks for.
-SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int lanes, int order,
-                              const sdv_sample_batch *batch, const sdv_sample_batch *next, size_t i)
+SDV_INLINE void sdv_put_batch(const sdv_exact_evaluation *e, int loop, int lanes, int order,
+                              const sdv_sample_batch *batch, const sdv_sample_batch *next, size_t i,
+                              sdv_queue *queue)
 {
     const sdv_lookup *l = &batch->at;
     size_t third = SDV_SLOTS * (size_t)e->channels / 3;
@@ -10454,7 +10742,7 @@ SDV_INLINE void sdv_put_batch(sdv_exact_evaluation *e, int job, int loop, int la
             sdv_prefetch(next->data[k] + third);
             sdv_prefetch(next->data[k] + 2 * third);
         }
-        if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, job, i);
+        if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, i, queue);
         else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
         else sdv_put_channels(e, batch->data[k], loop, &at, i);
     }
@@ -10468,6 +10756,8 @@ static void sdv_locations_job(void *context, int job)
     size_t end = (size_t)sdv_share(e->count, job + 1, e->jobs);
     int loop = e->surface->rules.loop, order = e->channels == 3 ? e->order : 2;
     sdv_sample_batch batches[2], *batch = batches, *next = batches + 1;
+    sdv_queue queue;
+    sdv_queue_new(e, end - i, &queue);
     e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
     while (i < end && !e->refused[job]) {
         sdv_sample_batch *last = batch;
@@ -10476,12 +10766,15 @@ static void sdv_locations_job(void *context, int job)
         i += (size_t)batch->count;
         e->refused[job] = (unsigned char)!sdv_find_batch(e, i, end, next);
         size_t first = i - (size_t)batch->count;
-        if (loop && order == 0) sdv_put_batch(e, job, 1, 3, 0, batch, next, first);
-        else if (loop && order == 1) sdv_put_batch(e, job, 1, 3, 1, batch, next, first);
-        else if (order == 0) sdv_put_batch(e, job, 0, 3, 0, batch, next, first);
-        else if (order == 1) sdv_put_batch(e, job, 0, 3, 1, batch, next, first);
-        else sdv_put_batch(e, job, loop, 0, 0, batch, next, first);
+        if (loop && order == 0) sdv_put_batch(e, 1, 3, 0, batch, next, first, &queue);
+        else if (loop && order == 1) sdv_put_batch(e, 1, 3, 1, batch, next, first, &queue);
+        else if (order == 0) sdv_put_batch(e, 0, 3, 0, batch, next, first, &queue);
+        else if (order == 1) sdv_put_batch(e, 0, 3, 1, batch, next, first, &queue);
+        else sdv_put_batch(e, loop, 0, 0, batch, next, first, &queue);
     }
+    if (queue.count) sdv_empty_queue(e, &queue);
+    e->failed[job] = queue.context.result != SUBDIV_OK;
+    sdv_arena_free(&queue.arena);
 }
 
 // The first location that is not there.
@@ -11263,12 +11556,16 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// Adds the weights of the patch at (x, y).
+// Adds the weights of the child of a nest's face at (x, y), which is not in the next nest.
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                             double x, double y, double *w)
 {
-    double weights[16][6];
-    const int *points = sdv_child_weights(surface, kind, face, x, y, weights);
+    double weights[16][6], scale = 1;
+    int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
+    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
+    const int *points;
+    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
+    sdv_patch_weights(surface, patch, 0, &at, weights);
     for (int i = 0; i < kind->width; i++)
         for (int k = 0; k < 3; k++) w[3 * points[i] + k] += weights[i][k];
 }
@@ -11285,7 +11582,7 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
     }
 }
 
-// Weighs the points of a nest at (x, y) on a face of it, as sdv_nest_evaluate does.
+// Weighs the points of a nest at (x, y) on a face of it, as sdv_sample_nest does.
 static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                            double x, double y, double *w)
 {
@@ -11331,7 +11628,8 @@ static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
     sdv_stencil_maker_new(context, &make, surface, count, 3);
     double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context->result; i++) {
-        sdv_leaf leaf = sdv_locate(surface, &locations[i]);
+        sdv_spot spot = sdv_spot_of(surface, &locations[i]);
+        sdv_leaf leaf = sdv_locate(surface, &spot);
         if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
         else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
         if (!context->result) sdv_write_stencil(&make, i);
@@ -12001,10 +12299,11 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
     }
     l->nest = nest;
     l->part = 0;
+    vertex.made = -1;
+    vertex.like = NULL;
     for (int depth = 0; depth <= most; depth++) {
         int last = depth == most;
-        if (last) sdv_nest_load(nest, surface, number, l->source->points, w);
-        else sdv_nest_refine(nest);
+        if (!last) sdv_nest_refine(nest);
         l->vertex = last ? &vertex : NULL;
         for (int i = 0; i < nest->kind->faces; i++) {
             vertex.face = i;
@@ -15331,6 +15630,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_CELL_LEAF
 #undef SDV_CELL_NONE
 #undef SDV_CELL_FAR
+#undef SDV_CLOSE
 #undef SDV_CELL_POLYNOMIALS
 
 #if defined(__GNUC__) && defined(__cplusplus)

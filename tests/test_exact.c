@@ -442,6 +442,127 @@ static void test_continuous(void)
     }
 }
 
+// ---------------------------------------------------------------------------------- shared points
+
+enum { PLACES = 9 };                  // along an edge
+
+// A surface of positions or values that is ready for two channels.
+typedef struct shared_surface {
+    const subdiv_mesh *mesh;
+    subdiv_surface *surface;
+    const unsigned char *hole;
+    void *scratch;
+} shared_surface;
+
+// The place after t of the edge that leads on from vertex i of a face, as callers find it.
+static subdiv_location on_edge(const subdiv_mesh *m, int f, int i, float t)
+{
+    int size = face_size(m, f), loop = m->scheme == SUBDIV_LOOP, half = t > 0.5f;
+    float quad[4][2] = { { t, 0 }, { 1, t }, { 1 - t, 1 }, { 0, 1 - t } };
+    float triangle[3][2] = { { t, 0 }, { 1 - t, t }, { 0, 1 - t } };
+    const float *uv = loop ? triangle[i % 3] : quad[i % 4];
+    subdiv_location whole = { f, 0, uv[0], uv[1] }, part = { f, i, 2 * t, 0 };
+    subdiv_location next = { f, (i + 1) % size, 0, 2 * (1 - t) };
+    return loop || size == 4 ? whole : half ? next : part;
+}
+
+// Are the points of two lists the same bits? The derivatives asked for as well change nothing.
+static void check_same_points(const shared_surface *s, subdiv_location at[2][PLACES], int count)
+{
+    float p[2][2 * PLACES], du[2 * PLACES];
+    subdiv_derivatives to[2] = { { p[0], NULL, NULL, NULL, NULL, NULL, NULL, 0 },
+                                 { p[1], du, NULL, NULL, NULL, NULL, NULL, 0 } };
+    for (int i = 0; i < 2; i++)
+        CHECK_EQUAL(subdiv_evaluate_at(s->surface, 2, s->scratch, count, at[i], &to[i], NULL),
+                    SUBDIV_OK);
+    CHECK(memcmp(p[0], p[1], 2 * sizeof(float) * (size_t)count) == 0);
+}
+
+// The first face-vertex of a face in the topology of the surface; -1: it has no surface.
+static int first_corner(const shared_surface *s, int f)
+{
+    const int *own = s->surface->own_face;
+    if (s->hole[f] == DROPPED || (own && own[f] < 0)) return -1;
+    return sdv_face_start(&s->surface->order.cage, own ? own[f] : f);
+}
+
+// Vertex i of face f and the edge that leads on from there beside those of face g.
+static void check_shared_by(const shared_surface *s, const float *t, int f, int i, int g)
+{
+    const sdv_level *cage = &s->surface->order.cage;
+    int h = first_corner(s, f) + i, first = first_corner(s, g), next = sdv_next(cage, h);
+    const int *v = cage->face_vertices;
+    subdiv_location at[2][PLACES];
+    for (int j = 0; j < face_size(s->mesh, g) && first >= 0; j++) {
+        int k = first + j, same = v[k] == v[h];
+        at[0][0] = on_edge(s->mesh, f, i, 0);
+        at[1][0] = on_edge(s->mesh, g, j, 0);
+        if (same) check_same_points(s, at, 1);
+        if (v[h] == v[next] || cage->face_edges[h] != cage->face_edges[k]) continue;
+        for (int place = 0; place < PLACES; place++) {
+            at[0][place] = on_edge(s->mesh, f, i, t[place]);
+            at[1][place] = on_edge(s->mesh, g, j, same ? t[place] : 1 - t[place]);
+        }
+        check_same_points(s, at, PLACES);
+    }
+}
+
+// The spoke between the quads of an n-gon at vertices i and i + 1, and its centre.
+static void check_spoke(const shared_surface *s, const float *t, int f, int i)
+{
+    subdiv_location at[2][PLACES];
+    for (int k = 0; k < PLACES; k++) {
+        int after = (i + 1) % face_size(s->mesh, f);
+        subdiv_location first = { f, i, 1, t[k] }, next = { f, after, t[k], 1 };
+        at[0][k] = first;
+        at[1][k] = next;
+    }
+    check_same_points(s, at, PLACES);
+}
+
+static void check_shared(random_cage *c, shared_surface *s, const float *in)
+{
+    const subdiv_mesh *m = s->mesh;
+    s->scratch = malloc(subdiv_scratch_size(s->surface, 2));
+    CHECK_EQUAL(subdiv_evaluate_begin(s->surface, 2, in, 0, s->scratch, NULL), SUBDIV_OK);
+    for (int f = 0; f < m->face_count; f++)
+        for (int i = 0; i < face_size(m, f) && first_corner(s, f) >= 0; i++) {
+            float t[PLACES] = { 0, 1, 0.5f, 0.3f, 1.0f / 3 };
+            for (int k = 5; k < PLACES; k++) t[k] = random_real(c, 0.001f, 0.999f);
+            for (int g = 0; g <= f; g++) check_shared_by(s, t, f, i, g);
+            if (m->scheme != SUBDIV_LOOP && face_size(m, f) != 4) check_spoke(s, t, f, i);
+        }
+    free(s->scratch);
+}
+
+// What faces share, they evaluate to the same bits: points of an edge at t and 1 - t, vertices,
+// spokes of n-gons; with creases, on non-manifold edges, and between seams of values.
+static void test_shared(void)
+{
+    char context[64];
+    for (unsigned seed = 1; seed <= 60; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        const subdiv_mesh *m = &c->mesh;
+        shared_surface points = { m, NULL, NULL, NULL }, values = points;
+        float in[2 * RANDOM_MAX_VERTICES];
+        snprintf(context, sizeof context, "seed %u", seed);
+        test_context = context;
+        for (int i = 0; i < 2 * m->vertex_count; i++) in[i] = random_real(c, -1, 1);
+        CHECK_EQUAL(subdiv_prepare(&points.surface, m, SUBDIV_EXACT, NULL), SUBDIV_OK);
+        points.hole = values.hole = points.surface->hole;
+        check_shared(c, &points, in);
+        if (m->uv_count) {
+            CHECK_EQUAL(subdiv_prepare_face_varying(&values.surface, m, m->uv_count, m->face_uvs,
+                                                    (subdiv_uv_rule)(seed % 6), SUBDIV_EXACT, NULL),
+                        SUBDIV_OK);
+            check_shared(c, &values, m->uvs);
+        }
+        subdiv_surface_free(points.surface);
+        subdiv_surface_free(values.surface);
+        random_cage_free(c);
+    }
+}
+
 // ---------------------------------------------------------------------------------- hard places
 
 // In a mesh of quads: where a vertex is in a face, or -1.
@@ -597,7 +718,7 @@ static void test_single_faces(void)
 
 enum { MANY = 5000 };
 
-// A third of them where polynomials meet.
+// A third of them where polynomials meet, a third close to vertex 0.
 static void random_places(random_cage *c, subdiv_location *at)
 {
     const subdiv_mesh *m = &c->mesh;
@@ -610,6 +731,10 @@ static void random_places(random_cage *c, subdiv_location *at)
         if (i % 3 == 0) {
             at[i].u = floorf(at[i].u * 17) / 16;
             at[i].v = floorf(at[i].v * 17) / 16;
+        } else if (i % 3 == 1) {
+            float closer = ldexpf(1, -random_below(c, 100));
+            at[i].u *= closer;
+            at[i].v *= closer;
         }
         if (m->scheme == SUBDIV_LOOP && at[i].u + at[i].v > 1) {
             at[i].u = 1 - at[i].u;
@@ -980,6 +1105,7 @@ int main(void)
     RUN(test_vertices);
     RUN(test_eigenvalues);
     RUN(test_continuous);
+    RUN(test_shared);
     RUN(test_passing_creases);
     RUN(test_long_creases);
     RUN(test_sizes);
