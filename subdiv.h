@@ -10734,7 +10734,7 @@ SDV_INLINE void sdv_put_batch(const sdv_exact_evaluation *e, int loop, int lanes
 {
     const sdv_lookup *l = &batch->at;
     size_t third = SDV_SLOTS * (size_t)e->channels / 3;
-    int count = batch->count, fetched = next->count;
+    int count = batch->count, fetched = e->memory.polynomials ? next->count : 0;
     for (int k = 0; k < count; k++, i++) {
         sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
         if (k < fetched) {
