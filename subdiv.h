@@ -4630,9 +4630,9 @@ static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, int faces, int target)
 {
     int number = sdv_find_limit_mask(limit, kind, faces);
-    const sdv_limit_weights *mask = (const sdv_limit_weights *)sdv_items(&limit->masks) + number;
     sdv_shape shape;
     if (limit->writer->context->result) return;
+    const sdv_limit_weights *mask = (const sdv_limit_weights *)sdv_items(&limit->masks) + number;
     memset(&shape, 0, sizeof shape);
     shape.count[0] = mask->count - 1;
     shape.regular = kind == SDV_RING && faces == (limit->rules->loop ? 6 : 4);
@@ -10708,8 +10708,9 @@ SDV_INLINE int sdv_find_some(const sdv_exact_evaluation *e, int loop, size_t i, 
                              sdv_sample_batch *batch)
 {
     size_t width = SDV_SLOTS * (size_t)e->channels;
-    batch->count = count;
+    batch->count = 0;
     if (!sdv_look_up(e->surface, loop, e->locations + i, count, &batch->at)) return 0;
+    batch->count = count;
     for (int k = 0; k < count; k++)
         batch->data[k] = e->memory.polynomials + width * (batch->at.cells[k] >> SDV_CELL_BITS);
     return 1;
@@ -10734,7 +10735,7 @@ SDV_INLINE void sdv_put_batch(const sdv_exact_evaluation *e, int loop, int lanes
 {
     const sdv_lookup *l = &batch->at;
     size_t third = SDV_SLOTS * (size_t)e->channels / 3;
-    int count = batch->count, fetched = e->memory.polynomials ? next->count : 0;
+    int count = batch->count, fetched = next->count;
     for (int k = 0; k < count; k++, i++) {
         sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
         if (k < fetched) {
