@@ -7006,35 +7006,48 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
+// Lays out an array and copies the items of another one, unless that is NULL.
+static void *sdv_carve_copy(char *base, size_t *size, const void *from, size_t count, size_t item)
+{
+    void *array = sdv_carve(base, size, count, item);
+    if (array && from) sdv_copy(array, from, count, item);
+    return array;
+}
+
+// The same for an array of so many numbers an item.
+#define SDV_CARVE(type, from, count, numbers) \
+    ((type *)sdv_carve_copy(base, &size, from, count, numbers * sizeof(type)))
+
 // The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
 typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
 
-// Lays out the arrays of a mesh with the counts of a model. Returns the size of the block.
+// Lays out the arrays of a mesh with the counts of a model, see sdv_new_mesh. Returns the size of
+// the block.
 static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base,
                              sdv_extras extras)
 {
     size_t size = 0, vertices = (size_t)model->vertex_count, faces = (size_t)model->face_count;
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
     size_t face_vertices = sdv_face_vertex_count(model), uvs = (size_t)model->uv_count, text = 0;
-    size_t statements = (size_t)model->statement_count;
+    size_t statements = (size_t)model->statement_count, colors = model->colors ? vertices : 0;
+    size_t normals = extras == SDV_LIMIT || model->normals ? vertices : 0;
     for (size_t i = 0; i < statements; i++) text += strlen(model->statements[i]) + 1;
-    mesh->positions = (float *)sdv_carve(base, &size, vertices, 3 * sizeof(float));
-    mesh->face_vertices = (int *)sdv_carve(base, &size, face_vertices, sizeof(int));
-    mesh->face_sizes = (int *)sdv_carve(base, &size, model->face_size ? 0 : faces, sizeof(int));
-    mesh->cage_faces = (int *)sdv_carve(base, &size, extras >= SDV_RESULT ? faces : 0, sizeof(int));
-    mesh->crease_vertices = (int *)sdv_carve(base, &size, creases, 2 * sizeof(int));
-    mesh->crease_sharpness = (float *)sdv_carve(base, &size, creases, sizeof(float));
-    mesh->corner_vertices = (int *)sdv_carve(base, &size, corners, sizeof(int));
-    mesh->corner_sharpness = (float *)sdv_carve(base, &size, corners, sizeof(float));
-    mesh->holes = (int *)sdv_carve(base, &size, (size_t)model->hole_count, sizeof(int));
-    mesh->uvs = (float *)sdv_carve(base, &size, uvs, 2 * sizeof(float));
-    mesh->face_uvs = (int *)sdv_carve(base, &size, uvs ? face_vertices : 0, sizeof(int));
-    mesh->colors = (float *)sdv_carve(base, &size, model->colors ? vertices : 0, 3 * sizeof(float));
-    int normals = extras == SDV_LIMIT || model->normals;
-    mesh->normals = (float *)sdv_carve(base, &size, normals ? vertices : 0, 3 * sizeof(float));
-    mesh->statement_faces = (int *)sdv_carve(base, &size, statements, sizeof(int));
-    mesh->statements = (char **)sdv_carve(base, &size, statements, sizeof(char *));
-    char *texts = (char *)sdv_carve(base, &size, text, 1);
+    mesh->positions = SDV_CARVE(float, NULL, vertices, 3);
+    mesh->face_vertices = SDV_CARVE(int, NULL, face_vertices, 1);
+    mesh->face_sizes = SDV_CARVE(int, model->face_sizes, model->face_size ? 0 : faces, 1);
+    mesh->cage_faces = SDV_CARVE(int, NULL, extras ? faces : 0, 1);
+    mesh->crease_vertices = SDV_CARVE(int, model->crease_vertices, creases, 2);
+    mesh->crease_sharpness = SDV_CARVE(float, model->crease_sharpness, creases, 1);
+    mesh->corner_vertices = SDV_CARVE(int, model->corner_vertices, corners, 1);
+    mesh->corner_sharpness = SDV_CARVE(float, model->corner_sharpness, corners, 1);
+    mesh->holes = SDV_CARVE(int, NULL, (size_t)model->hole_count, 1);
+    mesh->uvs = SDV_CARVE(float, model->uvs, uvs, 2);
+    mesh->face_uvs = SDV_CARVE(int, model->face_uvs, uvs ? face_vertices : 0, 1);
+    mesh->colors = SDV_CARVE(float, extras ? NULL : model->colors, colors, 3);
+    mesh->normals = SDV_CARVE(float, extras ? NULL : model->normals, normals, 3);
+    mesh->statement_faces = SDV_CARVE(int, model->statement_faces, statements, 1);
+    mesh->statements = SDV_CARVE(char *, NULL, statements, 1);
+    char *texts = SDV_CARVE(char, NULL, text, 1);
     for (size_t i = 0; texts && i < statements; i++) {
         mesh->statements[i] = strcpy(texts, model->statements[i]);
         texts += strlen(texts) + 1;
@@ -7055,23 +7068,12 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
     }
     mesh->memory = block;
     sdv_carve_mesh(mesh, model, (char *)(block + 1), extras);
-    size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
-    size_t vertices = (size_t)model->vertex_count, uvs = (size_t)model->uv_count;
-    const struct { void *to; const void *from; size_t count, item; } lists[] = {
-        { mesh->face_sizes, model->face_sizes, (size_t)model->face_count, sizeof(int) },
-        { mesh->crease_vertices, model->crease_vertices, creases, 2 * sizeof(int) },
-        { mesh->crease_sharpness, model->crease_sharpness, creases, sizeof(float) },
-        { mesh->corner_vertices, model->corner_vertices, corners, sizeof(int) },
-        { mesh->corner_sharpness, model->corner_sharpness, corners, sizeof(float) },
-        { mesh->uvs, model->uvs, uvs, 2 * sizeof(float) },
-        { mesh->face_uvs, model->face_uvs, sdv_face_vertex_count(model), sizeof(int) },
-        { mesh->colors, extras ? NULL : model->colors, vertices, 3 * sizeof(float) },
-        { mesh->normals, extras ? NULL : model->normals, vertices, 3 * sizeof(float) },
-        { mesh->statement_faces, model->statement_faces, (size_t)model->statement_count,
-          sizeof(int) } };
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-        if (lists[i].to && lists[i].from)
-            sdv_copy(lists[i].to, lists[i].from, lists[i].count, lists[i].item);
+}
+
+// The face of the user's cage that a face was cut from.
+static int sdv_user_face(const subdiv_surface *surface, int f)
+{
+    return surface->cage_face ? surface->cage_face[f] : f;
 }
 
 typedef struct sdv_faces_out {          // what the jobs that write fine faces share
@@ -7093,29 +7095,24 @@ static void sdv_fine_faces_job(void *context, int job)
         int *vertices = out->face_vertices + (size_t)first * size;
         if (own >= 0) sdv_fine_faces(&surface->order, own, vertices);
         for (size_t i = 0; own < 0 && i < (size_t)(last - first) * size; i++) vertices[i] = -1;
-        int cage_face = surface->cage_face ? surface->cage_face[f] : f;
-        for (int i = first; i < last && out->cage_faces; i++) out->cage_faces[i] = cage_face;
+        for (int i = first; i < last && out->cage_faces; i++)
+            out->cage_faces[i] = sdv_user_face(surface, f);
     }
-}
-
-static void sdv_copy_faces_out(const subdiv_surface *surface, int *face_vertices, int *cage_faces)
-{
-    const subdiv_mesh *fine = &surface->fine;
-    sdv_copy(face_vertices, fine->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
-    for (int f = 0; f < fine->face_count && cage_faces; f++)
-        cage_faces[f] = surface->cage_face ? surface->cage_face[f] : f;
 }
 
 static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertices, int *cage_faces,
                                 const subdiv_options *opt)
 {
+    const subdiv_mesh *fine = &surface->fine;
     sdv_faces_out out = { surface, face_vertices, cage_faces, 1 };
-    if (surface->levels == 0) {
-        sdv_copy_faces_out(surface, face_vertices, cage_faces);
+    if (surface->levels > 0) {
+        out.jobs = sdv_jobs(opt, surface->face_count, 1);
+        sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
         return;
     }
-    out.jobs = sdv_jobs(opt, surface->face_count, 1);
-    sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
+    sdv_copy(face_vertices, fine->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
+    for (int f = 0; f < fine->face_count && cage_faces; f++)
+        cage_faces[f] = sdv_user_face(surface, f);
 }
 
 // Lists the fine faces that are holes, in order.
@@ -7350,12 +7347,18 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * ((size_t)surface->work_count + 1);
 }
 
-// Describes the last step of an evaluation: for these cage faces, to these points of the result.
-static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
-                                        const void *scratch, int first_face, int face_count,
-                                        int first_point, int point_count)
+// Makes the points of the result that belong to a range of cage faces and are in a range of points,
+// from scratch: to out or as a limit. Returns the context's result.
+static subdiv_result sdv_make_range(sdv_context *context, const subdiv_surface *surface,
+                                    int channels, const void *scratch, int first_face,
+                                    int face_count, int first_point, int point_count, float *out,
+                                    int out_stride, const subdiv_limit *limit,
+                                    const subdiv_options *opt)
 {
     sdv_evaluation evaluation;
+    if (!context->result)
+        sdv_check_range(context, surface, first_face, face_count, first_point, point_count);
+    if (context->result) return context->result;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.surface = sdv_maker(surface);
     evaluation.channels = channels;
@@ -7364,7 +7367,11 @@ static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int chann
     evaluation.end_point = first_point + point_count;
     evaluation.first_face = first_face;
     evaluation.end_face = first_face + face_count;
-    return evaluation;
+    evaluation.out = out;
+    evaluation.out_stride = (size_t)out_stride;
+    evaluation.limit = limit;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
@@ -7401,15 +7408,27 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_values(&context, surface, channels, scratch, &out_stride);
     sdv_check_result(&context, surface);
-    if (!context.result)
-        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation = sdv_evaluation_of(surface, channels, scratch, first_face,
-                                                  face_count, first_point, point_count);
-    evaluation.out = out;
-    evaluation.out_stride = (size_t)out_stride;
-    sdv_make_points(&evaluation, opt);
-    return SUBDIV_OK;
+    return sdv_make_range(&context, surface, channels, scratch, first_face, face_count,
+                          first_point, point_count, out, out_stride, NULL, opt);
+}
+
+// Makes all points of the result from values of the cage: to out or as a limit. Allocates scratch
+// if it is NULL. Returns the context's result.
+static subdiv_result sdv_make_all(sdv_context *context, const subdiv_surface *surface,
+                                  int channels, const float *in, int in_stride, float *out,
+                                  int out_stride, const subdiv_limit *limit, void *scratch,
+                                  const subdiv_options *opt)
+{
+    sdv_arena arena = sdv_scratch();
+    if (!context->result && !scratch)
+        scratch = sdv_new(context, &arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
+    if (!context->result)
+        sdv_make_range(context, surface, channels, scratch, 0, surface->cage_face_count, 0,
+                       surface->fine.vertex_count, out, out_stride, limit, opt);
+    sdv_arena_free(&arena);
+    return context->result;
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
@@ -7418,20 +7437,11 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
                                          void *scratch, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_arena arena = sdv_scratch();
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_result(&context, surface);
-    if (context.result) return context.result;
-    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
-    if (!context.result)
-        context.result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
-    if (!context.result)
-        context.result = subdiv_evaluate_faces(surface, channels, scratch,
-                                               0, surface->cage_face_count,
-                                               0, surface->fine.vertex_count, out, out_stride, opt);
-    sdv_arena_free(&arena);
-    return context.result;
+    return sdv_make_all(&context, surface, channels, in, in_stride, out, out_stride, NULL, scratch,
+                        opt);
 }
 
 static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
@@ -7460,14 +7470,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
     sdv_context context = sdv_begin(opt);
     sdv_check_limit(&context, surface, out);
     if (!scratch) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "scratch is NULL");
-    if (!context.result)
-        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation = sdv_evaluation_of(surface, 3, scratch, first_face, face_count,
-                                                  first_point, point_count);
-    evaluation.limit = out;
-    sdv_make_points(&evaluation, opt);
-    return SUBDIV_OK;
+    return sdv_make_range(&context, surface, 3, scratch, first_face, face_count, first_point,
+                          point_count, NULL, 0, out, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
@@ -7476,18 +7480,9 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
                                                void *scratch, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_arena arena = sdv_scratch();
     sdv_check_limit(&context, surface, out);
     if (!context.result) sdv_check_values(&context, surface, 3, in, &in_stride);
-    if (context.result) return context.result;
-    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, 3), 1);
-    if (!context.result)
-        context.result = subdiv_evaluate_begin(surface, 3, in, in_stride, scratch, opt);
-    if (!context.result)
-        context.result = subdiv_evaluate_limit_faces(surface, scratch, 0, surface->cage_face_count,
-                                                     0, surface->fine.vertex_count, out, opt);
-    sdv_arena_free(&arena);
-    return context.result;
+    return sdv_make_all(&context, surface, 3, in, in_stride, NULL, 0, out, scratch, opt);
 }
 
 // --------------------------------------------------------------------------------- >>split
@@ -12110,11 +12105,6 @@ typedef struct sdv_tessellator {
     int        jobs;
 } sdv_tessellator;
 
-static int sdv_user_face(const subdiv_surface *surface, int f)
-{
-    return surface->cage_face ? surface->cage_face[f] : f;
-}
-
 // The rate of face f in the user's list, or 0.
 static int sdv_face_rate(const sdv_tessellator *t, int f)
 {
@@ -15324,6 +15314,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SIMD
 #undef SDV_SEPARATE
 #undef SDV_NEW
+#undef SDV_CARVE
 #undef SDV_IMPLIED
 #undef SDV_FULL_LEVELS
 #undef SDV_JOB_POINTS
