@@ -10597,11 +10597,11 @@ typedef struct sdv_stencil_maker {
     double    *sums;                    // [work_count * parts] weights, and where
     int       *places;                  // [work_count] each stands, or -1
 
-    const sdv_batch **batches;          // [work_count, then the result's points] where the row of
-    const int **rows;                   // each point is; NULL: on a grid, or in a face of the cage
-    unsigned char *steps;               // [work_count] made before those with a higher one
+    const sdv_batch **batches;          // of work points, then the result's points: where the row
+    const int **rows;                   // of each is; NULL: on a grid, or in a face of the cage
+    unsigned char *steps;               // of each point: made before those with a higher one
     int        longest;                 // points of a row at most
-    sdv_stencil_row *room;              // rows: one for each step, and one for the result's points
+    sdv_stencil_row *room;              // rows: one for each step
 
     size_t    *offsets;                 // [points + 1] what is made
     sdv_array  indices, weights;        // ints, floats [parts] each
@@ -10652,53 +10652,59 @@ static int sdv_whole_point(const sdv_stencil_maker *make, int point)
     return base + sdv_inside_index(&grid, row, column);
 }
 
-// Notes where the rows are: of a step's work points, or of the result's points behind all those.
-static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int result,
-                             int step)
+// Points of level i are of step 2 i, and face points of the cage of step 1. Without orders, face
+// points have a step of their own on all levels. The result's points are of the last step.
+static int sdv_last_step(const sdv_stencil_maker *make)
+{
+    return 2 * make->surface->levels + 1;
+}
+
+// Notes where the rows of a step are.
+static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int step)
 {
     for (int b = 0; b < (batches->rows ? batches->starts[batches->blocks] : 0); b++) {
         const sdv_batch *batch = &batches->items[b];
         const int *row = batch->items, points = sdv_row_points(&batch->shape);
         if (points > make->longest) make->longest = points;
         for (int i = 0; i < batch->rows; i++, row += 1 + points + batch->shape.own) {
+            int result = step == sdv_last_step(make);
             int at = result ? make->work_count + row[0] : sdv_whole_point(make, row[0]);
             make->batches[at] = batch;
             make->rows[at] = row;
-            if (!result) make->steps[at] = (unsigned char)step;
+            make->steps[at] = (unsigned char)step;
         }
     }
 }
 
-// Level i is step 2 i, and face points of the cage are step 1. Without orders, face points have a
-// step of their own on all levels.
 static void sdv_note_rows(sdv_stencil_maker *make)
 {
     const subdiv_surface *surface = make->surface;
-    int levels = surface->levels, limit = surface->rules.limit, work = make->work_count;
-    size_t count = (size_t)work + (size_t)surface->fine.vertex_count;
+    int levels = surface->levels, last = sdv_last_step(make);
+    size_t work = (size_t)make->work_count, count = work + (size_t)surface->fine.vertex_count;
     make->batches = SDV_NEW(make->context, &make->arena, const sdv_batch *, count);
     make->rows = SDV_NEW(make->context, &make->arena, const int *, count);
-    make->steps = SDV_NEW(make->context, &make->arena, unsigned char, work);
+    make->steps = SDV_NEW(make->context, &make->arena, unsigned char, count);
     if (make->context->result) return;
     for (size_t i = 0; i < count; i++) make->rows[i] = NULL;
-    sdv_note_batches(make, &surface->limit_rows, 1, 0);
+    memset(make->steps + work, last, count - work);
+    sdv_note_batches(make, &surface->limit_rows, last);
     for (int i = 0; i < 2 * levels && !surface->orders; i++)
-        sdv_note_batches(make, &surface->refine[i], 0, i + 1);
+        sdv_note_batches(make, &surface->refine[i], i + 1);
     if (!surface->orders) return;
     for (int i = 0; i <= levels; i++)
         memset(make->steps + make->bases[i], 2 * i,
                (size_t)make->bases[i + 1] - (size_t)make->bases[i]);
-    for (int i = 0; i < levels; i++) {
-        int last = i + 1 == levels && !limit;
-        sdv_note_batches(make, &surface->refine[i], last, 2 * i + 2);
-    }
+    for (int i = 0; i < levels; i++)
+        sdv_note_batches(make, &surface->refine[i],
+                         i + 1 < levels || surface->rules.limit ? 2 * i + 2 : last);
     if (!surface->rules.loop)
         memset(make->steps + sdv_first_face_point(surface), 1, (size_t)surface->cage_face_count);
 }
 
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
-                                  const subdiv_surface *surface, int points, int parts)
+                                  const subdiv_surface *surface, int points)
 {
+    int parts = surface->rules.limit || surface->exact ? 3 : 1;
     memset(make, 0, sizeof *make);
     make->context = context;
     make->surface = surface;
@@ -10726,19 +10732,11 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
         if (size > make->longest) make->longest = size;
     }
     sdv_note_rows(make);
-    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, 2 * surface->levels + 2);
-    for (int i = 0; i < 2 * surface->levels + 2 && !context->result; i++) {
+    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, sdv_last_step(make) + 1);
+    for (int i = 0; i <= sdv_last_step(make) && !context->result; i++) {
         make->room[i].points = SDV_NEW(context, &make->arena, int, make->longest);
         make->room[i].weights = SDV_NEW(context, &make->arena, double, make->longest);
     }
-}
-
-static void sdv_stencil_maker_free(sdv_stencil_maker *make)
-{
-    sdv_array_free(&make->known);
-    sdv_array_free(&make->indices);
-    sdv_array_free(&make->weights);
-    sdv_arena_free(&make->arena);
 }
 
 static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, const double *w)
@@ -10772,71 +10770,55 @@ static void sdv_end_sum(sdv_stencil_maker *make)
     make->size = 0;
 }
 
-// The weights of a row whose mask has these. The first point has what the others leave of 1.
-static void sdv_fill_weights(sdv_stencil_row *row)
+// Gives the points of a row their weights: behind the first one, counts[k] points have weight w[k].
+// The first one has what the others leave of 1.
+static void sdv_set_weights(sdv_stencil_row *row, const int *counts, const double *w)
 {
+    row->count = 1;
     row->weights[0] = 1;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < counts[k]; i++) row->weights[row->count++] = w[k];
     for (int i = row->count - 1; i > 0; i--) row->weights[0] -= row->weights[i];
 }
 
 static void sdv_batch_row(const sdv_stencil_maker *make, const sdv_batch *batch, const int *row,
                           sdv_stencil_row *out)
 {
-    const sdv_shape *shape = &batch->shape;
-    float w[3] = { shape->weight[0], shape->weight[1], shape->weight[2] };
-    out->count = sdv_row_points(shape);
-    if (shape->own) memcpy(w, row + 1 + out->count, sizeof w);
-    for (int i = 0; i < out->count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
-    for (int k = 0, i = 1; k < 3; k++)
-        for (int j = 0; j < shape->count[k]; j++) out->weights[i++] = (double)w[k];
-    sdv_fill_weights(out);
+    int count = sdv_row_points(&batch->shape);
+    const void *own = row + 1 + count;
+    const float *w = batch->shape.own ? (const float *)own : batch->shape.weight;
+    const double weights[3] = { (double)w[0], (double)w[1], (double)w[2] };
+    for (int i = 0; i < count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
+    sdv_set_weights(out, batch->shape.count, weights);
 }
 
-static void sdv_add_grid_point(const sdv_grid *grid, int base, int row, int column, double weight,
-                               sdv_stencil_row *out)
-{
-    out->points[out->count] = base + sdv_grid_index(grid, row, column);
-    out->weights[out->count++] = weight;
-}
+// The points of a level that a point inside a grid of the next level is made of, as steps of a row
+// and of a column from the one at or before it. By 2 up + right, which say whether it is between
+// two rows, between two columns: a vertex point, edge points, a face point (Loop: the edge point on
+// the long side of a square). First those with the mask's weight self, then edge, then face.
+static const signed char sdv_grid_mask_points[2][4][9][2] = {
+    { { {0,0}, {0,1}, {1,0}, {0,-1}, {-1,0}, {1,1}, {1,-1}, {-1,-1}, {-1,1} },
+      { {0,0}, {0,1}, {-1,0}, {-1,1}, {1,0}, {1,1} },
+      { {0,0}, {1,0}, {0,-1}, {1,-1}, {0,1}, {1,1} },
+      { {0,0}, {0,1}, {1,0}, {1,1} } },
+    { { {0,0}, {0,1}, {1,0}, {1,-1}, {0,-1}, {-1,0}, {-1,1} },
+      { {0,0}, {0,1}, {1,0}, {-1,1} },
+      { {0,0}, {1,0}, {0,1}, {1,-1} },
+      { {0,1}, {1,0}, {0,0}, {1,1} } } };
 
-// The masks of >>grids, for a point that is not on a point of the level before: r, c is before it,
-// and up, right say in which direction it is between two or four points.
-static void sdv_grid_edge(const sdv_grid *grid, int base, const sdv_grid_step *step, int r, int c,
-                          int up, int right, sdv_stencil_row *out)
-{
-    sdv_mask mask = step->loop ? step->edge : sdv_spread_edge(step->edge, 2);
-    int turned = step->loop && up && right;             // the long side of a square
-    sdv_add_grid_point(grid, base, r, turned ? c + 1 : c, mask.self, out);
-    sdv_add_grid_point(grid, base, r + up, turned ? c : c + right, mask.self, out);
-    if (step->loop) {
-        sdv_add_grid_point(grid, base, turned ? r : r + right, turned ? c : up ? c + 1 : c,
-                           mask.face, out);
-        sdv_add_grid_point(grid, base, turned ? r + 1 : up ? r + 1 : r - 1,
-                           turned ? c + 1 : up ? c - 1 : c + 1, mask.face, out);
-        return;
-    }
-    for (int side = -1; side <= 1; side += 2) {
-        int row = r + side * right, column = c + side * up;
-        sdv_add_grid_point(grid, base, row, column, mask.face, out);
-        sdv_add_grid_point(grid, base, row + up, column + right, mask.face, out);
-    }
-}
+// How many there are of each weight, without the first point.
+static const int sdv_grid_mask_counts[2][4][3] = {
+    { {0,4,4}, {1,0,4}, {1,0,4}, {3,0,0} }, { {0,6,0}, {1,0,2}, {1,0,2}, {1,0,2} } };
 
-// Around point r, c: its neighbours and those across the faces.
-static const signed char sdv_around_quad[8][2] = { { 0, 1 }, { 1, 0 }, { 0, -1 }, { -1, 0 },
-                                                   { 1, 1 }, { 1, -1 }, { -1, -1 }, { -1, 1 } };
-static const signed char sdv_around_triangle[6][2] = { { 0, 1 }, { 1, 0 }, { 1, -1 }, { 0, -1 },
-                                                       { -1, 0 }, { -1, 1 } };
-
-static void sdv_grid_ring(const sdv_grid *grid, int base, int r, int c, sdv_mask mask,
-                          sdv_stencil_row *out)
+// Makes the points of a row: kind is 2 up + right, and r, c the point at or before the new one.
+static void sdv_grid_row_points(const sdv_grid *grid, int base, int kind, int r, int c,
+                                sdv_stencil_row *out)
 {
-    const signed char (*around)[2] = grid->triangle ? sdv_around_triangle : sdv_around_quad;
-    int count = grid->triangle ? 6 : 8, edges = grid->triangle ? 6 : 4;
-    sdv_add_grid_point(grid, base, r, c, mask.self, out);
-    for (int i = 0; i < count; i++)
-        sdv_add_grid_point(grid, base, r + around[i][0], c + around[i][1],
-                           i < edges ? mask.edge : mask.face, out);
+    const int *counts = sdv_grid_mask_counts[grid->triangle][kind];
+    const signed char (*steps)[2] = sdv_grid_mask_points[grid->triangle][kind];
+    out->count = 1 + counts[0] + counts[1] + counts[2];
+    for (int i = 0; i < out->count; i++)
+        out->points[i] = base + sdv_grid_index(grid, r + steps[i][0], c + steps[i][1]);
 }
 
 // The row of a point of a level, from 2 on, that is on a grid.
@@ -10847,65 +10829,46 @@ static void sdv_grid_row_of(const sdv_stencil_maker *make, int level, int index,
     sdv_order to = sdv_order_at(surface, level, 0), from = sdv_order_at(surface, level - 1, 0);
     sdv_grid_step step = sdv_regular_masks(&surface->rules);
     int row, column, h = sdv_find_on_grid(&to, index, &row, &column);
-    int base = make->bases[level - 1];
-    int r = row / 2, c = column / 2, up = row % 2, right = column % 2;
+    int kind = 2 * (row % 2) + column % 2;
+    sdv_mask mask = kind ? step.edge : step.vertex;
+    if (!step.loop) mask = kind ? sdv_spread_edge(mask, 2) : sdv_spread_vertex(mask, 4);
+    if (!step.loop && kind == 3) mask.self = (double)step.face;
+    const double w[3] = { mask.self, mask.edge, mask.face };
     sdv_grid grid;
     sdv_grid_at(&from, h, &grid);
-    out->count = 0;
-    if (!up && !right) {
-        sdv_mask mask = step.loop ? step.vertex : sdv_spread_vertex(step.vertex, 4);
-        sdv_grid_ring(&grid, base, r, c, mask, out);
-    } else if (up && right && !step.loop) {
-        for (int i = 0; i < 4; i++)
-            sdv_add_grid_point(&grid, base, r + i / 2, c + i % 2, (double)step.face, out);
-    } else {
-        sdv_grid_edge(&grid, base, &step, r, c, up, right, out);
-    }
-    sdv_fill_weights(out);
+    sdv_grid_row_points(&grid, make->bases[level - 1], kind, row / 2, column / 2, out);
+    sdv_set_weights(out, sdv_grid_mask_counts[step.loop][kind], w);
 }
 
 // The row of a face point of the cage.
 static void sdv_face_stencil(const subdiv_surface *surface, int f, sdv_stencil_row *out)
 {
     const sdv_level *cage = &surface->order.cage;
-    int start = sdv_face_start(cage, f);
-    out->count = sdv_face_end(cage, f) - start;
-    for (int i = 0; i < out->count; i++) {
-        out->points[i] = cage->face_vertices[start + i];
-        out->weights[i] = (double)(float)sdv_face_weight(out->count);
-    }
-    sdv_fill_weights(out);
+    int start = sdv_face_start(cage, f), size = sdv_face_end(cage, f) - start;
+    const int counts[3] = { size - 1, 0, 0 };
+    const double w[3] = { (double)(float)sdv_face_weight(size), 0, 0 };
+    for (int i = 0; i < size; i++) out->points[i] = cage->face_vertices[start + i];
+    sdv_set_weights(out, counts, w);
 }
 
-// The row of point index of a level; the last level's has no work points.
-static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, sdv_stencil_row *out)
+// Finds the row of a point: a work point or, behind all these, one of the result. It is in the room
+// of its step.
+static const sdv_stencil_row *sdv_row_of(const sdv_stencil_maker *make, int point)
 {
     const subdiv_surface *surface = make->surface;
-    int last = level == surface->levels && !surface->rules.limit;
-    int at = last ? make->work_count + index : make->bases[level] + index;
-    if (make->rows[at]) sdv_batch_row(make, make->batches[at], make->rows[at], out);
-    else if (level > 1) sdv_grid_row_of(make, level, index, out);
-    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1, 0).first_inside_point, out);
-}
-
-// The row of a work point, in the room of its step.
-static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int point)
-{
-    const subdiv_surface *surface = make->surface;
-    int step = make->steps[point], level = step / 2;
+    int step = make->steps[point], level = step / 2, first = make->work_count;
     sdv_stencil_row *room = &make->room[step];
-    if (make->rows[point]) sdv_batch_row(make, make->batches[point], make->rows[point], room);
-    else if (step == 1) sdv_face_stencil(surface, point - sdv_first_face_point(surface), room);
-    else sdv_grid_row_of(make, level, point - make->bases[level], room);
+    if (make->rows[point]) {
+        sdv_batch_row(make, make->batches[point], make->rows[point], room);
+    } else if (level > 1) {
+        if (point < first) first = make->bases[level];
+        sdv_grid_row_of(make, level, point - first, room);
+    } else {
+        first += surface->order.first_inside_point;
+        if (level == 0) first = sdv_first_face_point(surface);
+        sdv_face_stencil(surface, point - first, room);
+    }
     return room;
-}
-
-// Makes a work point known, after those that it is made from.
-static void sdv_compose(sdv_stencil_maker *make, int point);
-
-static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int count)
-{
-    for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
 // Adds the points of a row, w times.
@@ -10932,20 +10895,22 @@ static void sdv_keep_sum(sdv_stencil_maker *make, int point)
     if (entry) make->known.count += (size_t)make->size;
 }
 
-static void sdv_compose(sdv_stencil_maker *make, int point)
+// Makes work points known, each after those that it is made from.
+static void sdv_compose(sdv_stencil_maker *make, const int *points, int count)
 {
-    const subdiv_surface *surface = make->surface;
-    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
-    const sdv_stencil_row *row = sdv_work_row(make, point);
     const double one[3] = { 1, 0, 0 };
-    int any_long = 0;
-    sdv_compose_all(make, row->points, row->count);
-    if (make->context->result) return;
-    for (int i = 0; i < row->count; i++) any_long |= make->sizes[row->points[i]] == SDV_LONG;
-    if (!any_long) sdv_add_row(make, row, one);
-    if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
-    else sdv_keep_sum(make, point);
-    sdv_end_sum(make);
+    for (; count > 0; count--, points++) {
+        int point = *points, any_long = 0;
+        if (point < make->surface->cage_vertex_count || make->sizes[point]) continue;
+        const sdv_stencil_row *row = sdv_row_of(make, point);
+        sdv_compose(make, row->points, row->count);
+        if (make->context->result) return;
+        for (int i = 0; i < row->count; i++) any_long |= make->sizes[row->points[i]] == SDV_LONG;
+        if (!any_long) sdv_add_row(make, row, one);
+        if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
+        else sdv_keep_sum(make, point);
+        sdv_end_sum(make);
+    }
 }
 
 // Takes number i out of the sum; the last one gets its place.
@@ -10977,7 +10942,7 @@ static void sdv_expand_sum(sdv_stencil_maker *make)
                 i++;
                 continue;
             }
-            const sdv_stencil_row *row = sdv_work_row(make, point);
+            const sdv_stencil_row *row = sdv_row_of(make, point);
             sdv_take_from_sum(make, i, w);
             sdv_add_row(make, row, w);
         }
@@ -11048,80 +11013,72 @@ static void sdv_write_stencil(sdv_stencil_maker *make, int i)
     sdv_end_sum(make);
 }
 
-static size_t sdv_carve_stencils(subdiv_stencils *stencils, size_t entries, int parts, char *base)
+static size_t sdv_carve_stencils(const sdv_stencil_maker *make, subdiv_stencils *stencils,
+                                 char *base)
 {
-    size_t size = 0, tangents = parts > 1 ? entries : 0;
-    stencils->offsets = (size_t *)sdv_carve(base, &size, (size_t)stencils->count + 1,
-                                            sizeof(size_t));
-    stencils->indices = (int *)sdv_carve(base, &size, entries, sizeof(int));
-    stencils->weights = (float *)sdv_carve(base, &size, entries, sizeof(float));
-    stencils->du = (float *)sdv_carve(base, &size, tangents, sizeof(float));
-    stencils->dv = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    size_t size = 0, entries = make->indices.count, tangents = make->parts > 1 ? entries : 0;
+    stencils->offsets = SDV_CARVE(size_t, make->offsets, (size_t)stencils->count + 1, 1);
+    stencils->indices = SDV_CARVE(int, sdv_items(&make->indices), entries, 1);
+    stencils->weights = SDV_CARVE(float, NULL, entries, 1);
+    stencils->du = SDV_CARVE(float, NULL, tangents, 1);
+    stencils->dv = SDV_CARVE(float, NULL, tangents, 1);
     return size;
 }
 
-// All that was made, in one block of its own.
-static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
+// Makes stencils of all that was made, in one block of its own, and frees the maker.
+static void sdv_end_stencils(sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
 {
     subdiv_stencils made;
-    size_t entries = make->indices.count, parts = (size_t)make->parts;
-    const float *weights = (const float *)sdv_items(&make->weights);
-    if (make->context->result) return;
     memset(&made, 0, sizeof made);
     made.count = count;
-    sdv_block *block = sdv_allocate(make->context,
-                                    sdv_carve_stencils(&made, entries, make->parts, NULL));
-    if (!block) return;
-    made.memory = block;
-    sdv_carve_stencils(&made, entries, make->parts, (char *)(block + 1));
-    sdv_copy(made.offsets, make->offsets, (size_t)count + 1, sizeof(size_t));
-    sdv_copy(made.indices, sdv_items(&make->indices), entries, sizeof(int));
-    for (size_t i = 0; i < entries; i++) {
-        made.weights[i] = weights[parts * i];
-        if (parts == 1) continue;
-        made.du[i] = weights[parts * i + 1];
-        made.dv[i] = weights[parts * i + 2];
-    }
-    *stencils = made;
-}
-
-// Adds the points of a limit row of these weights [3][count], as sdv_limit_row_sums does: the
-// weight of the first one is what is left.
-static void sdv_add_limit_weights(sdv_stencil_maker *make, const float *weights, int count,
-                                  const int *points)
-{
-    double left[3] = { 1, 0, 0 }, w[3];
-    sdv_compose_all(make, points, count);
-    for (int i = count - 1; i >= 0 && !make->context->result; i--) {
-        for (int k = 0; k < 3; k++) {
-            w[k] = i ? (double)weights[k * count + i] : left[k];
-            left[k] -= w[k];
+    sdv_block *block = make->context->result ? NULL
+                     : sdv_allocate(make->context, sdv_carve_stencils(make, &made, NULL));
+    if (block) {
+        const float *weights = (const float *)sdv_items(&make->weights);
+        made.memory = block;
+        sdv_carve_stencils(make, &made, (char *)(block + 1));
+        for (size_t i = 0; i < make->indices.count; i++, weights += make->parts) {
+            made.weights[i] = weights[0];
+            if (make->parts == 1) continue;
+            made.du[i] = weights[1];
+            made.dv[i] = weights[2];
         }
-        sdv_add_work_point(make, points[i], w);
+        *stencils = made;
     }
+    sdv_array_free(&make->known);
+    sdv_array_free(&make->indices);
+    sdv_array_free(&make->weights);
+    sdv_arena_free(&make->arena);
 }
 
-// Adds point i of a limit.
+// Adds point i of a limit, as sdv_limit_row_sums does: the weight of the first point is what the
+// others leave.
 static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
 {
     const subdiv_surface *surface = make->surface;
     const sdv_batch *batch = make->batches[make->work_count + i];
     const int *row = make->rows[make->work_count + i];
     sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
+    const float *weights = row ? sdv_limit_weights_of(batch, row) : limit.w;    // [3][count]
     sdv_stencil_row *room = &make->room[0];
-    const sdv_mask none = { 0, 0, 0, 0 };             // points are asked for, not weights
+    double left[3] = { 1, 0, 0 }, w[3];
     if (row) {
         room->count = sdv_row_points(&batch->shape);
         for (int k = 0; k < room->count; k++) room->points[k] = sdv_whole_point(make, row[1 + k]);
-        sdv_add_limit_weights(make, sdv_limit_weights_of(batch, row), room->count, room->points);
-        return;
+    } else {
+        int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
+        sdv_grid grid;
+        sdv_grid_at(&surface->order, h, &grid);
+        sdv_grid_row_points(&grid, make->bases[surface->levels], 0, r, c, room);
     }
-    int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
-    sdv_grid grid;
-    sdv_grid_at(&surface->order, h, &grid);
-    room->count = 0;
-    sdv_grid_ring(&grid, make->bases[surface->levels], r, c, none, room);
-    sdv_add_limit_weights(make, limit.w, room->count, room->points);
+    sdv_compose(make, room->points, room->count);
+    for (int k = room->count - 1; k >= 0 && !make->context->result; k--) {
+        for (int part = 0; part < 3; part++) {
+            w[part] = k ? (double)weights[part * room->count + k] : left[part];
+            left[part] -= w[part];
+        }
+        sdv_add_work_point(make, room->points[k], w);
+    }
 }
 
 // Point i of the result.
@@ -11129,7 +11086,6 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
 {
     const subdiv_surface *surface = make->surface;
     const double one[3] = { 1, 0, 0 };
-    sdv_stencil_row *row = &make->room[2 * surface->levels + 1];
     if (surface->levels == 0) {
         sdv_add_work_point(make, i, one);
         return;
@@ -11138,22 +11094,9 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
         sdv_add_limit_point(make, i);
         return;
     }
-    sdv_level_row(make, surface->levels, i, row);
-    sdv_compose_all(make, row->points, row->count);
+    const sdv_stencil_row *row = sdv_row_of(make, make->work_count + i);
+    sdv_compose(make, row->points, row->count);
     if (!make->context->result) sdv_add_row(make, row, one);
-}
-
-static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
-                                 const subdiv_surface *surface, int first, int count)
-{
-    sdv_stencil_maker make;
-    sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
-    for (int i = 0; i < count && !context->result; i++) {
-        sdv_add_point(&make, first + i);
-        if (!context->result) sdv_write_stencil(&make, i);
-    }
-    sdv_copy_stencils(&make, count, stencils);
-    sdv_stencil_maker_free(&make);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
@@ -11166,8 +11109,14 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     if (surface) sdv_check_result(&context, surface);
     if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
-    if (!context.result)
-        sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    if (context.result) return context.result;
+    sdv_stencil_maker make;
+    sdv_stencil_maker_new(&context, &make, sdv_maker(surface), point_count);
+    for (int i = 0; i < point_count && !context.result; i++) {
+        sdv_add_point(&make, first_point + i);
+        if (!context.result) sdv_write_stencil(&make, i);
+    }
+    sdv_end_stencils(&make, point_count, stencils);
     return context.result;
 }
 
@@ -11186,7 +11135,7 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
 {
     for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
-    sdv_compose_all(make, points, count);
+    sdv_compose(make, points, count);
     for (int i = 0; i < count && !make->context->result; i++)
         sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
 }
@@ -11318,23 +11267,6 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
     sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w);
 }
 
-static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
-                            const subdiv_surface *surface, int count,
-                            const subdiv_location *locations)
-{
-    sdv_stencil_maker make;
-    sdv_stencil_maker_new(context, &make, surface, count, 3);
-    double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
-    for (int i = 0; i < count && !context->result; i++) {
-        sdv_leaf leaf = sdv_locate(surface, &locations[i]);
-        if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
-        else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
-        if (!context->result) sdv_write_stencil(&make, i);
-    }
-    sdv_copy_stencils(&make, count, stencils);
-    sdv_stencil_maker_free(&make);
-}
-
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
                                             const subdiv_surface *surface, int count,
                                             const subdiv_location *locations,
@@ -11347,7 +11279,17 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_exact(&context, surface, 4, count, locations, &none);
     if (!context.result) sdv_check_locations(&context, surface, count, locations);
-    if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
+    if (context.result) return context.result;
+    sdv_stencil_maker make;
+    sdv_stencil_maker_new(&context, &make, surface, count);
+    double *w = SDV_NEW(&context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
+    for (int i = 0; i < count && !context.result; i++) {
+        sdv_leaf leaf = sdv_locate(surface, &locations[i]);
+        if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
+        if (!context.result) sdv_write_stencil(&make, i);
+    }
+    sdv_end_stencils(&make, count, stencils);
     return context.result;
 }
 #endif // SUBDIV_NO_EXACT
