@@ -11130,27 +11130,27 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 }
 
 #ifndef SUBDIV_NO_EXACT
-// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
-// they are multiplied: then their errors shrink with the distances between the points.
-static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
+// Adds work points with weights [stride * count] that are rounded to floats. They have to add up
+// before they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights,
+                            int stride)
 {
-    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, stride, k == 0 ? 1 : 0);
     sdv_compose(make, points, count);
-    for (int i = 0; i < count && !make->context->result; i++)
-        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
+    for (int i = 0; i < count && !make->context->result; i++, weights += stride)
+        sdv_add_work_point(make, points[i], weights);
 }
 
 // Adds the control points of a patch, or of the part of it that a location is on.
 static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
-    double all[16][6], weights[3 * 16];
-    int count = sdv_control_points(&surface->rules);
+    double weights[16][6];
     sdv_find_polynomial(surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
-    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at, all);
-    for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
-    sdv_add_rounded(make, leaf.points, count, weights);
+    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at,
+                      weights);
+    sdv_add_rounded(make, leaf.points, sdv_control_points(&surface->rules), weights[0], 6);
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
@@ -11159,11 +11159,13 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // nest's points, then of the points of the next level.
 
 // Gives the weights of a row's point to the points that the row sums.
-static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights,
-                             double *w)
+static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
 {
-    const double *from = w + 3 * (size_t)row[0];
+    const sdv_shape *shape = &batch->shape;
     const int *point = row + sdv_row_points(shape);         // the last one
+    const void *own = point + 1;
+    const float *weights = shape->own ? (const float *)own : shape->weight;
+    const double *from = w + 3 * (size_t)row[0];
     double left = 1;
     for (int k = 3; k-- > 0; ) {
         for (int i = 0; i < shape->count[k]; i++, point--)
@@ -11175,20 +11177,13 @@ static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float
 
 static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
 {
-    for (int k = 2; k-- > 0; ) {
-        const sdv_batches *batches = &kind->refine[k];
-        for (int b = 0; b < batches->starts[batches->blocks]; b++) {
-            const sdv_batch *batch = &batches->items[b];
-            int points = sdv_row_points(&batch->shape), own = batch->shape.own;
-            const int *row = batch->items;
-            float weights[3];
-            for (int i = 0; i < batch->rows; i++, row += 1 + points + own) {
-                memcpy(weights, own ? (const void *)(row + 1 + points) : batch->shape.weight,
-                       sizeof weights);
-                sdv_unrefine_row(&batch->shape, row, weights, w);
-            }
+    for (int k = 2; k-- > 0; )
+        for (int b = 0; b < kind->refine[k].starts[kind->refine[k].blocks]; b++) {
+            const sdv_batch *batch = &kind->refine[k].items[b];
+            int stride = 1 + sdv_row_points(&batch->shape) + batch->shape.own;
+            for (int i = 0; i < batch->rows; i++)
+                sdv_unrefine_row(batch, batch->items + (size_t)stride * (size_t)i, w);
         }
-    }
 }
 
 // Goes back from a nest to the level before: sdv_nest_descend backwards. The point is base + shrink
@@ -11207,16 +11202,6 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
     }
 }
 
-// Adds the weights of the patch at (x, y).
-static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
-                            double x, double y, double *w)
-{
-    double weights[16][6];
-    const int *points = sdv_child_weights(surface, kind, face, x, y, weights);
-    for (int i = 0; i < kind->width; i++)
-        for (int k = 0; k < 3; k++) w[3 * points[i] + k] += weights[i][k];
-}
-
 // Sets the weights of the vertex of a nest, as sdv_nest_vertex does.
 static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 {
@@ -11233,13 +11218,17 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                            double x, double y, double *w)
 {
-    int vertex = x <= 0 && y <= 0, down = sdv_nest_levels(surface->rules.loop, x, y);
-    if (vertex) {
+    int down = sdv_nest_levels(surface->rules.loop, x, y);
+    double weights[16][6];
+    if (x <= 0 && y <= 0) {
         sdv_weigh_masks(kind, face, w);
         return;
     }
+    const int *points = sdv_child_weights(surface, kind, face, ldexp(x, down), ldexp(y, down),
+                                          weights);
     for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
-    sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), w);
+    for (int i = 0; i < kind->width; i++)
+        for (int k = 0; k < 3; k++) w[3 * points[i] + k] += weights[i][k];
     sdv_unrefine_nest(kind, w);
     for (int i = 0; i < down; i++) {
         sdv_ascend_nest(kind, w);
@@ -11264,7 +11253,7 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
         w[3 * i + 2] = t[1] * dx + t[3] * dy;
     }
-    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w);
+    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w, 3);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
@@ -11393,6 +11382,9 @@ static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
     grid->across = !quad || !grid->margin ? -1 : grid->rows == 1 ? 0 : grid->columns == 1 ? 1 : -1;
     if (grid->across == 0) grid->columns = sdv_edge_rate(&tile, 2);
     if (grid->across == 1) grid->rows = sdv_edge_rate(&tile, 3);
+    int edge = most[0] > most[1] ? most[0] : most[1], pieces = (edge - 1) / (1 + tile.ngon) + 1;
+    grid->most = grid->columns > grid->rows ? grid->columns : grid->rows;
+    if (pieces > grid->most) grid->most = pieces;
     grid->last = tile.ngon ? 0 : grid->margin << tile.loop;
 }
 
@@ -11984,20 +11976,6 @@ static void sdv_tile_points_job(void *context, int job)
     sdv_arena_free(&arena);
 }
 
-// Finds the largest number of pieces along a side of each grid.
-static void sdv_find_most_pieces(const sdv_tiling *tiling)
-{
-    for (int f = 0; f < tiling->cage->face_count; f++) {
-        sdv_tile tile = sdv_tile_at(tiling, f);
-        int most = tile.grid->columns > tile.grid->rows ? tile.grid->columns : tile.grid->rows;
-        for (int i = 0; i < tile.sides; i++) {
-            int rate = (sdv_edge_rate(&tile, i) - 1) / (1 + tile.ngon) + 1;
-            if (rate > most) most = rate;
-        }
-        tile.grid->most = most;
-    }
-}
-
 // Makes the first count points of a tiling and, unless NULL, their normals.
 static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
                                  const sdv_tiling *tiling, const sdv_exact_work *source,
@@ -12006,17 +11984,15 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     const sdv_exact *exact = source->surface->exact;
     size_t channels = (size_t)source->channels;
     unsigned char failed[SDV_MOST_JOBS] = { 0 };
-    sdv_window out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     sdv_leaf_points l;
     if (context->result) return;
-    sdv_find_most_pieces(tiling);
     memset(&l, 0, sizeof l);
     l.tiling = tiling;
     l.source = source;
     l.user = context->user;
     l.jobs = sdv_jobs(opt, (int64_t)exact->patch_count + exact->nest_count, 64);
     l.failed = failed;
-    l.out = out;
+    l.out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     l.tangents.normals = normals;
     l.tangents.stride = 3;
     sdv_run(opt, sdv_tile_points_job, &l, l.jobs);
@@ -12088,8 +12064,11 @@ static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float f
     const sdv_level *cage = halves.cage;
     halves.edge_rates = SDV_NEW(context, &t->arena, int, cage->edge_count);
     for (int e = 0; e < cage->edge_count && !context->result; e++) halves.edge_rates[e] = 2;
-    for (int f = 0; f < cage->face_count; f++)
-        halves.insides[f].columns = halves.insides[f].rows = 1;
+    for (int f = 0; f < cage->face_count; f++) {
+        sdv_inside *grid = &halves.insides[f];
+        grid->columns = grid->rows = 1;
+        grid->most = sdv_tile_at(&halves, f).ngon ? 1 : 2;
+    }
     if (!context->result) sdv_place_points(context, &halves);
     if (context->result) return;
     int count = halves.starts[cage->edge_count];
