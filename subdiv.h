@@ -10583,6 +10583,9 @@ typedef struct sdv_stencil_maker {
     const subdiv_surface *surface;
     sdv_arena  arena;
 
+    sdv_grid_step  masks;               // inside grids
+    sdv_grid_limit limit;               // of a limit
+
     int       *bases;                   // [levels + 2] where levels start; here all are whole,
     int        work_count;              // and have so many points
 
@@ -10662,12 +10665,12 @@ static int sdv_last_step(const sdv_stencil_maker *make)
 // Notes where the rows of a step are.
 static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int step)
 {
+    int result = step == sdv_last_step(make);
     for (int b = 0; b < (batches->rows ? batches->starts[batches->blocks] : 0); b++) {
         const sdv_batch *batch = &batches->items[b];
         const int *row = batch->items, points = sdv_row_points(&batch->shape);
         if (points > make->longest) make->longest = points;
         for (int i = 0; i < batch->rows; i++, row += 1 + points + batch->shape.own) {
-            int result = step == sdv_last_step(make);
             int at = result ? make->work_count + row[0] : sdv_whole_point(make, row[0]);
             make->batches[at] = batch;
             make->rows[at] = row;
@@ -10727,6 +10730,8 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
     make->longest = 9;
+    make->masks = sdv_regular_masks(&surface->rules);
+    if (surface->rules.limit) make->limit = sdv_regular_limit(&surface->rules);
     for (int f = 0; f < surface->order.cage.face_count; f++) {
         int size = sdv_face_end(&surface->order.cage, f) - sdv_face_start(&surface->order.cage, f);
         if (size > make->longest) make->longest = size;
@@ -10827,17 +10832,16 @@ static void sdv_grid_row_of(const sdv_stencil_maker *make, int level, int index,
 {
     const subdiv_surface *surface = make->surface;
     sdv_order to = sdv_order_at(surface, level, 0), from = sdv_order_at(surface, level - 1, 0);
-    sdv_grid_step step = sdv_regular_masks(&surface->rules);
-    int row, column, h = sdv_find_on_grid(&to, index, &row, &column);
+    int row, column, h = sdv_find_on_grid(&to, index, &row, &column), loop = make->masks.loop;
     int kind = 2 * (row % 2) + column % 2;
-    sdv_mask mask = kind ? step.edge : step.vertex;
-    if (!step.loop) mask = kind ? sdv_spread_edge(mask, 2) : sdv_spread_vertex(mask, 4);
-    if (!step.loop && kind == 3) mask.self = (double)step.face;
+    sdv_mask mask = kind ? make->masks.edge : make->masks.vertex;
+    if (!loop) mask = kind ? sdv_spread_edge(mask, 2) : sdv_spread_vertex(mask, 4);
+    if (!loop && kind == 3) mask.self = (double)make->masks.face;
     const double w[3] = { mask.self, mask.edge, mask.face };
     sdv_grid grid;
     sdv_grid_at(&from, h, &grid);
     sdv_grid_row_points(&grid, make->bases[level - 1], kind, row / 2, column / 2, out);
-    sdv_set_weights(out, sdv_grid_mask_counts[step.loop][kind], w);
+    sdv_set_weights(out, sdv_grid_mask_counts[loop][kind], w);
 }
 
 // The row of a face point of the cage.
@@ -11058,8 +11062,7 @@ static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
     const subdiv_surface *surface = make->surface;
     const sdv_batch *batch = make->batches[make->work_count + i];
     const int *row = make->rows[make->work_count + i];
-    sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
-    const float *weights = row ? sdv_limit_weights_of(batch, row) : limit.w;    // [3][count]
+    const float *weights = row ? sdv_limit_weights_of(batch, row) : make->limit.w;  // [3][count]
     sdv_stencil_row *room = &make->room[0];
     double left[3] = { 1, 0, 0 }, w[3];
     if (row) {
