@@ -11410,29 +11410,27 @@ static sdv_side sdv_tile_side(const sdv_tile *tile, int side, int backwards)
                          (a > b) != backwards);
 }
 
-// The grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of the face:
-// with strips, not as the grid is cut.
-static sdv_grid sdv_tile_grid(const sdv_tile *tile, int i)
+// Fills in the grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of the
+// face: with strips, not as the grid is cut.
+static void sdv_tile_grid(const sdv_tile *tile, int i, sdv_grid *grid)
 {
     int last = tile->sides - 1;
-    sdv_grid grid;
     if (tile->ngon) {
         sdv_ngon_grid(tile->vertices[i], sdv_tile_side(tile, i, 0),
                       sdv_tile_side(tile, i > 0 ? i - 1 : last, 1), tile->inside, tile->sides,
-                      tile->grid->columns, i, &grid);
-        return grid;
+                      tile->grid->columns, i, grid);
+        return;
     }
-    grid.columns = tile->grid->columns;
-    grid.rows = tile->grid->rows;
-    grid.triangle = tile->loop;
-    grid.frame = 0;
-    grid.inside = tile->inside;
+    grid->columns = tile->grid->columns;
+    grid->rows = tile->grid->rows;
+    grid->triangle = tile->loop;
+    grid->frame = 0;
+    grid->inside = tile->inside;
     for (int k = 0; k <= last; k++) {
-        grid.corner[k] = tile->vertices[k];
-        grid.side[k] = sdv_tile_side(tile, k, k >= 2);
+        grid->corner[k] = tile->vertices[k];
+        grid->side[k] = sdv_tile_side(tile, k, k >= 2);
     }
-    grid.side[3] = grid.side[last];
-    return grid;
+    grid->side[3] = grid->side[last];
 }
 
 // The place where faces are written; if an array is NULL, they are only counted.
@@ -11475,7 +11473,8 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
     size_t pieces = (size_t)grids * (size_t)(right - margin) * (size_t)(top - margin);
     int *faces = out->vertices ? out->vertices + out->face_vertices : NULL;
     for (int i = 0; i < grids && pieces && faces; i++) {
-        sdv_grid grid = sdv_tile_grid(tile, i);
+        sdv_grid grid;
+        sdv_tile_grid(tile, i, &grid);
         int *end = sdv_grid_faces(&grid, margin, top, margin, right + tile->loop * margin, faces);
         faces = cut ? sdv_cut_quads(faces, end) : end;
     }
@@ -11539,8 +11538,8 @@ static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
     sdv_grid grids[2];
     sdv_put_inside(&tile, out);
     for (int i = 0; i < tile.sides && tile.grid->margin; i++) {
-        if (tile.ngon || i == 0) grids[0] = sdv_tile_grid(&tile, i);
-        if (tile.ngon) grids[1] = sdv_tile_grid(&tile, (i + 1) % tile.sides);
+        if (tile.ngon || i == 0) sdv_tile_grid(&tile, i, &grids[0]);
+        if (tile.ngon) sdv_tile_grid(&tile, (i + 1) % tile.sides, &grids[1]);
         if (tile.grid->across < 0 || tile.grid->across == i) sdv_put_strip(&tile, i, grids, out);
     }
 }
@@ -11632,7 +11631,7 @@ typedef struct sdv_leaf_points {
     // The leaf at hand, or a part of it:
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
-    int      inside;                    // the first point inside its grid
+    sdv_grid grid;
     sdv_area area;
     sdv_double_patch patch;
     const sdv_nest_state *nest;         // whose points the patch has, or NULL
@@ -11789,7 +11788,7 @@ static void sdv_put_area_inside(sdv_leaf_points *l)
                                 0, 1 };
         if (loop && row.first < slanted.first - j) row.first = slanted.first - j;
         if (loop && row.last > slanted.last - j) row.last = slanted.last - j;
-        row.index = sdv_inside_point(l->inside, columns, loop, (int)j, (int)row.first);
+        row.index = sdv_inside_point(l->grid.inside, columns, loop, (int)j, (int)row.first);
         sdv_put_line(l, &row);
     }
 }
@@ -11815,11 +11814,10 @@ static void sdv_put_area_side(sdv_leaf_points *l, int side)
                                    : sdv_find_ticks(area, area->left, area->right, 3, rate, half);
     if (half && backwards && 2 * ticks.last == rate) ticks.last--;
     double step = (double)(1 + half) / rate;
-    sdv_side points = sdv_tile_side(tile, edge, backwards);
-    if (spoke) points = sdv_seen_side(tile->inside + 1 + l->corner * (rate - 1), rate, 1);
     sdv_line_points line = { ticks.first, ticks.last, (double)a[1], (double)a[0],
                              (b[1] - a[1]) * step, (b[0] - a[0]) * step,
-                             points.first + points.step * (int)ticks.first, points.step };
+                             sdv_side_index(&l->grid, side, (int)ticks.first),
+                             l->grid.side[side].step };
     sdv_put_line(l, &line);
 }
 
@@ -11828,10 +11826,9 @@ static void sdv_put_area_corner(sdv_leaf_points *l, int i)
 {
     const sdv_tile *tile = &l->tile;
     const int *at = sdv_corners[tile->loop][i];
-    int side = tile->ngon ? l->corner : i, v = tile->vertices[side];
-    int centre = tile->ngon && i == 2, here = tile->tiling->home[v] == tile->first + side;
-    sdv_line_points point = { 0, 0, (double)at[1], (double)at[0], 0, 0, 0, 0 };
-    point.index = centre ? tile->inside : v;
+    int h = tile->ngon ? l->corner : i, centre = tile->ngon && i == 2;
+    int here = tile->tiling->home[tile->vertices[h]] == tile->first + h;
+    sdv_line_points point = { 0, 0, (double)at[1], (double)at[0], 0, 0, l->grid.corner[i], 0 };
     if (centre ? l->corner == 0 : here && (!tile->ngon || i == 0)) sdv_put_line(l, &point);
 }
 
@@ -11859,9 +11856,7 @@ static int sdv_begin_leaf(sdv_leaf_points *l, int h)
     if (tiling->hole[f] == SDV_DROPPED) return 0;
     l->tile = sdv_tile_at(tiling, f);
     l->corner = l->tile.ngon ? h - l->tile.first : 0;
-    l->inside = l->tile.inside;
-    if (l->tile.ngon)
-        l->inside = sdv_inside_ngon(l->inside, l->tile.sides, l->tile.grid->columns, l->corner);
+    sdv_tile_grid(&l->tile, l->corner, &l->grid);
     return 1;
 }
 
