@@ -11410,8 +11410,8 @@ static sdv_side sdv_tile_side(const sdv_tile *tile, int side, int backwards)
                          (a > b) != backwards);
 }
 
-// Fills in the grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of the
-// face: with strips, not as the grid is cut.
+// Fills in the grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of
+// the face: with strips, not as the grid is cut.
 static void sdv_tile_grid(const sdv_tile *tile, int i, sdv_grid *grid)
 {
     int last = tile->sides - 1;
