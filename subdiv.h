@@ -71,9 +71,9 @@
    A student needs the four sections with a star and may skip the rest. The way from the first call
    to a mask: subdiv_refine > sdv_prepare > sdv_prepare_rows > sdv_fill_level > sdv_vertex_row >
    sdv_vertex_mask > sdv_catmull_clark_vertex. To where it is added up: subdiv_refine >
-   sdv_make_mesh > subdiv_evaluate > sdv_make_points > sdv_make_batches > sdv_batch_sum. Under
-   SUBDIV_PLAIN every point of every level has such a way: sdv_prepare_rows > sdv_plain_rows >
-   sdv_split_step > sdv_split_rows > sdv_vertex_row.
+   sdv_make_mesh > subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points >
+   sdv_make_batches > sdv_batch_sum. Under SUBDIV_PLAIN every point of every level has such a way:
+   sdv_prepare_rows > sdv_plain_rows > sdv_split_step > sdv_split_rows > sdv_vertex_row.
 
    WORDS
    cage            the mesh you start from            level      how often it has been refined
@@ -7010,35 +7010,48 @@ static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
     return array;
 }
 
+// Lays out an array and copies the items of another one, unless that is NULL.
+static void *sdv_carve_copy(char *base, size_t *size, const void *from, size_t count, size_t item)
+{
+    void *array = sdv_carve(base, size, count, item);
+    if (array && from) sdv_copy(array, from, count, item);
+    return array;
+}
+
+// The same for an array of so many numbers an item.
+#define SDV_CARVE(type, from, count, numbers) \
+    ((type *)sdv_carve_copy(base, &size, from, count, numbers * sizeof(type)))
+
 // The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
 typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
 
-// Lays out the arrays of a mesh with the counts of a model. Returns the size of the block.
+// Lays out the arrays of a mesh with the counts of a model, see sdv_new_mesh. Returns the size of
+// the block.
 static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base,
                              sdv_extras extras)
 {
     size_t size = 0, vertices = (size_t)model->vertex_count, faces = (size_t)model->face_count;
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
     size_t face_vertices = sdv_face_vertex_count(model), uvs = (size_t)model->uv_count, text = 0;
-    size_t statements = (size_t)model->statement_count;
+    size_t statements = (size_t)model->statement_count, colors = model->colors ? vertices : 0;
+    size_t normals = extras == SDV_LIMIT || model->normals ? vertices : 0;
     for (size_t i = 0; i < statements; i++) text += strlen(model->statements[i]) + 1;
-    mesh->positions = (float *)sdv_carve(base, &size, vertices, 3 * sizeof(float));
-    mesh->face_vertices = (int *)sdv_carve(base, &size, face_vertices, sizeof(int));
-    mesh->face_sizes = (int *)sdv_carve(base, &size, model->face_size ? 0 : faces, sizeof(int));
-    mesh->cage_faces = (int *)sdv_carve(base, &size, extras >= SDV_RESULT ? faces : 0, sizeof(int));
-    mesh->crease_vertices = (int *)sdv_carve(base, &size, creases, 2 * sizeof(int));
-    mesh->crease_sharpness = (float *)sdv_carve(base, &size, creases, sizeof(float));
-    mesh->corner_vertices = (int *)sdv_carve(base, &size, corners, sizeof(int));
-    mesh->corner_sharpness = (float *)sdv_carve(base, &size, corners, sizeof(float));
-    mesh->holes = (int *)sdv_carve(base, &size, (size_t)model->hole_count, sizeof(int));
-    mesh->uvs = (float *)sdv_carve(base, &size, uvs, 2 * sizeof(float));
-    mesh->face_uvs = (int *)sdv_carve(base, &size, uvs ? face_vertices : 0, sizeof(int));
-    mesh->colors = (float *)sdv_carve(base, &size, model->colors ? vertices : 0, 3 * sizeof(float));
-    int normals = extras == SDV_LIMIT || model->normals;
-    mesh->normals = (float *)sdv_carve(base, &size, normals ? vertices : 0, 3 * sizeof(float));
-    mesh->statement_faces = (int *)sdv_carve(base, &size, statements, sizeof(int));
-    mesh->statements = (char **)sdv_carve(base, &size, statements, sizeof(char *));
-    char *texts = (char *)sdv_carve(base, &size, text, 1);
+    mesh->positions = SDV_CARVE(float, NULL, vertices, 3);
+    mesh->face_vertices = SDV_CARVE(int, NULL, face_vertices, 1);
+    mesh->face_sizes = SDV_CARVE(int, model->face_sizes, model->face_size ? 0 : faces, 1);
+    mesh->cage_faces = SDV_CARVE(int, NULL, extras ? faces : 0, 1);
+    mesh->crease_vertices = SDV_CARVE(int, model->crease_vertices, creases, 2);
+    mesh->crease_sharpness = SDV_CARVE(float, model->crease_sharpness, creases, 1);
+    mesh->corner_vertices = SDV_CARVE(int, model->corner_vertices, corners, 1);
+    mesh->corner_sharpness = SDV_CARVE(float, model->corner_sharpness, corners, 1);
+    mesh->holes = SDV_CARVE(int, NULL, (size_t)model->hole_count, 1);
+    mesh->uvs = SDV_CARVE(float, model->uvs, uvs, 2);
+    mesh->face_uvs = SDV_CARVE(int, model->face_uvs, uvs ? face_vertices : 0, 1);
+    mesh->colors = SDV_CARVE(float, extras ? NULL : model->colors, colors, 3);
+    mesh->normals = SDV_CARVE(float, extras ? NULL : model->normals, normals, 3);
+    mesh->statement_faces = SDV_CARVE(int, model->statement_faces, statements, 1);
+    mesh->statements = SDV_CARVE(char *, NULL, statements, 1);
+    char *texts = SDV_CARVE(char, NULL, text, 1);
     for (size_t i = 0; texts && i < statements; i++) {
         mesh->statements[i] = strcpy(texts, model->statements[i]);
         texts += strlen(texts) + 1;
@@ -7059,23 +7072,12 @@ static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_m
     }
     mesh->memory = block;
     sdv_carve_mesh(mesh, model, (char *)(block + 1), extras);
-    size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
-    size_t vertices = (size_t)model->vertex_count, uvs = (size_t)model->uv_count;
-    const struct { void *to; const void *from; size_t count, item; } lists[] = {
-        { mesh->face_sizes, model->face_sizes, (size_t)model->face_count, sizeof(int) },
-        { mesh->crease_vertices, model->crease_vertices, creases, 2 * sizeof(int) },
-        { mesh->crease_sharpness, model->crease_sharpness, creases, sizeof(float) },
-        { mesh->corner_vertices, model->corner_vertices, corners, sizeof(int) },
-        { mesh->corner_sharpness, model->corner_sharpness, corners, sizeof(float) },
-        { mesh->uvs, model->uvs, uvs, 2 * sizeof(float) },
-        { mesh->face_uvs, model->face_uvs, sdv_face_vertex_count(model), sizeof(int) },
-        { mesh->colors, extras ? NULL : model->colors, vertices, 3 * sizeof(float) },
-        { mesh->normals, extras ? NULL : model->normals, vertices, 3 * sizeof(float) },
-        { mesh->statement_faces, model->statement_faces, (size_t)model->statement_count,
-          sizeof(int) } };
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-        if (lists[i].to && lists[i].from)
-            sdv_copy(lists[i].to, lists[i].from, lists[i].count, lists[i].item);
+}
+
+// The face of the user's cage that a face was cut from.
+static int sdv_user_face(const subdiv_surface *surface, int f)
+{
+    return surface->cage_face ? surface->cage_face[f] : f;
 }
 
 typedef struct sdv_faces_out {          // what the jobs that write fine faces share
@@ -7097,29 +7099,24 @@ static void sdv_fine_faces_job(void *context, int job)
         int *vertices = out->face_vertices + (size_t)first * size;
         if (own >= 0) sdv_fine_faces(&surface->order, own, vertices);
         for (size_t i = 0; own < 0 && i < (size_t)(last - first) * size; i++) vertices[i] = -1;
-        int cage_face = surface->cage_face ? surface->cage_face[f] : f;
-        for (int i = first; i < last && out->cage_faces; i++) out->cage_faces[i] = cage_face;
+        for (int i = first; i < last && out->cage_faces; i++)
+            out->cage_faces[i] = sdv_user_face(surface, f);
     }
-}
-
-static void sdv_copy_faces_out(const subdiv_surface *surface, int *face_vertices, int *cage_faces)
-{
-    const subdiv_mesh *fine = &surface->fine;
-    sdv_copy(face_vertices, fine->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
-    for (int f = 0; f < fine->face_count && cage_faces; f++)
-        cage_faces[f] = surface->cage_face ? surface->cage_face[f] : f;
 }
 
 static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertices, int *cage_faces,
                                 const subdiv_options *opt)
 {
+    const subdiv_mesh *fine = &surface->fine;
     sdv_faces_out out = { surface, face_vertices, cage_faces, 1 };
-    if (surface->levels == 0) {
-        sdv_copy_faces_out(surface, face_vertices, cage_faces);
+    if (surface->levels > 0) {
+        out.jobs = sdv_jobs(opt, surface->face_count, 1);
+        sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
         return;
     }
-    out.jobs = sdv_jobs(opt, surface->face_count, 1);
-    sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
+    sdv_copy(face_vertices, fine->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
+    for (int f = 0; f < fine->face_count && cage_faces; f++)
+        cage_faces[f] = sdv_user_face(surface, f);
 }
 
 // Lists the fine faces that are holes, in order.
@@ -7354,12 +7351,18 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * ((size_t)surface->work_count + 1);
 }
 
-// Describes the last step of an evaluation: for these cage faces, to these points of the result.
-static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int channels,
-                                        const void *scratch, int first_face, int face_count,
-                                        int first_point, int point_count)
+// Makes the points of the result that belong to a range of cage faces and are in a range of points,
+// from scratch: to out or as a limit. Returns the context's result.
+static subdiv_result sdv_make_range(sdv_context *context, const subdiv_surface *surface,
+                                    int channels, const void *scratch, int first_face,
+                                    int face_count, int first_point, int point_count, float *out,
+                                    int out_stride, const subdiv_limit *limit,
+                                    const subdiv_options *opt)
 {
     sdv_evaluation evaluation;
+    if (!context->result)
+        sdv_check_range(context, surface, first_face, face_count, first_point, point_count);
+    if (context->result) return context->result;
     memset(&evaluation, 0, sizeof evaluation);
     evaluation.surface = sdv_maker(surface);
     evaluation.channels = channels;
@@ -7368,7 +7371,11 @@ static sdv_evaluation sdv_evaluation_of(const subdiv_surface *surface, int chann
     evaluation.end_point = first_point + point_count;
     evaluation.first_face = first_face;
     evaluation.end_face = first_face + face_count;
-    return evaluation;
+    evaluation.out = out;
+    evaluation.out_stride = (size_t)out_stride;
+    evaluation.limit = limit;
+    sdv_make_points(&evaluation, opt);
+    return SUBDIV_OK;
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_begin(const subdiv_surface *surface, int channels,
@@ -7405,15 +7412,27 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_values(&context, surface, channels, scratch, &out_stride);
     sdv_check_result(&context, surface);
-    if (!context.result)
-        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation = sdv_evaluation_of(surface, channels, scratch, first_face,
-                                                  face_count, first_point, point_count);
-    evaluation.out = out;
-    evaluation.out_stride = (size_t)out_stride;
-    sdv_make_points(&evaluation, opt);
-    return SUBDIV_OK;
+    return sdv_make_range(&context, surface, channels, scratch, first_face, face_count,
+                          first_point, point_count, out, out_stride, NULL, opt);
+}
+
+// Makes all points of the result from values of the cage: to out or as a limit. Allocates scratch
+// if it is NULL. Returns the context's result.
+static subdiv_result sdv_make_all(sdv_context *context, const subdiv_surface *surface,
+                                  int channels, const float *in, int in_stride, float *out,
+                                  int out_stride, const subdiv_limit *limit, void *scratch,
+                                  const subdiv_options *opt)
+{
+    sdv_arena arena = sdv_scratch();
+    if (!context->result && !scratch)
+        scratch = sdv_new(context, &arena, subdiv_scratch_size(surface, channels), 1);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
+    if (!context->result)
+        sdv_make_range(context, surface, channels, scratch, 0, surface->cage_face_count, 0,
+                       surface->fine.vertex_count, out, out_stride, limit, opt);
+    sdv_arena_free(&arena);
+    return context->result;
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
@@ -7422,20 +7441,11 @@ SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int chan
                                          void *scratch, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_arena arena = sdv_scratch();
     sdv_check_values(&context, surface, channels, in, &in_stride);
     sdv_check_values(&context, surface, channels, out, &out_stride);
     sdv_check_result(&context, surface);
-    if (context.result) return context.result;
-    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, channels), 1);
-    if (!context.result)
-        context.result = subdiv_evaluate_begin(surface, channels, in, in_stride, scratch, opt);
-    if (!context.result)
-        context.result = subdiv_evaluate_faces(surface, channels, scratch,
-                                               0, surface->cage_face_count,
-                                               0, surface->fine.vertex_count, out, out_stride, opt);
-    sdv_arena_free(&arena);
-    return context.result;
+    return sdv_make_all(&context, surface, channels, in, in_stride, out, out_stride, NULL, scratch,
+                        opt);
 }
 
 static void sdv_check_limit(sdv_context *context, const subdiv_surface *surface,
@@ -7464,14 +7474,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
     sdv_context context = sdv_begin(opt);
     sdv_check_limit(&context, surface, out);
     if (!scratch) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "scratch is NULL");
-    if (!context.result)
-        sdv_check_range(&context, surface, first_face, face_count, first_point, point_count);
-    if (context.result) return context.result;
-    sdv_evaluation evaluation = sdv_evaluation_of(surface, 3, scratch, first_face, face_count,
-                                                  first_point, point_count);
-    evaluation.limit = out;
-    sdv_make_points(&evaluation, opt);
-    return SUBDIV_OK;
+    return sdv_make_range(&context, surface, 3, scratch, first_face, face_count, first_point,
+                          point_count, NULL, 0, out, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
@@ -7480,18 +7484,9 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
                                                void *scratch, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_arena arena = sdv_scratch();
     sdv_check_limit(&context, surface, out);
     if (!context.result) sdv_check_values(&context, surface, 3, in, &in_stride);
-    if (context.result) return context.result;
-    if (!scratch) scratch = sdv_new(&context, &arena, subdiv_scratch_size(surface, 3), 1);
-    if (!context.result)
-        context.result = subdiv_evaluate_begin(surface, 3, in, in_stride, scratch, opt);
-    if (!context.result)
-        context.result = subdiv_evaluate_limit_faces(surface, scratch, 0, surface->cage_face_count,
-                                                     0, surface->fine.vertex_count, out, opt);
-    sdv_arena_free(&arena);
-    return context.result;
+    return sdv_make_all(&context, surface, 3, in, in_stride, NULL, 0, out, scratch, opt);
 }
 
 // --------------------------------------------------------------------------------- >>split
@@ -10882,6 +10877,9 @@ typedef struct sdv_stencil_maker {
     const subdiv_surface *surface;
     sdv_arena  arena;
 
+    sdv_grid_step  masks;               // inside grids
+    sdv_grid_limit limit;               // of a limit
+
     int       *bases;                   // [levels + 2] where levels start; here all are whole,
     int        work_count;              // and have so many points
 
@@ -10896,11 +10894,11 @@ typedef struct sdv_stencil_maker {
     double    *sums;                    // [work_count * parts] weights, and where
     int       *places;                  // [work_count] each stands, or -1
 
-    const sdv_batch **batches;          // [work_count, then the result's points] where the row of
-    const int **rows;                   // each point is; NULL: on a grid, or in a face of the cage
-    unsigned char *steps;               // [work_count] made before those with a higher one
+    const sdv_batch **batches;          // of work points, then the result's points: where the row
+    const int **rows;                   // of each is; NULL: on a grid, or in a face of the cage
+    unsigned char *steps;               // of each point: made before those with a higher one
     int        longest;                 // points of a row at most
-    sdv_stencil_row *room;              // rows: one for each step, and one for the result's points
+    sdv_stencil_row *room;              // rows: one for each step
 
     size_t    *offsets;                 // [points + 1] what is made
     sdv_array  indices, weights;        // ints, floats [parts] each
@@ -10951,10 +10949,17 @@ static int sdv_whole_point(const sdv_stencil_maker *make, int point)
     return base + sdv_inside_index(&grid, row, column);
 }
 
-// Notes where the rows are: of a step's work points, or of the result's points behind all those.
-static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int result,
-                             int step)
+// Points of level i are of step 2 i, and face points of the cage of step 1. Without orders, face
+// points have a step of their own on all levels. The result's points are of the last step.
+static int sdv_last_step(const sdv_stencil_maker *make)
 {
+    return 2 * make->surface->levels + 1;
+}
+
+// Notes where the rows of a step are.
+static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches, int step)
+{
+    int result = step == sdv_last_step(make);
     for (int b = 0; b < (batches->rows ? batches->starts[batches->blocks] : 0); b++) {
         const sdv_batch *batch = &batches->items[b];
         const int *row = batch->items, points = sdv_row_points(&batch->shape);
@@ -10963,41 +10968,40 @@ static void sdv_note_batches(sdv_stencil_maker *make, const sdv_batches *batches
             int at = result ? make->work_count + row[0] : sdv_whole_point(make, row[0]);
             make->batches[at] = batch;
             make->rows[at] = row;
-            if (!result) make->steps[at] = (unsigned char)step;
+            make->steps[at] = (unsigned char)step;
         }
     }
 }
 
-// Level i is step 2 i, and face points of the cage are step 1. Without orders, face points have a
-// step of their own on all levels.
 static void sdv_note_rows(sdv_stencil_maker *make)
 {
     const subdiv_surface *surface = make->surface;
-    int levels = surface->levels, limit = surface->rules.limit, work = make->work_count;
-    size_t count = (size_t)work + (size_t)surface->fine.vertex_count;
+    int levels = surface->levels, last = sdv_last_step(make);
+    size_t work = (size_t)make->work_count, count = work + (size_t)surface->fine.vertex_count;
     make->batches = SDV_NEW(make->context, &make->arena, const sdv_batch *, count);
     make->rows = SDV_NEW(make->context, &make->arena, const int *, count);
-    make->steps = SDV_NEW(make->context, &make->arena, unsigned char, work);
+    make->steps = SDV_NEW(make->context, &make->arena, unsigned char, count);
     if (make->context->result) return;
     for (size_t i = 0; i < count; i++) make->rows[i] = NULL;
-    sdv_note_batches(make, &surface->limit_rows, 1, 0);
+    memset(make->steps + work, last, count - work);
+    sdv_note_batches(make, &surface->limit_rows, last);
     for (int i = 0; i < 2 * levels && !surface->orders; i++)
-        sdv_note_batches(make, &surface->refine[i], 0, i + 1);
+        sdv_note_batches(make, &surface->refine[i], i + 1);
     if (!surface->orders) return;
     for (int i = 0; i <= levels; i++)
         memset(make->steps + make->bases[i], 2 * i,
                (size_t)make->bases[i + 1] - (size_t)make->bases[i]);
-    for (int i = 0; i < levels; i++) {
-        int last = i + 1 == levels && !limit;
-        sdv_note_batches(make, &surface->refine[i], last, 2 * i + 2);
-    }
+    for (int i = 0; i < levels; i++)
+        sdv_note_batches(make, &surface->refine[i],
+                         i + 1 < levels || surface->rules.limit ? 2 * i + 2 : last);
     if (!surface->rules.loop)
         memset(make->steps + sdv_first_face_point(surface), 1, (size_t)surface->cage_face_count);
 }
 
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
-                                  const subdiv_surface *surface, int points, int parts)
+                                  const subdiv_surface *surface, int points)
 {
+    int parts = surface->rules.limit || surface->exact ? 3 : 1;
     memset(make, 0, sizeof *make);
     make->context = context;
     make->surface = surface;
@@ -11020,24 +11024,18 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
     make->longest = 9;
+    make->masks = sdv_regular_masks(&surface->rules);
+    if (surface->rules.limit) make->limit = sdv_regular_limit(&surface->rules);
     for (int f = 0; f < surface->order.cage.face_count; f++) {
         int size = sdv_face_end(&surface->order.cage, f) - sdv_face_start(&surface->order.cage, f);
         if (size > make->longest) make->longest = size;
     }
     sdv_note_rows(make);
-    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, 2 * surface->levels + 2);
-    for (int i = 0; i < 2 * surface->levels + 2 && !context->result; i++) {
+    make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, sdv_last_step(make) + 1);
+    for (int i = 0; i <= sdv_last_step(make) && !context->result; i++) {
         make->room[i].points = SDV_NEW(context, &make->arena, int, make->longest);
         make->room[i].weights = SDV_NEW(context, &make->arena, double, make->longest);
     }
-}
-
-static void sdv_stencil_maker_free(sdv_stencil_maker *make)
-{
-    sdv_array_free(&make->known);
-    sdv_array_free(&make->indices);
-    sdv_array_free(&make->weights);
-    sdv_arena_free(&make->arena);
 }
 
 static void sdv_add_to_sum(sdv_stencil_maker *make, int vertex, double factor, const double *w)
@@ -11071,71 +11069,55 @@ static void sdv_end_sum(sdv_stencil_maker *make)
     make->size = 0;
 }
 
-// The weights of a row whose mask has these. The first point has what the others leave of 1.
-static void sdv_fill_weights(sdv_stencil_row *row)
+// Gives the points of a row their weights: behind the first one, counts[k] points have weight w[k].
+// The first one has what the others leave of 1.
+static void sdv_set_weights(sdv_stencil_row *row, const int *counts, const double *w)
 {
+    row->count = 1;
     row->weights[0] = 1;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < counts[k]; i++) row->weights[row->count++] = w[k];
     for (int i = row->count - 1; i > 0; i--) row->weights[0] -= row->weights[i];
 }
 
 static void sdv_batch_row(const sdv_stencil_maker *make, const sdv_batch *batch, const int *row,
                           sdv_stencil_row *out)
 {
-    const sdv_shape *shape = &batch->shape;
-    float w[3] = { shape->weight[0], shape->weight[1], shape->weight[2] };
-    out->count = sdv_row_points(shape);
-    if (shape->own) memcpy(w, row + 1 + out->count, sizeof w);
-    for (int i = 0; i < out->count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
-    for (int k = 0, i = 1; k < 3; k++)
-        for (int j = 0; j < shape->count[k]; j++) out->weights[i++] = (double)w[k];
-    sdv_fill_weights(out);
+    int count = sdv_row_points(&batch->shape);
+    const void *own = row + 1 + count;
+    const float *w = batch->shape.own ? (const float *)own : batch->shape.weight;
+    const double weights[3] = { (double)w[0], (double)w[1], (double)w[2] };
+    for (int i = 0; i < count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
+    sdv_set_weights(out, batch->shape.count, weights);
 }
 
-static void sdv_add_grid_point(const sdv_grid *grid, int base, int row, int column, double weight,
-                               sdv_stencil_row *out)
-{
-    out->points[out->count] = base + sdv_grid_index(grid, row, column);
-    out->weights[out->count++] = weight;
-}
+// The points of a level that a point inside a grid of the next level is made of, as steps of a row
+// and of a column from the one at or before it. By 2 up + right, which say whether it is between
+// two rows, between two columns: a vertex point, edge points, a face point (Loop: the edge point on
+// the long side of a square). First those with the mask's weight self, then edge, then face.
+static const signed char sdv_grid_mask_points[2][4][9][2] = {
+    { { {0,0}, {0,1}, {1,0}, {0,-1}, {-1,0}, {1,1}, {1,-1}, {-1,-1}, {-1,1} },
+      { {0,0}, {0,1}, {-1,0}, {-1,1}, {1,0}, {1,1} },
+      { {0,0}, {1,0}, {0,-1}, {1,-1}, {0,1}, {1,1} },
+      { {0,0}, {0,1}, {1,0}, {1,1} } },
+    { { {0,0}, {0,1}, {1,0}, {1,-1}, {0,-1}, {-1,0}, {-1,1} },
+      { {0,0}, {0,1}, {1,0}, {-1,1} },
+      { {0,0}, {1,0}, {0,1}, {1,-1} },
+      { {0,1}, {1,0}, {0,0}, {1,1} } } };
 
-// The masks of >>grids, for a point that is not on a point of the level before: r, c is before it,
-// and up, right say in which direction it is between two or four points.
-static void sdv_grid_edge(const sdv_grid *grid, int base, const sdv_grid_step *step, int r, int c,
-                          int up, int right, sdv_stencil_row *out)
-{
-    sdv_mask mask = step->loop ? step->edge : sdv_spread_edge(step->edge, 2);
-    int turned = step->loop && up && right;             // the long side of a square
-    sdv_add_grid_point(grid, base, r, turned ? c + 1 : c, mask.self, out);
-    sdv_add_grid_point(grid, base, r + up, turned ? c : c + right, mask.self, out);
-    if (step->loop) {
-        sdv_add_grid_point(grid, base, turned ? r : r + right, turned ? c : up ? c + 1 : c,
-                           mask.face, out);
-        sdv_add_grid_point(grid, base, turned ? r + 1 : up ? r + 1 : r - 1,
-                           turned ? c + 1 : up ? c - 1 : c + 1, mask.face, out);
-        return;
-    }
-    for (int side = -1; side <= 1; side += 2) {
-        int row = r + side * right, column = c + side * up;
-        sdv_add_grid_point(grid, base, row, column, mask.face, out);
-        sdv_add_grid_point(grid, base, row + up, column + right, mask.face, out);
-    }
-}
+// How many there are of each weight, without the first point.
+static const int sdv_grid_mask_counts[2][4][3] = {
+    { {0,4,4}, {1,0,4}, {1,0,4}, {3,0,0} }, { {0,6,0}, {1,0,2}, {1,0,2}, {1,0,2} } };
 
-// Around point r, c: its neighbours and those across the faces.
-static const signed char sdv_around_quad[8][2] = { { 0, 1 }, { 1, 0 }, { 0, -1 }, { -1, 0 },
-                                                   { 1, 1 }, { 1, -1 }, { -1, -1 }, { -1, 1 } };
-static const signed char sdv_around_triangle[6][2] = { { 0, 1 }, { 1, 0 }, { 1, -1 }, { 0, -1 },
-                                                       { -1, 0 }, { -1, 1 } };
-
-static void sdv_grid_ring(const sdv_grid *grid, int base, int r, int c, sdv_mask mask,
-                          sdv_stencil_row *out)
+// Makes the points of a row: kind is 2 up + right, and r, c the point at or before the new one.
+static void sdv_grid_row_points(const sdv_grid *grid, int base, int kind, int r, int c,
+                                sdv_stencil_row *out)
 {
-    const signed char (*around)[2] = grid->triangle ? sdv_around_triangle : sdv_around_quad;
-    int count = grid->triangle ? 6 : 8, edges = grid->triangle ? 6 : 4;
-    sdv_add_grid_point(grid, base, r, c, mask.self, out);
-    for (int i = 0; i < count; i++)
-        sdv_add_grid_point(grid, base, r + around[i][0], c + around[i][1],
-                           i < edges ? mask.edge : mask.face, out);
+    const int *counts = sdv_grid_mask_counts[grid->triangle][kind];
+    const signed char (*steps)[2] = sdv_grid_mask_points[grid->triangle][kind];
+    out->count = 1 + counts[0] + counts[1] + counts[2];
+    for (int i = 0; i < out->count; i++)
+        out->points[i] = base + sdv_grid_index(grid, r + steps[i][0], c + steps[i][1]);
 }
 
 // The row of a point of a level, from 2 on, that is on a grid.
@@ -11144,67 +11126,47 @@ static void sdv_grid_row_of(const sdv_stencil_maker *make, int level, int index,
 {
     const subdiv_surface *surface = make->surface;
     sdv_order to = sdv_order_at(surface, level, 0), from = sdv_order_at(surface, level - 1, 0);
-    sdv_grid_step step = sdv_regular_masks(&surface->rules);
-    int row, column, h = sdv_find_on_grid(&to, index, &row, &column);
-    int base = make->bases[level - 1];
-    int r = row / 2, c = column / 2, up = row % 2, right = column % 2;
+    int row, column, h = sdv_find_on_grid(&to, index, &row, &column), loop = make->masks.loop;
+    int kind = 2 * (row % 2) + column % 2;
+    sdv_mask mask = kind ? make->masks.edge : make->masks.vertex;
+    if (!loop) mask = kind ? sdv_spread_edge(mask, 2) : sdv_spread_vertex(mask, 4);
+    if (!loop && kind == 3) mask.self = (double)make->masks.face;
+    const double w[3] = { mask.self, mask.edge, mask.face };
     sdv_grid grid;
     sdv_grid_at(&from, h, &grid);
-    out->count = 0;
-    if (!up && !right) {
-        sdv_mask mask = step.loop ? step.vertex : sdv_spread_vertex(step.vertex, 4);
-        sdv_grid_ring(&grid, base, r, c, mask, out);
-    } else if (up && right && !step.loop) {
-        for (int i = 0; i < 4; i++)
-            sdv_add_grid_point(&grid, base, r + i / 2, c + i % 2, (double)step.face, out);
-    } else {
-        sdv_grid_edge(&grid, base, &step, r, c, up, right, out);
-    }
-    sdv_fill_weights(out);
+    sdv_grid_row_points(&grid, make->bases[level - 1], kind, row / 2, column / 2, out);
+    sdv_set_weights(out, sdv_grid_mask_counts[loop][kind], w);
 }
 
 // The row of a face point of the cage.
 static void sdv_face_stencil(const subdiv_surface *surface, int f, sdv_stencil_row *out)
 {
     const sdv_level *cage = &surface->order.cage;
-    int start = sdv_face_start(cage, f);
-    out->count = sdv_face_end(cage, f) - start;
-    for (int i = 0; i < out->count; i++) {
-        out->points[i] = cage->face_vertices[start + i];
-        out->weights[i] = (double)(float)sdv_face_weight(out->count);
-    }
-    sdv_fill_weights(out);
+    int start = sdv_face_start(cage, f), size = sdv_face_end(cage, f) - start;
+    const int counts[3] = { size - 1, 0, 0 };
+    const double w[3] = { (double)(float)sdv_face_weight(size), 0, 0 };
+    for (int i = 0; i < size; i++) out->points[i] = cage->face_vertices[start + i];
+    sdv_set_weights(out, counts, w);
 }
 
-// The row of point index of a level; the last level's has no work points.
-static void sdv_level_row(const sdv_stencil_maker *make, int level, int index, sdv_stencil_row *out)
+// Finds the row of a point: a work point or, behind all these, one of the result. It is in the room
+// of its step.
+static const sdv_stencil_row *sdv_row_of(const sdv_stencil_maker *make, int point)
 {
     const subdiv_surface *surface = make->surface;
-    int last = level == surface->levels && !surface->rules.limit;
-    int at = last ? make->work_count + index : make->bases[level] + index;
-    if (make->rows[at]) sdv_batch_row(make, make->batches[at], make->rows[at], out);
-    else if (level > 1) sdv_grid_row_of(make, level, index, out);
-    else sdv_face_stencil(surface, index - sdv_order_at(surface, 1, 0).first_inside_point, out);
-}
-
-// The row of a work point, in the room of its step.
-static const sdv_stencil_row *sdv_work_row(const sdv_stencil_maker *make, int point)
-{
-    const subdiv_surface *surface = make->surface;
-    int step = make->steps[point], level = step / 2;
+    int step = make->steps[point], level = step / 2, first = make->work_count;
     sdv_stencil_row *room = &make->room[step];
-    if (make->rows[point]) sdv_batch_row(make, make->batches[point], make->rows[point], room);
-    else if (step == 1) sdv_face_stencil(surface, point - sdv_first_face_point(surface), room);
-    else sdv_grid_row_of(make, level, point - make->bases[level], room);
+    if (make->rows[point]) {
+        sdv_batch_row(make, make->batches[point], make->rows[point], room);
+    } else if (level > 1) {
+        if (point < first) first = make->bases[level];
+        sdv_grid_row_of(make, level, point - first, room);
+    } else {
+        first += surface->order.first_inside_point;
+        if (level == 0) first = sdv_first_face_point(surface);
+        sdv_face_stencil(surface, point - first, room);
+    }
     return room;
-}
-
-// Makes a work point known, after those that it is made from.
-static void sdv_compose(sdv_stencil_maker *make, int point);
-
-static void sdv_compose_all(sdv_stencil_maker *make, const int *points, int count)
-{
-    for (int i = 0; i < count; i++) sdv_compose(make, points[i]);
 }
 
 // Adds the points of a row, w times.
@@ -11231,20 +11193,22 @@ static void sdv_keep_sum(sdv_stencil_maker *make, int point)
     if (entry) make->known.count += (size_t)make->size;
 }
 
-static void sdv_compose(sdv_stencil_maker *make, int point)
+// Makes work points known, each after those that it is made from.
+static void sdv_compose(sdv_stencil_maker *make, const int *points, int count)
 {
-    const subdiv_surface *surface = make->surface;
-    if (point < surface->cage_vertex_count || make->sizes[point] || make->context->result) return;
-    const sdv_stencil_row *row = sdv_work_row(make, point);
     const double one[3] = { 1, 0, 0 };
-    int any_long = 0;
-    sdv_compose_all(make, row->points, row->count);
-    if (make->context->result) return;
-    for (int i = 0; i < row->count; i++) any_long |= make->sizes[row->points[i]] == SDV_LONG;
-    if (!any_long) sdv_add_row(make, row, one);
-    if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
-    else sdv_keep_sum(make, point);
-    sdv_end_sum(make);
+    for (; count > 0; count--, points++) {
+        int point = *points, any_long = 0;
+        if (point < make->surface->cage_vertex_count || make->sizes[point]) continue;
+        const sdv_stencil_row *row = sdv_row_of(make, point);
+        sdv_compose(make, row->points, row->count);
+        if (make->context->result) return;
+        for (int i = 0; i < row->count; i++) any_long |= make->sizes[row->points[i]] == SDV_LONG;
+        if (!any_long) sdv_add_row(make, row, one);
+        if (any_long || make->size > SDV_LONGEST_KNOWN) make->sizes[point] = SDV_LONG;
+        else sdv_keep_sum(make, point);
+        sdv_end_sum(make);
+    }
 }
 
 // Takes number i out of the sum; the last one gets its place.
@@ -11276,7 +11240,7 @@ static void sdv_expand_sum(sdv_stencil_maker *make)
                 i++;
                 continue;
             }
-            const sdv_stencil_row *row = sdv_work_row(make, point);
+            const sdv_stencil_row *row = sdv_row_of(make, point);
             sdv_take_from_sum(make, i, w);
             sdv_add_row(make, row, w);
         }
@@ -11347,80 +11311,71 @@ static void sdv_write_stencil(sdv_stencil_maker *make, int i)
     sdv_end_sum(make);
 }
 
-static size_t sdv_carve_stencils(subdiv_stencils *stencils, size_t entries, int parts, char *base)
+static size_t sdv_carve_stencils(const sdv_stencil_maker *make, subdiv_stencils *stencils,
+                                 char *base)
 {
-    size_t size = 0, tangents = parts > 1 ? entries : 0;
-    stencils->offsets = (size_t *)sdv_carve(base, &size, (size_t)stencils->count + 1,
-                                            sizeof(size_t));
-    stencils->indices = (int *)sdv_carve(base, &size, entries, sizeof(int));
-    stencils->weights = (float *)sdv_carve(base, &size, entries, sizeof(float));
-    stencils->du = (float *)sdv_carve(base, &size, tangents, sizeof(float));
-    stencils->dv = (float *)sdv_carve(base, &size, tangents, sizeof(float));
+    size_t size = 0, entries = make->indices.count, tangents = make->parts > 1 ? entries : 0;
+    stencils->offsets = SDV_CARVE(size_t, make->offsets, (size_t)stencils->count + 1, 1);
+    stencils->indices = SDV_CARVE(int, sdv_items(&make->indices), entries, 1);
+    stencils->weights = SDV_CARVE(float, NULL, entries, 1);
+    stencils->du = SDV_CARVE(float, NULL, tangents, 1);
+    stencils->dv = SDV_CARVE(float, NULL, tangents, 1);
     return size;
 }
 
-// All that was made, in one block of its own.
-static void sdv_copy_stencils(const sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
+// Makes stencils of all that was made, in one block of its own, and frees the maker.
+static void sdv_end_stencils(sdv_stencil_maker *make, int count, subdiv_stencils *stencils)
 {
     subdiv_stencils made;
-    size_t entries = make->indices.count, parts = (size_t)make->parts;
-    const float *weights = (const float *)sdv_items(&make->weights);
-    if (make->context->result) return;
     memset(&made, 0, sizeof made);
     made.count = count;
-    sdv_block *block = sdv_allocate(make->context,
-                                    sdv_carve_stencils(&made, entries, make->parts, NULL));
-    if (!block) return;
-    made.memory = block;
-    sdv_carve_stencils(&made, entries, make->parts, (char *)(block + 1));
-    sdv_copy(made.offsets, make->offsets, (size_t)count + 1, sizeof(size_t));
-    sdv_copy(made.indices, sdv_items(&make->indices), entries, sizeof(int));
-    for (size_t i = 0; i < entries; i++) {
-        made.weights[i] = weights[parts * i];
-        if (parts == 1) continue;
-        made.du[i] = weights[parts * i + 1];
-        made.dv[i] = weights[parts * i + 2];
-    }
-    *stencils = made;
-}
-
-// Adds the points of a limit row of these weights [3][count], as sdv_limit_row_sums does: the
-// weight of the first one is what is left.
-static void sdv_add_limit_weights(sdv_stencil_maker *make, const float *weights, int count,
-                                  const int *points)
-{
-    double left[3] = { 1, 0, 0 }, w[3];
-    sdv_compose_all(make, points, count);
-    for (int i = count - 1; i >= 0 && !make->context->result; i--) {
-        for (int k = 0; k < 3; k++) {
-            w[k] = i ? (double)weights[k * count + i] : left[k];
-            left[k] -= w[k];
+    sdv_block *block = make->context->result ? NULL
+                     : sdv_allocate(make->context, sdv_carve_stencils(make, &made, NULL));
+    if (block) {
+        const float *weights = (const float *)sdv_items(&make->weights);
+        made.memory = block;
+        sdv_carve_stencils(make, &made, (char *)(block + 1));
+        for (size_t i = 0; i < make->indices.count; i++, weights += make->parts) {
+            made.weights[i] = weights[0];
+            if (make->parts == 1) continue;
+            made.du[i] = weights[1];
+            made.dv[i] = weights[2];
         }
-        sdv_add_work_point(make, points[i], w);
+        *stencils = made;
     }
+    sdv_array_free(&make->known);
+    sdv_array_free(&make->indices);
+    sdv_array_free(&make->weights);
+    sdv_arena_free(&make->arena);
 }
 
-// Adds point i of a limit.
+// Adds point i of a limit, as sdv_limit_row_sums does: the weight of the first point is what the
+// others leave.
 static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
 {
     const subdiv_surface *surface = make->surface;
     const sdv_batch *batch = make->batches[make->work_count + i];
     const int *row = make->rows[make->work_count + i];
-    sdv_grid_limit limit = sdv_regular_limit(&surface->rules);
+    const float *weights = row ? sdv_limit_weights_of(batch, row) : make->limit.w;  // [3][count]
     sdv_stencil_row *room = &make->room[0];
-    const sdv_mask none = { 0, 0, 0, 0 };             // points are asked for, not weights
+    double left[3] = { 1, 0, 0 }, w[3];
     if (row) {
         room->count = sdv_row_points(&batch->shape);
         for (int k = 0; k < room->count; k++) room->points[k] = sdv_whole_point(make, row[1 + k]);
-        sdv_add_limit_weights(make, sdv_limit_weights_of(batch, row), room->count, room->points);
-        return;
+    } else {
+        int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
+        sdv_grid grid;
+        sdv_grid_at(&surface->order, h, &grid);
+        sdv_grid_row_points(&grid, make->bases[surface->levels], 0, r, c, room);
     }
-    int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
-    sdv_grid grid;
-    sdv_grid_at(&surface->order, h, &grid);
-    room->count = 0;
-    sdv_grid_ring(&grid, make->bases[surface->levels], r, c, none, room);
-    sdv_add_limit_weights(make, limit.w, room->count, room->points);
+    sdv_compose(make, room->points, room->count);
+    for (int k = room->count - 1; k >= 0 && !make->context->result; k--) {
+        for (int part = 0; part < 3; part++) {
+            w[part] = k ? (double)weights[part * room->count + k] : left[part];
+            left[part] -= w[part];
+        }
+        sdv_add_work_point(make, room->points[k], w);
+    }
 }
 
 // Point i of the result.
@@ -11428,7 +11383,6 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
 {
     const subdiv_surface *surface = make->surface;
     const double one[3] = { 1, 0, 0 };
-    sdv_stencil_row *row = &make->room[2 * surface->levels + 1];
     if (surface->levels == 0) {
         sdv_add_work_point(make, i, one);
         return;
@@ -11437,22 +11391,9 @@ static void sdv_add_point(sdv_stencil_maker *make, int i)
         sdv_add_limit_point(make, i);
         return;
     }
-    sdv_level_row(make, surface->levels, i, row);
-    sdv_compose_all(make, row->points, row->count);
+    const sdv_stencil_row *row = sdv_row_of(make, make->work_count + i);
+    sdv_compose(make, row->points, row->count);
     if (!make->context->result) sdv_add_row(make, row, one);
-}
-
-static void sdv_refined_stencils(sdv_context *context, subdiv_stencils *stencils,
-                                 const subdiv_surface *surface, int first, int count)
-{
-    sdv_stencil_maker make;
-    sdv_stencil_maker_new(context, &make, surface, count, surface->rules.limit ? 3 : 1);
-    for (int i = 0; i < count && !context->result; i++) {
-        sdv_add_point(&make, first + i);
-        if (!context->result) sdv_write_stencil(&make, i);
-    }
-    sdv_copy_stencils(&make, count, stencils);
-    sdv_stencil_maker_free(&make);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
@@ -11465,8 +11406,14 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     if (surface) sdv_check_result(&context, surface);
     if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
-    if (!context.result)
-        sdv_refined_stencils(&context, stencils, sdv_maker(surface), first_point, point_count);
+    if (context.result) return context.result;
+    sdv_stencil_maker make;
+    sdv_stencil_maker_new(&context, &make, sdv_maker(surface), point_count);
+    for (int i = 0; i < point_count && !context.result; i++) {
+        sdv_add_point(&make, first_point + i);
+        if (!context.result) sdv_write_stencil(&make, i);
+    }
+    sdv_end_stencils(&make, point_count, stencils);
     return context.result;
 }
 
@@ -11480,27 +11427,27 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 }
 
 #ifndef SUBDIV_NO_EXACT
-// Adds work points with weights [3 * count] that are rounded to floats. They have to add up before
-// they are multiplied: then their errors shrink with the distances between the points.
-static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights)
+// Adds work points with weights [stride * count] that are rounded to floats. They have to add up
+// before they are multiplied: then their errors shrink with the distances between the points.
+static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights,
+                            int stride)
 {
-    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, 3, k == 0 ? 1 : 0);
-    sdv_compose_all(make, points, count);
-    for (int i = 0; i < count && !make->context->result; i++)
-        sdv_add_work_point(make, points[i], weights + 3 * (size_t)i);
+    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, stride, k == 0 ? 1 : 0);
+    sdv_compose(make, points, count);
+    for (int i = 0; i < count && !make->context->result; i++, weights += stride)
+        sdv_add_work_point(make, points[i], weights);
 }
 
 // Adds the control points of a patch, or of the part of it that a location is on.
 static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
-    double all[16][6], weights[3 * 16];
-    int count = sdv_control_points(&surface->rules);
+    double weights[16][6];
     sdv_find_polynomial(surface, &leaf);
     sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
-    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at, all);
-    for (int i = 0; i < 3 * count; i++) weights[i] = all[i / 3][i % 3];
-    sdv_add_rounded(make, leaf.points, count, weights);
+    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at,
+                      weights);
+    sdv_add_rounded(make, leaf.points, sdv_control_points(&surface->rules), weights[0], 6);
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
@@ -11509,11 +11456,13 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // nest's points, then of the points of the next level.
 
 // Gives the weights of a row's point to the points that the row sums.
-static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float *weights,
-                             double *w)
+static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
 {
-    const double *from = w + 3 * (size_t)row[0];
+    const sdv_shape *shape = &batch->shape;
     const int *point = row + sdv_row_points(shape);         // the last one
+    const void *own = point + 1;
+    const float *weights = shape->own ? (const float *)own : shape->weight;
+    const double *from = w + 3 * (size_t)row[0];
     double left = 1;
     for (int k = 3; k-- > 0; ) {
         for (int i = 0; i < shape->count[k]; i++, point--)
@@ -11525,20 +11474,13 @@ static void sdv_unrefine_row(const sdv_shape *shape, const int *row, const float
 
 static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
 {
-    for (int k = 2; k-- > 0; ) {
-        const sdv_batches *batches = &kind->refine[k];
-        for (int b = 0; b < batches->starts[batches->blocks]; b++) {
-            const sdv_batch *batch = &batches->items[b];
-            int points = sdv_row_points(&batch->shape), own = batch->shape.own;
-            const int *row = batch->items;
-            float weights[3];
-            for (int i = 0; i < batch->rows; i++, row += 1 + points + own) {
-                memcpy(weights, own ? (const void *)(row + 1 + points) : batch->shape.weight,
-                       sizeof weights);
-                sdv_unrefine_row(&batch->shape, row, weights, w);
-            }
+    for (int k = 2; k-- > 0; )
+        for (int b = 0; b < kind->refine[k].starts[kind->refine[k].blocks]; b++) {
+            const sdv_batch *batch = &kind->refine[k].items[b];
+            int stride = 1 + sdv_row_points(&batch->shape) + batch->shape.own;
+            for (int i = 0; i < batch->rows; i++)
+                sdv_unrefine_row(batch, batch->items + (size_t)stride * (size_t)i, w);
         }
-    }
 }
 
 // Goes back from a nest to the level before: sdv_nest_descend backwards. The point is base + shrink
@@ -11587,8 +11529,8 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                            double x, double y, double *w)
 {
-    int vertex = x <= 0 && y <= 0, down = sdv_nest_levels(surface->rules.loop, x, y);
-    if (vertex) {
+    int down = sdv_nest_levels(surface->rules.loop, x, y);
+    if (x <= 0 && y <= 0) {
         sdv_weigh_masks(kind, face, w);
         return;
     }
@@ -11618,25 +11560,7 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
         w[3 * i + 2] = t[1] * dx + t[3] * dy;
     }
-    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w);
-}
-
-static void sdv_stencils_at(sdv_context *context, subdiv_stencils *stencils,
-                            const subdiv_surface *surface, int count,
-                            const subdiv_location *locations)
-{
-    sdv_stencil_maker make;
-    sdv_stencil_maker_new(context, &make, surface, count, 3);
-    double *w = SDV_NEW(context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
-    for (int i = 0; i < count && !context->result; i++) {
-        sdv_spot spot = sdv_spot_of(surface, &locations[i]);
-        sdv_leaf leaf = sdv_locate(surface, &spot);
-        if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
-        else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
-        if (!context->result) sdv_write_stencil(&make, i);
-    }
-    sdv_copy_stencils(&make, count, stencils);
-    sdv_stencil_maker_free(&make);
+    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w, 3);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
@@ -11651,7 +11575,18 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (!stencils || !surface) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_exact(&context, surface, 4, count, locations, &none);
     if (!context.result) sdv_check_locations(&context, surface, count, locations);
-    if (!context.result) sdv_stencils_at(&context, stencils, surface, count, locations);
+    if (context.result) return context.result;
+    sdv_stencil_maker make;
+    sdv_stencil_maker_new(&context, &make, surface, count);
+    double *w = SDV_NEW(&context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
+    for (int i = 0; i < count && !context.result; i++) {
+        sdv_spot spot = sdv_spot_of(surface, &locations[i]);
+        sdv_leaf leaf = sdv_locate(surface, &spot);
+        if (leaf.nest_face >= 0) sdv_add_leaf_nest(&make, &leaf, w);
+        else if (leaf.patch) sdv_add_leaf_patch(&make, leaf);
+        if (!context.result) sdv_write_stencil(&make, i);
+    }
+    sdv_end_stencils(&make, count, stencils);
     return context.result;
 }
 #endif // SUBDIV_NO_EXACT
@@ -11755,6 +11690,9 @@ static void sdv_find_inside(const sdv_tiling *tiling, int f, int rate)
     grid->across = !quad || !grid->margin ? -1 : grid->rows == 1 ? 0 : grid->columns == 1 ? 1 : -1;
     if (grid->across == 0) grid->columns = sdv_edge_rate(&tile, 2);
     if (grid->across == 1) grid->rows = sdv_edge_rate(&tile, 3);
+    int edge = most[0] > most[1] ? most[0] : most[1], pieces = (edge - 1) / (1 + tile.ngon) + 1;
+    grid->most = grid->columns > grid->rows ? grid->columns : grid->rows;
+    if (pieces > grid->most) grid->most = pieces;
     grid->last = tile.ngon ? 0 : grid->margin << tile.loop;
 }
 
@@ -11777,29 +11715,27 @@ static sdv_side sdv_tile_side(const sdv_tile *tile, int side, int backwards)
                          (a > b) != backwards);
 }
 
-// The grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of the face:
-// with strips, not as the grid is cut.
-static sdv_grid sdv_tile_grid(const sdv_tile *tile, int i)
+// Fills in the grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of
+// the face: with strips, not as the grid is cut.
+static void sdv_tile_grid(const sdv_tile *tile, int i, sdv_grid *grid)
 {
     int last = tile->sides - 1;
-    sdv_grid grid;
     if (tile->ngon) {
         sdv_ngon_grid(tile->vertices[i], sdv_tile_side(tile, i, 0),
                       sdv_tile_side(tile, i > 0 ? i - 1 : last, 1), tile->inside, tile->sides,
-                      tile->grid->columns, i, &grid);
-        return grid;
+                      tile->grid->columns, i, grid);
+        return;
     }
-    grid.columns = tile->grid->columns;
-    grid.rows = tile->grid->rows;
-    grid.triangle = tile->loop;
-    grid.frame = 0;
-    grid.inside = tile->inside;
+    grid->columns = tile->grid->columns;
+    grid->rows = tile->grid->rows;
+    grid->triangle = tile->loop;
+    grid->frame = 0;
+    grid->inside = tile->inside;
     for (int k = 0; k <= last; k++) {
-        grid.corner[k] = tile->vertices[k];
-        grid.side[k] = sdv_tile_side(tile, k, k >= 2);
+        grid->corner[k] = tile->vertices[k];
+        grid->side[k] = sdv_tile_side(tile, k, k >= 2);
     }
-    grid.side[3] = grid.side[last];
-    return grid;
+    grid->side[3] = grid->side[last];
 }
 
 // The place where faces are written; if an array is NULL, they are only counted.
@@ -11842,7 +11778,8 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
     size_t pieces = (size_t)grids * (size_t)(right - margin) * (size_t)(top - margin);
     int *faces = out->vertices ? out->vertices + out->face_vertices : NULL;
     for (int i = 0; i < grids && pieces && faces; i++) {
-        sdv_grid grid = sdv_tile_grid(tile, i);
+        sdv_grid grid;
+        sdv_tile_grid(tile, i, &grid);
         int *end = sdv_grid_faces(&grid, margin, top, margin, right + tile->loop * margin, faces);
         faces = cut ? sdv_cut_quads(faces, end) : end;
     }
@@ -11906,8 +11843,8 @@ static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
     sdv_grid grids[2];
     sdv_put_inside(&tile, out);
     for (int i = 0; i < tile.sides && tile.grid->margin; i++) {
-        if (tile.ngon || i == 0) grids[0] = sdv_tile_grid(&tile, i);
-        if (tile.ngon) grids[1] = sdv_tile_grid(&tile, (i + 1) % tile.sides);
+        if (tile.ngon || i == 0) sdv_tile_grid(&tile, i, &grids[0]);
+        if (tile.ngon) sdv_tile_grid(&tile, (i + 1) % tile.sides, &grids[1]);
         if (tile.grid->across < 0 || tile.grid->across == i) sdv_put_strip(&tile, i, grids, out);
     }
 }
@@ -11999,7 +11936,7 @@ typedef struct sdv_leaf_points {
     // The leaf at hand, or a part of it:
     sdv_tile tile;
     int      corner;                    // whose quad of an n-gon it is
-    int      inside;                    // the first point inside its grid
+    sdv_grid grid;
     sdv_area area;
     sdv_double_patch patch;
     const sdv_nest_state *nest;         // whose points the patch has, or NULL
@@ -12156,7 +12093,7 @@ static void sdv_put_area_inside(sdv_leaf_points *l)
                                 0, 1 };
         if (loop && row.first < slanted.first - j) row.first = slanted.first - j;
         if (loop && row.last > slanted.last - j) row.last = slanted.last - j;
-        row.index = sdv_inside_point(l->inside, columns, loop, (int)j, (int)row.first);
+        row.index = sdv_inside_point(l->grid.inside, columns, loop, (int)j, (int)row.first);
         sdv_put_line(l, &row);
     }
 }
@@ -12182,11 +12119,10 @@ static void sdv_put_area_side(sdv_leaf_points *l, int side)
                                    : sdv_find_ticks(area, area->left, area->right, 3, rate, half);
     if (half && backwards && 2 * ticks.last == rate) ticks.last--;
     double step = (double)(1 + half) / rate;
-    sdv_side points = sdv_tile_side(tile, edge, backwards);
-    if (spoke) points = sdv_seen_side(tile->inside + 1 + l->corner * (rate - 1), rate, 1);
     sdv_line_points line = { ticks.first, ticks.last, (double)a[1], (double)a[0],
                              (b[1] - a[1]) * step, (b[0] - a[0]) * step,
-                             points.first + points.step * (int)ticks.first, points.step };
+                             sdv_side_index(&l->grid, side, (int)ticks.first),
+                             l->grid.side[side].step };
     sdv_put_line(l, &line);
 }
 
@@ -12195,10 +12131,9 @@ static void sdv_put_area_corner(sdv_leaf_points *l, int i)
 {
     const sdv_tile *tile = &l->tile;
     const int *at = sdv_corners[tile->loop][i];
-    int side = tile->ngon ? l->corner : i, v = tile->vertices[side];
-    int centre = tile->ngon && i == 2, here = tile->tiling->home[v] == tile->first + side;
-    sdv_line_points point = { 0, 0, (double)at[1], (double)at[0], 0, 0, 0, 0 };
-    point.index = centre ? tile->inside : v;
+    int h = tile->ngon ? l->corner : i, centre = tile->ngon && i == 2;
+    int here = tile->tiling->home[tile->vertices[h]] == tile->first + h;
+    sdv_line_points point = { 0, 0, (double)at[1], (double)at[0], 0, 0, l->grid.corner[i], 0 };
     if (centre ? l->corner == 0 : here && (!tile->ngon || i == 0)) sdv_put_line(l, &point);
 }
 
@@ -12226,9 +12161,7 @@ static int sdv_begin_leaf(sdv_leaf_points *l, int h)
     if (tiling->hole[f] == SDV_DROPPED) return 0;
     l->tile = sdv_tile_at(tiling, f);
     l->corner = l->tile.ngon ? h - l->tile.first : 0;
-    l->inside = l->tile.inside;
-    if (l->tile.ngon)
-        l->inside = sdv_inside_ngon(l->inside, l->tile.sides, l->tile.grid->columns, l->corner);
+    sdv_tile_grid(&l->tile, l->corner, &l->grid);
     return 1;
 }
 
@@ -12347,20 +12280,6 @@ static void sdv_tile_points_job(void *context, int job)
     sdv_arena_free(&arena);
 }
 
-// Finds the largest number of pieces along a side of each grid.
-static void sdv_find_most_pieces(const sdv_tiling *tiling)
-{
-    for (int f = 0; f < tiling->cage->face_count; f++) {
-        sdv_tile tile = sdv_tile_at(tiling, f);
-        int most = tile.grid->columns > tile.grid->rows ? tile.grid->columns : tile.grid->rows;
-        for (int i = 0; i < tile.sides; i++) {
-            int rate = (sdv_edge_rate(&tile, i) - 1) / (1 + tile.ngon) + 1;
-            if (rate > most) most = rate;
-        }
-        tile.grid->most = most;
-    }
-}
-
 // Makes the first count points of a tiling and, unless NULL, their normals.
 static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt,
                                  const sdv_tiling *tiling, const sdv_exact_work *source,
@@ -12369,17 +12288,15 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     const sdv_exact *exact = source->surface->exact;
     size_t channels = (size_t)source->channels;
     unsigned char failed[SDV_MOST_JOBS] = { 0 };
-    sdv_window out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     sdv_leaf_points l;
     if (context->result) return;
-    sdv_find_most_pieces(tiling);
     memset(&l, 0, sizeof l);
     l.tiling = tiling;
     l.source = source;
     l.user = context->user;
     l.jobs = sdv_jobs(opt, (int64_t)exact->patch_count + exact->nest_count, 64);
     l.failed = failed;
-    l.out = out;
+    l.out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     l.tangents.normals = normals;
     l.tangents.stride = 3;
     sdv_run(opt, sdv_tile_points_job, &l, l.jobs);
@@ -12409,11 +12326,6 @@ typedef struct sdv_tessellator {
     subdiv_mesh mesh;                   // the result
     int        jobs;
 } sdv_tessellator;
-
-static int sdv_user_face(const subdiv_surface *surface, int f)
-{
-    return surface->cage_face ? surface->cage_face[f] : f;
-}
 
 // The rate of face f in the user's list, or 0.
 static int sdv_face_rate(const sdv_tessellator *t, int f)
@@ -12456,8 +12368,11 @@ static void sdv_ask_edge_rates(sdv_context *context, sdv_tessellator *t, float f
     const sdv_level *cage = halves.cage;
     halves.edge_rates = SDV_NEW(context, &t->arena, int, cage->edge_count);
     for (int e = 0; e < cage->edge_count && !context->result; e++) halves.edge_rates[e] = 2;
-    for (int f = 0; f < cage->face_count; f++)
-        halves.insides[f].columns = halves.insides[f].rows = 1;
+    for (int f = 0; f < cage->face_count; f++) {
+        sdv_inside *grid = &halves.insides[f];
+        grid->columns = grid->rows = 1;
+        grid->most = sdv_tile_at(&halves, f).ngon ? 1 : 2;
+    }
     if (!context->result) sdv_place_points(context, &halves);
     if (context->result) return;
     int count = halves.starts[cage->edge_count];
@@ -15624,6 +15539,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SIMD
 #undef SDV_SEPARATE
 #undef SDV_NEW
+#undef SDV_CARVE
 #undef SDV_IMPLIED
 #undef SDV_FULL_LEVELS
 #undef SDV_JOB_POINTS
