@@ -1876,14 +1876,6 @@ static int sdv_find_edge(const sdv_level *level, int a, int b)
     return sdv_listed(level, v, v == a ? b : a);
 }
 
-// The edges between many pairs of vertices.
-static inline void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
-                                  int count, int *found)
-{
-    for (int i = 0; i < count && !context->result; i++)
-        found[i] = sdv_find_edge(level, pairs[2 * i], pairs[2 * i + 1]);
-}
-
 // Takes face-vertex h as the first of a new edge, at v, its smaller end.
 static inline int sdv_new_edge(sdv_level *level, int h, int v, int other)
 {
@@ -12468,19 +12460,20 @@ static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
     subdiv_mesh *mesh = generator->mesh;
     sdv_arena owned = sdv_new_arena(0);
     owned.blocks = (sdv_block *)mesh->memory;
-    int *listed = SDV_NEW(context, &generator->arena, int, mesh->crease_count);
     int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
     int *found = SDV_NEW(context, &generator->arena, int, level->edge_count);
     size_t count = (size_t)mesh->crease_count, finds = 0;
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, listed);
     if (context->result) return;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], g = sdv_across(level, h);
         if (g >= 0 && is_crease(generator, h, g)) found[finds++] = e;
         entry[e] = -1;
     }
-    for (int i = 0; i < mesh->crease_count; i++)
-        if (listed[i] >= 0) entry[listed[i]] = i;   // the last one counts
+    for (int i = 0; i < mesh->crease_count; i++) {
+        const int *ends = mesh->crease_vertices + 2 * (size_t)i;
+        int e = sdv_find_edge(level, ends[0], ends[1]);
+        if (e >= 0) entry[e] = i;                   // the last one counts
+    }
     if (finds == 0) return;
     if (count + finds > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
     int *vertices = (int *)sdv_new(context, &owned, count + finds, 2 * sizeof(int) + sizeof(float));
@@ -12719,7 +12712,8 @@ typedef struct sdv_checker {
     subdiv_report report;
     void *user;
     int *ends;                          // [2 * edge_count]  vertices of each edge, the lower first
-    int *first;                         // [edge_count]  the first edge with the same ends
+    unsigned char *repeats;             // [edge_count]  1: the first edge of several that have the
+                                        //               same ends, as a face has it twice; 2: later
     int *crease_edges;                  // [crease_count]  -1: no edge
     int *last;                          // [max of vertices, face-vertices]  marks of any things
     int *heads;                         // [mask + 1]  a hash table of any things: the first one
@@ -12765,15 +12759,10 @@ static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
 static void sdv_report_flipped_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
-    int *twice = checker->last;
-    for (int e = 0; e < level->edge_count; e++) {
-        twice[e] = 0;
-        if (checker->first[e] != e) twice[checker->first[e]] = 1;
-    }
     for (int e = 0; e < level->edge_count; e++) {
         const int *ends = checker->ends + 2 * (size_t)e;
         int h = level->edge_first[e], k = level->across[h];
-        if (k == h || level->across[k] != h || twice[e]) continue;
+        if (k == h || level->across[k] != h || checker->repeats[e] == 1) continue;
         if (level->face_vertices[h] != level->face_vertices[k]) continue;
         int f = sdv_face_of(level, h), g = sdv_face_of(level, k);
         sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, ends[0], ends[1],
@@ -12876,7 +12865,7 @@ static void sdv_report_repeated_vertices(const sdv_checker *checker)
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
             int v = level->face_vertices[h], e = level->face_edges[h];
             if (in_row < 0 && v == level->face_vertices[sdv_next(level, h)]) in_row = v;
-            if (edge < 0 && checker->first[e] != e) edge = e;
+            if (edge < 0 && checker->repeats[e] == 2) edge = e;
             if (vertex < 0 && checker->last[v] == f) vertex = v;
             checker->last[v] = f;
         }
@@ -12943,6 +12932,7 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     const subdiv_mesh *mesh = checker->mesh;
     for (int i = 0; i < mesh->crease_count; i++) {
         const int *ends = mesh->crease_vertices + 2 * (size_t)i;
+        checker->crease_edges[i] = sdv_find_edge(&checker->cage.level, ends[0], ends[1]);
         if (checker->crease_edges[i] < 0)
             sdv_found(checker, SUBDIV_ODD_STRAY_CREASE, -1, -1, ends[0], ends[1],
                       "crease %d: no edge joins vertices %d and %d", i, ends[0], ends[1]);
@@ -12997,20 +12987,23 @@ static int sdv_same_ends(const sdv_checker *checker, int d, int e)
                   2 * sizeof(int)) == 0;
 }
 
-// Finds the ends of each edge and the first edge that has them: another one if a face has it twice.
+// Finds the ends of each edge. If an edge before it has the same, a face has both.
 static void sdv_find_ends(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
     for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], a = level->face_vertices[h];
-        int b = level->face_vertices[sdv_next(level, h)], low = a < b ? a : b;
-        checker->ends[2 * e] = low;
-        checker->ends[2 * e + 1] = a + b - low;
-        checker->first[e] = e;
-        if (checker->cage.edge_nonmanifold[e])
-            checker->first[e] = sdv_first_same(checker, e, sdv_mix(((uint64_t)low << 32) +
-                                               (uint64_t)(a + b - low)), sdv_same_ends);
+        int b = level->face_vertices[sdv_next(level, h)], *ends = checker->ends + 2 * (size_t)e;
+        ends[0] = a < b ? a : b;
+        ends[1] = a < b ? b : a;
+        checker->repeats[e] = 0;
+        if (!checker->cage.edge_nonmanifold[e]) continue;
+        uint64_t hash = sdv_mix(((uint64_t)ends[0] << 32) + (uint64_t)ends[1]);
+        int first = sdv_first_same(checker, e, hash, sdv_same_ends);
+        if (first == e) continue;
+        checker->repeats[first] = 1;
+        checker->repeats[e] = 2;
     }
 }
 
@@ -13025,13 +13018,11 @@ static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checke
     checker->mask = 1;
     while (checker->mask < (size_t)items) checker->mask = 2 * checker->mask + 1;
     checker->ends = SDV_NEW(context, arena, int, 2 * (size_t)edges);
-    checker->first = SDV_NEW(context, arena, int, edges);
+    checker->repeats = SDV_NEW(context, arena, unsigned char, edges);
     checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
     checker->last = SDV_NEW(context, arena, int, items);
     checker->heads = SDV_NEW(context, arena, int, checker->mask + 1);
     checker->next = SDV_NEW(context, arena, int, items);
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count,
-                   checker->crease_edges);
     if (!context->result) sdv_find_ends(checker);
 }
 
