@@ -14870,14 +14870,10 @@ static void sdv_find_groups(sdv_explainer *x)
     }
 }
 
-static void sdv_say_blanks(sdv_explainer *x, size_t count)
-{
-    while (count--) sdv_say(x->out, " ");
-}
-
-// Writes one line for each weight, with all the vertices that have it.
+// Writes one line for each weight, with all the vertices that have it. Longer ones go on under it.
 static void sdv_say_table(sdv_explainer *x)
 {
+    static const char blanks[] = "                                                ";
     size_t width = 6;                               // of the weights
     for (int g = 0; g < x->group_count; g++)
         if (strlen(x->groups[g].text) > width) width = strlen(x->groups[g].text);
@@ -14885,13 +14881,13 @@ static void sdv_say_table(sdv_explainer *x)
         const sdv_group *group = &x->groups[g];
         size_t start = x->out->size;
         sdv_say(x->out, "    %s", group->text);
-        sdv_say_blanks(x, width + 2 - strlen(group->text));
+        sdv_put(x->out, blanks, width + 2 - strlen(group->text));
         sdv_say(x->out, group->size == 1 ? "vertex" : "vertices");
         for (int i = 0; i < group->size; i++) {
             if (x->out->size > start + 68) {
                 sdv_say(x->out, "\n");
                 start = x->out->size;
-                sdv_say_blanks(x, width + 14);
+                sdv_put(x->out, blanks, width + 14);
             }
             sdv_say(x->out, " %d", group->vertices[i]);
         }
@@ -15016,48 +15012,44 @@ static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
     sdv_say(x->out, "\n");
 }
 
-// Writes the formula of a vertex rule other than the standard one, if the mask has it.
-static int sdv_say_rule(sdv_explainer *x, sdv_mask mask, int n)
-{
-    static const char *const formulas[] = { NULL,
-        "Q/4 + R/2 + v/4  [CC78]\n", "Q/n + R/n + (n-2)/n v  [DS78]\n",
-        "(1 - n b) v + b (e1 + ... + en)  [Warren95]\n    b = 3/(8n), or 3/16 for n = 3\n",
-        "5/8 v + 3/(8n) (e1 + ... + en)\n" };
-    const double b = n == 3 ? 0.1875 : 0.375 / n, weights[][3] = { { 0, 0, 0 },
-        { 0.5, 0.25 / n, 0.25 / n }, { 1 - 1.5 / n, 0.5 / n / n, 1.0 / n / n },
-        { 1 - n * b, b, 0 }, { 0.625, 0.375 / n, 0 } };
-    const double *w = weights[x->rules.vertex_rule];
-    if (!sdv_has_weights(mask, w[0], w[1], w[2], 0)) return 0;
-    sdv_say(x->out, "%s%s    n = %d, by the vertex rule \"%s\"\n", formulas[x->rules.vertex_rule],
-            x->rules.loop ? "" : "    Q = (f1 + ... + fn)/n, R = v/2 + (e1 + ... + en)/(2n)\n", n,
-            sdv_vertex_rules[x->rules.vertex_rule]);
-    return 1;
-}
-
 // Writes the formula of a rule at a vertex of valence n: that of the paper, if the mask has it.
+// Formulas are numbered as in subdiv_vertex_rule, then come Loop, creases and corners.
+enum { SDV_SAYS_LOOP = SUBDIV_VERTEX_FIVE_EIGHTHS + 1, SDV_SAYS_CREASE, SDV_SAYS_CORNER };
+
 static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
 {
     sdv_fading stays = { rule, rule, 0 };
     sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
+    int loop = x->rules.loop, k = x->rules.vertex_rule;
+    double w = 1.0 / ((double)n * n), warren = n == 3 ? 0.1875 : 0.375 / n;
     double c = 0.375 + 0.25 * cos(6.283185307179586477 / n), b = (0.625 - c * c) / n;
-    double w = 1.0 / ((double)n * n);
+    const struct { const char *text; double self, edge, face, crease; } formulas[] = {
+        { "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2", (n - 2.0) / n, w, w, 0 },
+        { "Q/4 + R/2 + v/4  [CC78]\n", 0.5, 0.25 / n, 0.25 / n, 0 },
+        { "Q/n + R/n + (n-2)/n v  [DS78]\n", 1 - 1.5 / n, 0.5 / n / n, w, 0 },
+        { "(1 - n b) v + b (e1 + ... + en)  [Warren95]\n    b = 3/(8n), or 3/16 for n = 3\n",
+          1 - n * warren, warren, 0, 0 },
+        { "5/8 v + 3/(8n) (e1 + ... + en)\n", 0.625, 0.375 / n, 0, 0 },
+        { "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
+          "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n", 1 - n * b, b, 0, 0 },
+        { "(a + 6 v + b) / 8  [HDD94]\n", 0.75, 0, 0, 0.125 },
+        { "v\n", 1, 0, 0, 0 }
+    };
     char text[32];
-    sdv_say(x->out, "    %s = ", name);
-    if (rule == SDV_CORNER || x->rules.linear)
-        sdv_say(x->out, "v\n");
-    else if (rule == SDV_CREASE && sdv_has_weights(mask, 0.75, 0, 0, 0.125))
-        sdv_say(x->out, "(a + 6 v + b) / 8  [HDD94]\n");
-    else if (rule != SDV_CREASE && x->rules.vertex_rule && sdv_say_rule(x, mask, n))
-        return;
-    else if (rule != SDV_CREASE && x->rules.loop && sdv_has_weights(mask, 1 - n * b, b, 0, 0))
-        sdv_say(x->out, "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
-                "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
-                sdv_fraction(mask.edge, text), n);
-    else if (rule != SDV_CREASE && sdv_has_weights(mask, (n - 2.0) / n, w, w, 0))
-        sdv_say(x->out, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d"
-                "  [CC78]\n", n);
-    else
-        sdv_say_weights(x, mask);
+    if (k == 0 && loop) k = SDV_SAYS_LOOP;
+    if (rule == SDV_CREASE) k = SDV_SAYS_CREASE;
+    if (rule == SDV_CORNER || x->rules.linear) k = SDV_SAYS_CORNER;
+    int known = sdv_has_weights(mask, formulas[k].self, formulas[k].edge, formulas[k].face,
+                                formulas[k].crease);
+    sdv_say(x->out, "    %s = %s", name, known ? formulas[k].text : "");
+    if (!known) sdv_say_weights(x, mask);
+    else if (k == 0) sdv_say(x->out, ", n = %d  [CC78]\n", n);
+    else if (k == SDV_SAYS_LOOP)
+        sdv_say(x->out, " = %s for n = %d\n", sdv_fraction(mask.edge, text), n);
+    else if (k < SDV_SAYS_LOOP)
+        sdv_say(x->out, "%s    n = %d, by the vertex rule \"%s\"\n",
+                loop ? "" : "    Q = (f1 + ... + fn)/n, R = v/2 + (e1 + ... + en)/(2n)\n", n,
+                sdv_vertex_rules[k]);
 }
 
 // Says what the letters in the formulas of two rules stand for.
@@ -15110,9 +15102,8 @@ static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
 {
     const sdv_level *level = &x->cage.level;
     float sharpness = level->vertex_sharpness[v];
-    int implied = sharpness > SUBDIV_INFINITE, faces = level->vertex_faces[v];
     char edges[64] = "", text[48];
-    int sharp_edges = sdv_list_sharp_edges(level, v, edges);
+    int faces = level->vertex_faces[v], sharp_edges = sdv_list_sharp_edges(level, v, edges);
     if (x->rules.linear)
         sdv_say(x->out, "Refinement is linear: vertex %d stays where it is.\n", v);
     else if (rule == SDV_SMOOTH)
@@ -15127,11 +15118,10 @@ static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
                                                                         : "");
     else if (faces == 0)
         sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
-    else if (implied && x->cage.vertex_nonmanifold[v])
-        sdv_say(x->out, "Vertex %d is a corner: the surface is non-manifold there.\n", v);
-    else if (implied)
-        sdv_say(x->out, "Vertex %d is a corner: it has one face, and the rule is "
-                "\"edge and corner\".\n", v);
+    else if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x->out, "Vertex %d is a corner: %s.\n", v, x->cage.vertex_nonmanifold[v] ?
+                "the surface is non-manifold there" :
+                "it has one face, and the rule is \"edge and corner\"");
     else if (sharpness > 0)
         sdv_say(x->out, "Vertex %d is a corner, %s.\n", v, sdv_name_sharpness(sharpness, text));
     else
@@ -15146,6 +15136,7 @@ static void sdv_explain_vertex(sdv_explainer *x, int v)
     sdv_rule rule = fading.rule, next = fading.next;
     int n = x->cage.level.vertex_faces[v];
     char mean[32];
+    sdv_say(x->out, "vertex point of vertex %d.\n", v);
     sdv_say_vertex_rule(x, v, rule);
     if (rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear) {
         sdv_say(x->out, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
@@ -15183,16 +15174,14 @@ static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
                 triangles ? "  [OSD]" : "");
 }
 
-static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
+static void sdv_say_edge_rule(sdv_explainer *x, int h, const char *name, int stays_sharp)
 {
     const sdv_level *level = &x->cage.level;
-    int h = level->edge_first[e];
     float sharpness = level->sharpness[h];
-    char text[48], name[32];
-    sdv_name_edge(level, h, -1, name);
+    char text[48];
     if (x->rules.linear)
         sdv_say(x->out, "Refinement is linear: the edge point is the middle of edge %s.\n", name);
-    else if (x->cage.edge_nonmanifold[e])
+    else if (x->cage.edge_nonmanifold[x->item])
         sdv_say(x->out, "Edge %s is non-manifold, and so a crease.\n", name);
     else if (sdv_is_boundary(level, h))
         sdv_say(x->out, "Edge %s is on the boundary, which is a crease.\n", name);
@@ -15205,14 +15194,16 @@ static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
                 "\nIt ends before the next level, and so much of the point is still sharp:");
 }
 
-static void sdv_explain_edge(sdv_explainer *x, int e)
+static void sdv_explain_edge(sdv_explainer *x)
 {
     const sdv_level *level = &x->cage.level;
-    int h = level->edge_first[e];
+    int h = level->edge_first[x->item];
     float sharpness = level->sharpness[h];
     int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
-    sdv_say_edge_rule(x, e, stays_sharp);
+    char name[32];
+    sdv_say(x->out, "edge point of edge %s.\n", sdv_name_edge(level, h, -1, name));
+    sdv_say_edge_rule(x, h, name, stays_sharp);
     if (crease) {
         sdv_say(x->out, "\n    E = (a + b) / 2\n");
     } else if (sharpness <= 0) {
@@ -15228,25 +15219,11 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
             ", and f and g the face points beside it");
 }
 
-// Writes the first line, the words, the mask.
-static void sdv_explain_point(sdv_explainer *x, int point)
+static void sdv_explain_face(sdv_explainer *x, int f)
 {
-    const sdv_level *level = &x->cage.level;
-    char name[32];
-    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
-    if (x->kind == SDV_VERTEX_POINT) {
-        sdv_say(x->out, "vertex point of vertex %d.\n", point);
-        sdv_explain_vertex(x, point);
-    } else if (x->kind == SDV_EDGE_POINT) {
-        sdv_say(x->out, "edge point of edge %s.\n",
-                sdv_name_edge(level, level->edge_first[x->item], -1, name));
-        sdv_explain_edge(x, x->item);
-    } else {
-        int f = x->item, n = sdv_face_end(level, f) - sdv_face_start(level, f);
-        sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
-                "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
-    }
-    sdv_say_mask(x);
+    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
+    sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
+            "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
 }
 
 // Finds out of what vertex, edge or face a point is made.
@@ -15267,6 +15244,15 @@ static void sdv_find_point(sdv_explainer *x, int point)
     }
     sdv_fail(x->context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
              point, ranges);
+}
+
+static void sdv_explain_point(sdv_explainer *x, int point)
+{
+    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
+    if (x->kind == SDV_VERTEX_POINT) sdv_explain_vertex(x, x->item);
+    else if (x->kind == SDV_EDGE_POINT) sdv_explain_edge(x);
+    else sdv_explain_face(x, x->item);
+    sdv_say_mask(x);
 }
 
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
