@@ -1463,9 +1463,9 @@ static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
     return f;
 }
 
-// Finds the first of count numbers, each of 4 bytes, whose bits of the mask are not at least low
-// and below high; count if there is none. Looks at blocks of numbers without a branch for each:
-// bit 31 tells.
+// Finds the first of count numbers, each of 4 bytes, whose masked bits are below low or not below
+// high; count if there is none. For such a number one of two differences has bit 31 set, so a block
+// of numbers needs no branch for each.
 enum { SDV_CHECKED = 256 };
 
 static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask, int low, int high)
@@ -12422,7 +12422,7 @@ typedef struct sdv_generator {
     sdv_arena arena;
     sdv_cage cage;                      // without creases and corners
     double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
-    double limit;                       // radians
+    double most;                        // the largest angle that is no crease, in radians
     const char **groups;                // [face_count]      smoothing groups; "": none
 } sdv_generator;
 
@@ -12516,7 +12516,7 @@ static void sdv_face_normal(const float *positions, const sdv_level *level, int 
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
 
-// Is the angle between two faces above the limit? atan2 is exact for all angles, where a cosine
+// Is the angle between two faces too large? atan2 is exact for all angles, where a cosine
 // blurs the small ones.
 static int sdv_is_bent(const sdv_generator *generator, int h, int g)
 {
@@ -12525,7 +12525,7 @@ static int sdv_is_bent(const sdv_generator *generator, int h, int g)
     const double *b = generator->normals + 3 * (size_t)sdv_face_of(level, g);
     double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
     double z = a[0] * b[1] - a[1] * b[0], cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    return atan2(sqrt(x * x + y * y + z * z), cosine) > generator->limit;
+    return atan2(sqrt(x * x + y * y + z * z), cosine) > generator->most;
 }
 
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
@@ -12543,7 +12543,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     for (int f = 0; !context.result && f < mesh->face_count; f++)
         sdv_face_normal(mesh->positions, &generator.cage.level, f,
                         generator.normals + 3 * (size_t)f);
-    generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
+    generator.most = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
     return sdv_generator_end(&context, &generator, sdv_is_bent);
 }
 
@@ -12715,9 +12715,9 @@ typedef struct sdv_checker {
     unsigned char *repeats;             // [edge_count]  1: the first edge of several that have the
                                         //               same ends, as a face has it twice; 2: later
     int *crease_edges;                  // [crease_count]  -1: no edge
-    int *last;                          // [max of vertices, face-vertices]  marks of any things
-    int *heads;                         // [mask + 1]  a hash table of any things: the first one
-    int *next;                          // [as last]   of each hash, and the next one; or -1
+    int *last;                          // [max of vertices, face-vertices]  marks of items
+    int *heads;                         // [mask + 1]  a hash table of items: the latest of each
+    int *next;                          // [as last]   hash, and the one before each item; or -1
     size_t mask;
 } sdv_checker;
 
@@ -12939,34 +12939,29 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     }
 }
 
-// Reports entries of a list that name an item once more. items: how many there are, of edges
-// (ends: 2), vertices (1) or faces (0).
-static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int items,
-                             int ends, const char *format)
-{
-    int *last = checker->last;
-    for (int i = 0; i < items; i++) last[i] = -1;
-    for (int i = 0; i < count; i++) {
-        int item = list[i];
-        if (item < 0) continue;
-        int a = ends == 2 ? checker->ends[2 * item] : item;
-        int b = ends == 2 ? checker->ends[2 * item + 1] : -1;
-        if (last[item] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? a : -1, b,
-                      format, last[item], i, a, b);
-        last[item] = i;
-    }
-}
-
+// Reports the entries of each list that name the same edge, vertex or face once more.
 static void sdv_report_listed_twice(const sdv_checker *checker)
 {
     const subdiv_mesh *mesh = checker->mesh;
-    sdv_report_twice(checker, checker->crease_edges, mesh->crease_count,
-                     checker->cage.level.edge_count, 2, "creases %d and %d are both edge %d-%d");
-    sdv_report_twice(checker, mesh->corner_vertices, mesh->corner_count, mesh->vertex_count, 1,
-                     "corners %d and %d are both vertex %d");
-    sdv_report_twice(checker, mesh->holes, mesh->hole_count, mesh->face_count, 0,
-                     "holes %d and %d are both face %d");
+    const struct { const char *text; const int *items; int count, all; } lists[] = {
+        { "creases %d and %d are both edge %d-%d", checker->crease_edges, mesh->crease_count,
+          checker->cage.level.edge_count },
+        { "corners %d and %d are both vertex %d", mesh->corner_vertices, mesh->corner_count,
+          mesh->vertex_count },
+        { "holes %d and %d are both face %d", mesh->holes, mesh->hole_count, mesh->face_count }
+    };
+    for (int k = 0, *last = checker->last; k < 3; k++) {
+        for (int i = 0; i < lists[k].all; i++) last[i] = -1;
+        for (int i = 0; i < lists[k].count; i++) {
+            int item = lists[k].items[i];
+            if (item < 0) continue;
+            int a = k ? item : checker->ends[2 * item], b = k ? -1 : checker->ends[2 * item + 1];
+            if (last[item] >= 0)
+                sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, k == 2 ? a : -1, -1, k < 2 ? a : -1, b,
+                          lists[k].text, last[item], i, a, b);
+            last[item] = i;
+        }
+    }
 }
 
 static void sdv_report_partial_uvs(const sdv_checker *checker)
@@ -12981,26 +12976,17 @@ static void sdv_report_partial_uvs(const sdv_checker *checker)
     }
 }
 
-static int sdv_same_ends(const sdv_checker *checker, int d, int e)
-{
-    return memcmp(checker->ends + 2 * (size_t)d, checker->ends + 2 * (size_t)e,
-                  2 * sizeof(int)) == 0;
-}
-
-// Finds the ends of each edge. If an edge before it has the same, a face has both.
+// Finds the ends of each edge, and the edges that a face has more than once.
 static void sdv_find_ends(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
-    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], a = level->face_vertices[h];
         int b = level->face_vertices[sdv_next(level, h)], *ends = checker->ends + 2 * (size_t)e;
+        int first = checker->cage.edge_nonmanifold[e] ? sdv_find_edge(level, a, b) : e;
         ends[0] = a < b ? a : b;
         ends[1] = a < b ? b : a;
         checker->repeats[e] = 0;
-        if (!checker->cage.edge_nonmanifold[e]) continue;
-        uint64_t hash = sdv_mix(((uint64_t)ends[0] << 32) + (uint64_t)ends[1]);
-        int first = sdv_first_same(checker, e, hash, sdv_same_ends);
         if (first == e) continue;
         checker->repeats[first] = 1;
         checker->repeats[e] = 2;
