@@ -1454,15 +1454,6 @@ static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
                  sdv_vertex_rules[rule], loop ? "Loop" : "Catmull-Clark");
 }
 
-// Finds the face that a face-vertex belongs to.
-static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
-{
-    int f = 0;
-    for (size_t size; face_vertex >= (size = (size_t)sdv_face_size(mesh, f)); f++)
-        face_vertex -= size;
-    return f;
-}
-
 // Finds the first of count numbers, each of 4 bytes, whose masked bits are below low or not below
 // high; count if there is none. For such a number one of two differences has bit 31 set, so a block
 // of numbers needs no branch for each.
@@ -1500,10 +1491,11 @@ static size_t sdv_find_exponent(const float *numbers, size_t count, int exponent
 static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const int *indices,
                               int low, int count, const char *message)
 {
-    size_t all = sdv_face_vertex_count(mesh);
+    size_t all = sdv_face_vertex_count(mesh), end = 0;
     size_t i = sdv_find_outside(indices, all, 0xffffffff, low, count);
+    int f = -1;
     if (i == all) return;
-    int f = sdv_find_face(mesh, i);
+    while (end <= i) end += (size_t)sdv_face_size(mesh, ++f);
     sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, low ? -1 : indices[i], message, f, indices[i],
                   count);
 }
@@ -15006,7 +14998,7 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
 {
     sdv_fading stays = { rule, rule, 0 };
     sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
-    int loop = x->rules.loop, k = x->rules.vertex_rule;
+    int loop = x->rules.loop, k = (int)x->rules.vertex_rule;
     double w = 1.0 / ((double)n * n), warren = n == 3 ? 0.1875 : 0.375 / n;
     double c = 0.375 + 0.25 * cos(6.283185307179586477 / n), b = (0.625 - c * c) / n;
     const struct { const char *text; double self, edge, face, crease; } formulas[] = {
