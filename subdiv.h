@@ -12504,20 +12504,20 @@ static void sdv_face_normal(const float *positions, const sdv_level *level, int 
 {
     int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
     double n[3], error = sdv_area_normal(positions, level->face_vertices + start, size, n);
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double length = sqrt(sdv_dot3(n, n));
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
 
-// Is the angle between two faces too large? atan2 is exact for all angles, where a cosine
-// blurs the small ones.
+// Is the angle between two faces too large? atan2 is exact for all angles, where a cosine blurs the
+// small ones.
 static int sdv_is_bent(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
     const double *a = generator->normals + 3 * (size_t)sdv_face_of(level, h);
     const double *b = generator->normals + 3 * (size_t)sdv_face_of(level, g);
-    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
-    double z = a[0] * b[1] - a[1] * b[0], cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    return atan2(sqrt(x * x + y * y + z * z), cosine) > generator->most;
+    double n[3];
+    sdv_cross(a, b, n);
+    return atan2(sqrt(sdv_dot3(n, n)), sdv_dot3(a, b)) > generator->most;
 }
 
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
