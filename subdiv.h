@@ -1458,18 +1458,9 @@ static void sdv_check_rules(sdv_context *context, const subdiv_mesh *mesh)
                  sdv_vertex_rules[rule], loop ? "Loop" : "Catmull-Clark");
 }
 
-// Finds the face that a face-vertex belongs to.
-static int sdv_find_face(const subdiv_mesh *mesh, size_t face_vertex)
-{
-    int f = 0;
-    for (size_t size; face_vertex >= (size = (size_t)sdv_face_size(mesh, f)); f++)
-        face_vertex -= size;
-    return f;
-}
-
-// Finds the first of count numbers, each of 4 bytes, whose bits of the mask are not at least low
-// and below high; count if there is none. Looks at blocks of numbers without a branch for each:
-// bit 31 tells.
+// Finds the first of count numbers, each of 4 bytes, whose masked bits are below low or not below
+// high; count if there is none. For such a number one of two differences has bit 31 set, so a block
+// of numbers needs no branch for each.
 enum { SDV_CHECKED = 256 };
 
 static size_t sdv_find_outside(const void *numbers, size_t count, uint32_t mask, int low, int high)
@@ -1504,10 +1495,11 @@ static size_t sdv_find_exponent(const float *numbers, size_t count, int exponent
 static void sdv_check_indices(sdv_context *context, const subdiv_mesh *mesh, const int *indices,
                               int low, int count, const char *message)
 {
-    size_t all = sdv_face_vertex_count(mesh);
+    size_t all = sdv_face_vertex_count(mesh), end = 0;
     size_t i = sdv_find_outside(indices, all, 0xffffffff, low, count);
+    int f = -1;
     if (i == all) return;
-    int f = sdv_find_face(mesh, i);
+    while (end <= i) end += (size_t)sdv_face_size(mesh, ++f);
     sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, f, low ? -1 : indices[i], message, f, indices[i],
                   count);
 }
@@ -1878,14 +1870,6 @@ static int sdv_find_edge(const sdv_level *level, int a, int b)
 {
     int v = sdv_smaller_end(level, a, b);
     return sdv_listed(level, v, v == a ? b : a);
-}
-
-// The edges between many pairs of vertices.
-static inline void sdv_find_edges(sdv_context *context, const sdv_level *level, const int *pairs,
-                                  int count, int *found)
-{
-    for (int i = 0; i < count && !context->result; i++)
-        found[i] = sdv_find_edge(level, pairs[2 * i], pairs[2 * i + 1]);
 }
 
 // Takes face-vertex h as the first of a new edge, at v, its smaller end.
@@ -12645,7 +12629,7 @@ typedef struct sdv_generator {
     sdv_arena arena;
     sdv_cage cage;                      // without creases and corners
     double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
-    double limit;                       // radians
+    double most;                        // the largest angle that is no crease, in radians
     const char **groups;                // [face_count]      smoothing groups; "": none
 } sdv_generator;
 
@@ -12683,19 +12667,20 @@ static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
     subdiv_mesh *mesh = generator->mesh;
     sdv_arena owned = sdv_new_arena(0);
     owned.blocks = (sdv_block *)mesh->memory;
-    int *listed = SDV_NEW(context, &generator->arena, int, mesh->crease_count);
     int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
     int *found = SDV_NEW(context, &generator->arena, int, level->edge_count);
     size_t count = (size_t)mesh->crease_count, finds = 0;
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count, listed);
     if (context->result) return;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], g = sdv_across(level, h);
         if (g >= 0 && is_crease(generator, h, g)) found[finds++] = e;
         entry[e] = -1;
     }
-    for (int i = 0; i < mesh->crease_count; i++)
-        if (listed[i] >= 0) entry[listed[i]] = i;   // the last one counts
+    for (int i = 0; i < mesh->crease_count; i++) {
+        const int *ends = mesh->crease_vertices + 2 * (size_t)i;
+        int e = sdv_find_edge(level, ends[0], ends[1]);
+        if (e >= 0) entry[e] = i;                   // the last one counts
+    }
     if (finds == 0) return;
     if (count + finds > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
     int *vertices = (int *)sdv_new(context, &owned, count + finds, 2 * sizeof(int) + sizeof(float));
@@ -12734,20 +12719,20 @@ static void sdv_face_normal(const float *positions, const sdv_level *level, int 
 {
     int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
     double n[3], error = sdv_area_normal(positions, level->face_vertices + start, size, n);
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    double length = sqrt(sdv_dot3(n, n));
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
 
-// Is the angle between two faces above the limit? atan2 is exact for all angles, where a cosine
-// blurs the small ones.
+// Is the angle between two faces too large? atan2 is exact for all angles, where a cosine blurs the
+// small ones.
 static int sdv_is_bent(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
     const double *a = generator->normals + 3 * (size_t)sdv_face_of(level, h);
     const double *b = generator->normals + 3 * (size_t)sdv_face_of(level, g);
-    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
-    double z = a[0] * b[1] - a[1] * b[0], cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    return atan2(sqrt(x * x + y * y + z * z), cosine) > generator->limit;
+    double n[3];
+    sdv_cross(a, b, n);
+    return atan2(sqrt(sdv_dot3(n, n)), sdv_dot3(a, b)) > generator->most;
 }
 
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
@@ -12765,7 +12750,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     for (int f = 0; !context.result && f < mesh->face_count; f++)
         sdv_face_normal(mesh->positions, &generator.cage.level, f,
                         generator.normals + 3 * (size_t)f);
-    generator.limit = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
+    generator.most = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
     return sdv_generator_end(&context, &generator, sdv_is_bent);
 }
 
@@ -12934,11 +12919,12 @@ typedef struct sdv_checker {
     subdiv_report report;
     void *user;
     int *ends;                          // [2 * edge_count]  vertices of each edge, the lower first
-    int *first;                         // [edge_count]  the first edge with the same ends
+    unsigned char *repeats;             // [edge_count]  1: the first edge of several that have the
+                                        //               same ends, as a face has it twice; 2: later
     int *crease_edges;                  // [crease_count]  -1: no edge
-    int *last;                          // [max of vertices, face-vertices]  marks of any things
-    int *heads;                         // [mask + 1]  a hash table of any things: the first one
-    int *next;                          // [as last]   of each hash, and the next one; or -1
+    int *last;                          // [max of vertices, face-vertices]  marks of items
+    int *heads;                         // [mask + 1]  a hash table of items: the latest of each
+    int *next;                          // [as last]   hash, and the one before each item; or -1
     size_t mask;
 } sdv_checker;
 
@@ -12980,15 +12966,10 @@ static void sdv_report_nonmanifold_edges(const sdv_checker *checker)
 static void sdv_report_flipped_faces(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
-    int *twice = checker->last;
-    for (int e = 0; e < level->edge_count; e++) {
-        twice[e] = 0;
-        if (checker->first[e] != e) twice[checker->first[e]] = 1;
-    }
     for (int e = 0; e < level->edge_count; e++) {
         const int *ends = checker->ends + 2 * (size_t)e;
         int h = level->edge_first[e], k = level->across[h];
-        if (k == h || level->across[k] != h || twice[e]) continue;
+        if (k == h || level->across[k] != h || checker->repeats[e] == 1) continue;
         if (level->face_vertices[h] != level->face_vertices[k]) continue;
         int f = sdv_face_of(level, h), g = sdv_face_of(level, k);
         sdv_found(checker, SUBDIV_ODD_FLIPPED_FACE, f, g, ends[0], ends[1],
@@ -13091,7 +13072,7 @@ static void sdv_report_repeated_vertices(const sdv_checker *checker)
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++) {
             int v = level->face_vertices[h], e = level->face_edges[h];
             if (in_row < 0 && v == level->face_vertices[sdv_next(level, h)]) in_row = v;
-            if (edge < 0 && checker->first[e] != e) edge = e;
+            if (edge < 0 && checker->repeats[e] == 2) edge = e;
             if (vertex < 0 && checker->last[v] == f) vertex = v;
             checker->last[v] = f;
         }
@@ -13158,40 +13139,36 @@ static void sdv_report_stray_creases(const sdv_checker *checker)
     const subdiv_mesh *mesh = checker->mesh;
     for (int i = 0; i < mesh->crease_count; i++) {
         const int *ends = mesh->crease_vertices + 2 * (size_t)i;
+        checker->crease_edges[i] = sdv_find_edge(&checker->cage.level, ends[0], ends[1]);
         if (checker->crease_edges[i] < 0)
             sdv_found(checker, SUBDIV_ODD_STRAY_CREASE, -1, -1, ends[0], ends[1],
                       "crease %d: no edge joins vertices %d and %d", i, ends[0], ends[1]);
     }
 }
 
-// Reports entries of a list that name an item once more. items: how many there are, of edges
-// (ends: 2), vertices (1) or faces (0).
-static void sdv_report_twice(const sdv_checker *checker, const int *list, int count, int items,
-                             int ends, const char *format)
-{
-    int *last = checker->last;
-    for (int i = 0; i < items; i++) last[i] = -1;
-    for (int i = 0; i < count; i++) {
-        int item = list[i];
-        if (item < 0) continue;
-        int a = ends == 2 ? checker->ends[2 * item] : item;
-        int b = ends == 2 ? checker->ends[2 * item + 1] : -1;
-        if (last[item] >= 0)
-            sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, ends ? -1 : item, -1, ends ? a : -1, b,
-                      format, last[item], i, a, b);
-        last[item] = i;
-    }
-}
-
+// Reports the entries of each list that name the same edge, vertex or face once more.
 static void sdv_report_listed_twice(const sdv_checker *checker)
 {
     const subdiv_mesh *mesh = checker->mesh;
-    sdv_report_twice(checker, checker->crease_edges, mesh->crease_count,
-                     checker->cage.level.edge_count, 2, "creases %d and %d are both edge %d-%d");
-    sdv_report_twice(checker, mesh->corner_vertices, mesh->corner_count, mesh->vertex_count, 1,
-                     "corners %d and %d are both vertex %d");
-    sdv_report_twice(checker, mesh->holes, mesh->hole_count, mesh->face_count, 0,
-                     "holes %d and %d are both face %d");
+    const struct { const char *text; const int *items; int count, all; } lists[] = {
+        { "creases %d and %d are both edge %d-%d", checker->crease_edges, mesh->crease_count,
+          checker->cage.level.edge_count },
+        { "corners %d and %d are both vertex %d", mesh->corner_vertices, mesh->corner_count,
+          mesh->vertex_count },
+        { "holes %d and %d are both face %d", mesh->holes, mesh->hole_count, mesh->face_count }
+    };
+    for (int k = 0, *last = checker->last; k < 3; k++) {
+        for (int i = 0; i < lists[k].all; i++) last[i] = -1;
+        for (int i = 0; i < lists[k].count; i++) {
+            int item = lists[k].items[i];
+            if (item < 0) continue;
+            int a = k ? item : checker->ends[2 * item], b = k ? -1 : checker->ends[2 * item + 1];
+            if (last[item] >= 0)
+                sdv_found(checker, SUBDIV_ODD_LISTED_TWICE, k == 2 ? a : -1, -1, k < 2 ? a : -1, b,
+                          lists[k].text, last[item], i, a, b);
+            last[item] = i;
+        }
+    }
 }
 
 static void sdv_report_partial_uvs(const sdv_checker *checker)
@@ -13206,26 +13183,20 @@ static void sdv_report_partial_uvs(const sdv_checker *checker)
     }
 }
 
-static int sdv_same_ends(const sdv_checker *checker, int d, int e)
-{
-    return memcmp(checker->ends + 2 * (size_t)d, checker->ends + 2 * (size_t)e,
-                  2 * sizeof(int)) == 0;
-}
-
-// Finds the ends of each edge and the first edge that has them: another one if a face has it twice.
+// Finds the ends of each edge, and the edges that a face has more than once.
 static void sdv_find_ends(const sdv_checker *checker)
 {
     const sdv_level *level = &checker->cage.level;
-    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], a = level->face_vertices[h];
-        int b = level->face_vertices[sdv_next(level, h)], low = a < b ? a : b;
-        checker->ends[2 * e] = low;
-        checker->ends[2 * e + 1] = a + b - low;
-        checker->first[e] = e;
-        if (checker->cage.edge_nonmanifold[e])
-            checker->first[e] = sdv_first_same(checker, e, sdv_mix(((uint64_t)low << 32) +
-                                               (uint64_t)(a + b - low)), sdv_same_ends);
+        int b = level->face_vertices[sdv_next(level, h)], *ends = checker->ends + 2 * (size_t)e;
+        int first = checker->cage.edge_nonmanifold[e] ? sdv_find_edge(level, a, b) : e;
+        ends[0] = a < b ? a : b;
+        ends[1] = a < b ? b : a;
+        checker->repeats[e] = 0;
+        if (first == e) continue;
+        checker->repeats[first] = 1;
+        checker->repeats[e] = 2;
     }
 }
 
@@ -13240,13 +13211,11 @@ static void sdv_checker_begin(sdv_context *context, sdv_arena *arena, sdv_checke
     checker->mask = 1;
     while (checker->mask < (size_t)items) checker->mask = 2 * checker->mask + 1;
     checker->ends = SDV_NEW(context, arena, int, 2 * (size_t)edges);
-    checker->first = SDV_NEW(context, arena, int, edges);
+    checker->repeats = SDV_NEW(context, arena, unsigned char, edges);
     checker->crease_edges = SDV_NEW(context, arena, int, mesh->crease_count);
     checker->last = SDV_NEW(context, arena, int, items);
     checker->heads = SDV_NEW(context, arena, int, checker->mask + 1);
     checker->next = SDV_NEW(context, arena, int, items);
-    sdv_find_edges(context, level, mesh->crease_vertices, mesh->crease_count,
-                   checker->crease_edges);
     if (!context->result) sdv_find_ends(checker);
 }
 
@@ -15094,14 +15063,10 @@ static void sdv_find_groups(sdv_explainer *x)
     }
 }
 
-static void sdv_say_blanks(sdv_explainer *x, size_t count)
-{
-    while (count--) sdv_say(x->out, " ");
-}
-
-// Writes one line for each weight, with all the vertices that have it.
+// Writes one line for each weight, with all the vertices that have it. Longer ones go on under it.
 static void sdv_say_table(sdv_explainer *x)
 {
+    static const char blanks[] = "                                                ";
     size_t width = 6;                               // of the weights
     for (int g = 0; g < x->group_count; g++)
         if (strlen(x->groups[g].text) > width) width = strlen(x->groups[g].text);
@@ -15109,13 +15074,13 @@ static void sdv_say_table(sdv_explainer *x)
         const sdv_group *group = &x->groups[g];
         size_t start = x->out->size;
         sdv_say(x->out, "    %s", group->text);
-        sdv_say_blanks(x, width + 2 - strlen(group->text));
+        sdv_put(x->out, blanks, width + 2 - strlen(group->text));
         sdv_say(x->out, group->size == 1 ? "vertex" : "vertices");
         for (int i = 0; i < group->size; i++) {
             if (x->out->size > start + 68) {
                 sdv_say(x->out, "\n");
                 start = x->out->size;
-                sdv_say_blanks(x, width + 14);
+                sdv_put(x->out, blanks, width + 14);
             }
             sdv_say(x->out, " %d", group->vertices[i]);
         }
@@ -15240,48 +15205,44 @@ static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
     sdv_say(x->out, "\n");
 }
 
-// Writes the formula of a vertex rule other than the standard one, if the mask has it.
-static int sdv_say_rule(sdv_explainer *x, sdv_mask mask, int n)
-{
-    static const char *const formulas[] = { NULL,
-        "Q/4 + R/2 + v/4  [CC78]\n", "Q/n + R/n + (n-2)/n v  [DS78]\n",
-        "(1 - n b) v + b (e1 + ... + en)  [Warren95]\n    b = 3/(8n), or 3/16 for n = 3\n",
-        "5/8 v + 3/(8n) (e1 + ... + en)\n" };
-    const double b = n == 3 ? 0.1875 : 0.375 / n, weights[][3] = { { 0, 0, 0 },
-        { 0.5, 0.25 / n, 0.25 / n }, { 1 - 1.5 / n, 0.5 / n / n, 1.0 / n / n },
-        { 1 - n * b, b, 0 }, { 0.625, 0.375 / n, 0 } };
-    const double *w = weights[x->rules.vertex_rule];
-    if (!sdv_has_weights(mask, w[0], w[1], w[2], 0)) return 0;
-    sdv_say(x->out, "%s%s    n = %d, by the vertex rule \"%s\"\n", formulas[x->rules.vertex_rule],
-            x->rules.loop ? "" : "    Q = (f1 + ... + fn)/n, R = v/2 + (e1 + ... + en)/(2n)\n", n,
-            sdv_vertex_rules[x->rules.vertex_rule]);
-    return 1;
-}
-
 // Writes the formula of a rule at a vertex of valence n: that of the paper, if the mask has it.
+// Formulas are numbered as in subdiv_vertex_rule, then come Loop, creases and corners.
+enum { SDV_SAYS_LOOP = SUBDIV_VERTEX_FIVE_EIGHTHS + 1, SDV_SAYS_CREASE, SDV_SAYS_CORNER };
+
 static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
 {
     sdv_fading stays = { rule, rule, 0 };
     sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
+    int loop = x->rules.loop, k = (int)x->rules.vertex_rule;
+    double w = 1.0 / ((double)n * n), warren = n == 3 ? 0.1875 : 0.375 / n;
     double c = 0.375 + 0.25 * cos(6.283185307179586477 / n), b = (0.625 - c * c) / n;
-    double w = 1.0 / ((double)n * n);
+    const struct { const char *text; double self, edge, face, crease; } formulas[] = {
+        { "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2", (n - 2.0) / n, w, w, 0 },
+        { "Q/4 + R/2 + v/4  [CC78]\n", 0.5, 0.25 / n, 0.25 / n, 0 },
+        { "Q/n + R/n + (n-2)/n v  [DS78]\n", 1 - 1.5 / n, 0.5 / n / n, w, 0 },
+        { "(1 - n b) v + b (e1 + ... + en)  [Warren95]\n    b = 3/(8n), or 3/16 for n = 3\n",
+          1 - n * warren, warren, 0, 0 },
+        { "5/8 v + 3/(8n) (e1 + ... + en)\n", 0.625, 0.375 / n, 0, 0 },
+        { "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
+          "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n", 1 - n * b, b, 0, 0 },
+        { "(a + 6 v + b) / 8  [HDD94]\n", 0.75, 0, 0, 0.125 },
+        { "v\n", 1, 0, 0, 0 }
+    };
     char text[32];
-    sdv_say(x->out, "    %s = ", name);
-    if (rule == SDV_CORNER || x->rules.linear)
-        sdv_say(x->out, "v\n");
-    else if (rule == SDV_CREASE && sdv_has_weights(mask, 0.75, 0, 0, 0.125))
-        sdv_say(x->out, "(a + 6 v + b) / 8  [HDD94]\n");
-    else if (rule != SDV_CREASE && x->rules.vertex_rule && sdv_say_rule(x, mask, n))
-        return;
-    else if (rule != SDV_CREASE && x->rules.loop && sdv_has_weights(mask, 1 - n * b, b, 0, 0))
-        sdv_say(x->out, "(1 - n b) v + b (e1 + ... + en)  [Loop87]\n"
-                "    b = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n = %s for n = %d\n",
-                sdv_fraction(mask.edge, text), n);
-    else if (rule != SDV_CREASE && sdv_has_weights(mask, (n - 2.0) / n, w, w, 0))
-        sdv_say(x->out, "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2, n = %d"
-                "  [CC78]\n", n);
-    else
-        sdv_say_weights(x, mask);
+    if (k == 0 && loop) k = SDV_SAYS_LOOP;
+    if (rule == SDV_CREASE) k = SDV_SAYS_CREASE;
+    if (rule == SDV_CORNER || x->rules.linear) k = SDV_SAYS_CORNER;
+    int known = sdv_has_weights(mask, formulas[k].self, formulas[k].edge, formulas[k].face,
+                                formulas[k].crease);
+    sdv_say(x->out, "    %s = %s", name, known ? formulas[k].text : "");
+    if (!known) sdv_say_weights(x, mask);
+    else if (k == 0) sdv_say(x->out, ", n = %d  [CC78]\n", n);
+    else if (k == SDV_SAYS_LOOP)
+        sdv_say(x->out, " = %s for n = %d\n", sdv_fraction(mask.edge, text), n);
+    else if (k < SDV_SAYS_LOOP)
+        sdv_say(x->out, "%s    n = %d, by the vertex rule \"%s\"\n",
+                loop ? "" : "    Q = (f1 + ... + fn)/n, R = v/2 + (e1 + ... + en)/(2n)\n", n,
+                sdv_vertex_rules[k]);
 }
 
 // Says what the letters in the formulas of two rules stand for.
@@ -15334,9 +15295,8 @@ static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
 {
     const sdv_level *level = &x->cage.level;
     float sharpness = level->vertex_sharpness[v];
-    int implied = sharpness > SUBDIV_INFINITE, faces = level->vertex_faces[v];
     char edges[64] = "", text[48];
-    int sharp_edges = sdv_list_sharp_edges(level, v, edges);
+    int faces = level->vertex_faces[v], sharp_edges = sdv_list_sharp_edges(level, v, edges);
     if (x->rules.linear)
         sdv_say(x->out, "Refinement is linear: vertex %d stays where it is.\n", v);
     else if (rule == SDV_SMOOTH)
@@ -15351,11 +15311,10 @@ static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
                                                                         : "");
     else if (faces == 0)
         sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
-    else if (implied && x->cage.vertex_nonmanifold[v])
-        sdv_say(x->out, "Vertex %d is a corner: the surface is non-manifold there.\n", v);
-    else if (implied)
-        sdv_say(x->out, "Vertex %d is a corner: it has one face, and the rule is "
-                "\"edge and corner\".\n", v);
+    else if (sharpness > SUBDIV_INFINITE)
+        sdv_say(x->out, "Vertex %d is a corner: %s.\n", v, x->cage.vertex_nonmanifold[v] ?
+                "the surface is non-manifold there" :
+                "it has one face, and the rule is \"edge and corner\"");
     else if (sharpness > 0)
         sdv_say(x->out, "Vertex %d is a corner, %s.\n", v, sdv_name_sharpness(sharpness, text));
     else
@@ -15370,6 +15329,7 @@ static void sdv_explain_vertex(sdv_explainer *x, int v)
     sdv_rule rule = fading.rule, next = fading.next;
     int n = x->cage.level.vertex_faces[v];
     char mean[32];
+    sdv_say(x->out, "vertex point of vertex %d.\n", v);
     sdv_say_vertex_rule(x, v, rule);
     if (rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear) {
         sdv_say(x->out, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
@@ -15407,16 +15367,14 @@ static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
                 triangles ? "  [OSD]" : "");
 }
 
-static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
+static void sdv_say_edge_rule(sdv_explainer *x, int h, const char *name, int stays_sharp)
 {
     const sdv_level *level = &x->cage.level;
-    int h = level->edge_first[e];
     float sharpness = level->sharpness[h];
-    char text[48], name[32];
-    sdv_name_edge(level, h, -1, name);
+    char text[48];
     if (x->rules.linear)
         sdv_say(x->out, "Refinement is linear: the edge point is the middle of edge %s.\n", name);
-    else if (x->cage.edge_nonmanifold[e])
+    else if (x->cage.edge_nonmanifold[x->item])
         sdv_say(x->out, "Edge %s is non-manifold, and so a crease.\n", name);
     else if (sdv_is_boundary(level, h))
         sdv_say(x->out, "Edge %s is on the boundary, which is a crease.\n", name);
@@ -15429,14 +15387,16 @@ static void sdv_say_edge_rule(sdv_explainer *x, int e, int stays_sharp)
                 "\nIt ends before the next level, and so much of the point is still sharp:");
 }
 
-static void sdv_explain_edge(sdv_explainer *x, int e)
+static void sdv_explain_edge(sdv_explainer *x)
 {
     const sdv_level *level = &x->cage.level;
-    int h = level->edge_first[e];
+    int h = level->edge_first[x->item];
     float sharpness = level->sharpness[h];
     int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
     int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
-    sdv_say_edge_rule(x, e, stays_sharp);
+    char name[32];
+    sdv_say(x->out, "edge point of edge %s.\n", sdv_name_edge(level, h, -1, name));
+    sdv_say_edge_rule(x, h, name, stays_sharp);
     if (crease) {
         sdv_say(x->out, "\n    E = (a + b) / 2\n");
     } else if (sharpness <= 0) {
@@ -15452,25 +15412,11 @@ static void sdv_explain_edge(sdv_explainer *x, int e)
             ", and f and g the face points beside it");
 }
 
-// Writes the first line, the words, the mask.
-static void sdv_explain_point(sdv_explainer *x, int point)
+static void sdv_explain_face(sdv_explainer *x, int f)
 {
-    const sdv_level *level = &x->cage.level;
-    char name[32];
-    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
-    if (x->kind == SDV_VERTEX_POINT) {
-        sdv_say(x->out, "vertex point of vertex %d.\n", point);
-        sdv_explain_vertex(x, point);
-    } else if (x->kind == SDV_EDGE_POINT) {
-        sdv_say(x->out, "edge point of edge %s.\n",
-                sdv_name_edge(level, level->edge_first[x->item], -1, name));
-        sdv_explain_edge(x, x->item);
-    } else {
-        int f = x->item, n = sdv_face_end(level, f) - sdv_face_start(level, f);
-        sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
-                "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
-    }
-    sdv_say_mask(x);
+    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
+    sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
+            "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
 }
 
 // Finds out of what vertex, edge or face a point is made.
@@ -15491,6 +15437,15 @@ static void sdv_find_point(sdv_explainer *x, int point)
     }
     sdv_fail(x->context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
              point, ranges);
+}
+
+static void sdv_explain_point(sdv_explainer *x, int point)
+{
+    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
+    if (x->kind == SDV_VERTEX_POINT) sdv_explain_vertex(x, x->item);
+    else if (x->kind == SDV_EDGE_POINT) sdv_explain_edge(x);
+    else sdv_explain_face(x, x->item);
+    sdv_say_mask(x);
 }
 
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
