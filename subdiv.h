@@ -1118,11 +1118,11 @@ static size_t sdv_bytes(size_t count, size_t item)
     return count <= (size_t)PTRDIFF_MAX / item ? count * item : (size_t)PTRDIFF_MAX;
 }
 
-// Allocates a block with room for size bytes. NULL when out of memory.
+// Allocates a block with room for size bytes. NULL when out of memory, and after an error.
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
-    if (size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
+    if (!context->result && size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
         block = (sdv_block *)SUBDIV_MALLOC(size + sizeof(sdv_block), context->user);
     if (!block) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
@@ -1147,7 +1147,7 @@ static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
 // Makes sure that the next arrays of an arena, size bytes in all, come from one block.
 static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 {
-    if (SDV_SEPARATE || context->result || size <= arena->left) return;
+    if (SDV_SEPARATE || size <= arena->left) return;
     if (size < arena->chunk) size = arena->chunk;
     if (arena->chunk) arena->chunk *= 2;
     sdv_add_block(context, arena, size);
@@ -1157,10 +1157,8 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
     size_t size = sdv_bytes(count, item);
-    if (context->result) return NULL;
-    if (!SDV_SEPARATE) size = (size + 16) / 16 * 16;
     if (SDV_SEPARATE) sdv_add_block(context, arena, size);
-    else sdv_reserve(context, arena, size);
+    else sdv_reserve(context, arena, size = (size + 16) / 16 * 16);
     if (context->result) return NULL;
     char *array = arena->free;
     arena->free += size;
@@ -1204,7 +1202,7 @@ static void sdv_array_free(sdv_array *array)
 // memory.
 static int sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
 {
-    sdv_block *block = context->result ? NULL : sdv_allocate(context, sdv_bytes(capacity, item));
+    sdv_block *block = sdv_allocate(context, sdv_bytes(capacity, item));
     if (!block) return 0;
     sdv_copy(block + 1, sdv_items(array), array->count, item);
     sdv_array_free(array);
@@ -1304,8 +1302,8 @@ static char *sdv_digits(char *end, uint64_t number)
     return end;
 }
 
-// Adds text as printf does, without locale or stdio. %d: int; %s: text; %t: pointer and int, so
-// many bytes, cut short after 40.
+// Adds text as printf does, without locale or stdio. %d: int; %s: text; %t: two pointers, the text
+// from the one to the other, cut short after 40 bytes.
 static void sdv_format(sdv_text *out, const char *format, va_list args)
 {
     for (const char *p = format; *p; p++) {
@@ -1319,9 +1317,10 @@ static void sdv_format(sdv_text *out, const char *format, va_list args)
             sdv_put(out, first, (size_t)(end - first));
         } else {
             const char *text = va_arg(args, const char *);
-            int size = *p == 't' ? va_arg(args, int) : 0;
-            sdv_put(out, text, *p == 's' ? strlen(text) : (size_t)(size < 40 ? size : 40));
-            if (size > 40) sdv_put(out, "...", 3);
+            const char *end = *p == 't' ? va_arg(args, const char *) : text + strlen(text);
+            int cut = *p == 't' && end - text > 40;
+            sdv_put(out, text, cut ? 40 : (size_t)(end - text));
+            if (cut) sdv_put(out, "...", 3);
         }
     }
 }
@@ -13241,10 +13240,8 @@ SDV_INLINE const char *sdv_read_integer(const char *p, int64_t *out)
 {
     const char sign = *p, *first = p += sign == '-' || sign == '+';
     uint64_t number = 0, digit;
-    for (; (digit = (unsigned char)*p - (uint64_t)'0') < 10; p++) number = number * 10 + digit;
-    if (p - first > 18)
-        for (number = 0, p = first; sdv_is_digit(*p); p++)
-            if (number < INT64_MAX / 100) number = number * 10 + (uint64_t)(*p - '0');
+    for (; (digit = (unsigned char)*p - (uint64_t)'0') < 10; p++)
+        if (number < INT64_MAX / 100) number = number * 10 + digit;
     *out = sign == '-' ? -(int64_t)number : (int64_t)number;
     return p > first ? p : NULL;
 }
@@ -13701,11 +13698,6 @@ static int sdv_token_is(sdv_token token, const char *text)
     return token.begin == token.end && (*text == 0 || *text == ' ');
 }
 
-static int sdv_length(const char *begin, const char *end)
-{
-    return end - begin < 1000 ? (int)(end - begin) : 1000;
-}
-
 // The token at p cannot be used: "%t ..." in the message.
 static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const char *message)
 {
@@ -13713,7 +13705,7 @@ static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const ch
     if (*token.end == 0)
         sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "binary data: not an OBJ file");
     else
-        sdv_fail_line(obj, code, message, p, sdv_length(p, token.end));
+        sdv_fail_line(obj, code, message, p, token.end);
 }
 
 // Skips the rest of a statement, whatever it is. Returns NULL after an error.
@@ -13761,40 +13753,27 @@ SDV_INLINE const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numb
     return p;
 }
 
-// x y z, then nothing, or w, or r g b, or r g b and alpha.
-static const char *sdv_read_vertex(sdv_obj *obj, const char *p)
+// Reads x y z, then nothing, or w, or r g b, or r g b and alpha; of a vt u, u v or u v w.
+SDV_INLINE const char *sdv_read_point(sdv_obj *obj, const char *p, int uv)
 {
     static const float white = 1;
-    float numbers[8];
-    int count;
-    p = sdv_read_numbers(obj, p, numbers, 8, &count);
+    float numbers[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    int *made = uv ? &obj->mesh.uv_count : &obj->mesh.vertex_count, count;
+    p = sdv_read_numbers(obj, p, numbers, uv ? 3 : 8, &count);
     if (obj->context->result) return p;
-    if (count < 3)
-        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a vertex needs 3 coordinates, here are %d", count);
-    if (obj->mesh.vertex_count == INT_MAX)
-        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many vertices");
-    sdv_series_add(obj->context, &obj->positions, numbers, 3 * sizeof(float));
+    if (count < (uv ? 1 : 3))
+        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, uv ? "a vt needs 1 to 3 numbers"
+                      : "a vertex needs 3 coordinates, here are %d", count);
+    if (*made == INT_MAX)
+        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many %s", uv ? "vt" : "vertices");
+    sdv_series_add(obj->context, uv ? &obj->uvs : &obj->positions, numbers,
+                   (uv ? 2 : 3) * sizeof(float));
     if (count == 6 || count == 7) {
-        sdv_fill(obj->context, &obj->colors, 3 * (size_t)obj->mesh.vertex_count, &white);
+        sdv_fill(obj->context, &obj->colors, 3 * (size_t)*made, &white);
         for (int i = 3; i < 6; i++)
             sdv_push(obj->context, &obj->colors, &numbers[i], sizeof(float));
     }
-    obj->mesh.vertex_count++;
-    return p;
-}
-
-// u, u v or u v w.
-static const char *sdv_read_uv(sdv_obj *obj, const char *p)
-{
-    float numbers[3] = { 0, 0, 0 };
-    int count;
-    p = sdv_read_numbers(obj, p, numbers, 3, &count);
-    if (obj->context->result) return p;
-    if (count == 0) sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a vt needs 1 to 3 numbers");
-    if (obj->mesh.uv_count == INT_MAX)
-        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many vt");
-    sdv_series_add(obj->context, &obj->uvs, numbers, 2 * sizeof(float));
-    obj->mesh.uv_count++;
+    ++*made;
     return p;
 }
 
@@ -13834,7 +13813,7 @@ static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *
         sdv_fail_line(obj, SUBDIV_ERROR_INDEX,
                       number == 0 ? "%s %t does not exist (the first is 1)"
                                   : "%s %t does not exist (the file has %d so far)",
-                      uv ? "vt" : "vertex", p, sdv_length(p, end), count);
+                      uv ? "vt" : "vertex", p, end, count);
     return end;
 }
 
@@ -13996,8 +13975,7 @@ static const char *sdv_read_tag(sdv_obj *obj, sdv_token keyword)
     const char *p = keyword.end, *end = keyword.end;
     if (sdv_read_values(obj, &p)) return p;
     while (!sdv_at_end(end)) end++;
-    sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin,
-             sdv_length(keyword.begin, end));
+    sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin, end);
     return p;
 }
 
@@ -14066,11 +14044,11 @@ static const char *sdv_read_statement(sdv_obj *obj, const char *p)
     }
     p = keyword.end;
     if (kind == SDV_VERTEX) {
-        p = sdv_read_vertex(obj, p);
+        p = sdv_read_point(obj, p, 0);
     } else if (kind == SDV_FACE) {
         p = sdv_read_face(obj, p);
     } else if (kind == SDV_UV) {
-        p = sdv_read_uv(obj, p);
+        p = sdv_read_point(obj, p, 1);
     } else if (kind == SDV_KEPT) {
         return sdv_keep_statement(obj, keyword);
     } else if (kind == SDV_TAG) {
@@ -14288,9 +14266,8 @@ static size_t sdv_read_memory(void *user, void *bytes, size_t size)
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt)
 {
-    sdv_context context = sdv_begin(opt);
     sdv_memory memory = { (const char *)text, size };
-    return sdv_load_text(&context, mesh, text || size == 0 ? sdv_read_memory : NULL, &memory);
+    return subdiv_load_obj_callback(mesh, text || size == 0 ? sdv_read_memory : NULL, &memory, opt);
 }
 
 // ----------------------------------------------------------------------------- >>obj-write
@@ -14617,14 +14594,10 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
     return sdv_write_obj(&context, from, write, user, opt);
 }
 
-typedef struct sdv_kept {
-    char *text;
-    size_t size, capacity;
-} sdv_kept;
-
+// Keeps what fits the sdv_text; its size is that of all.
 static size_t sdv_write_memory(void *user, const void *bytes, size_t size)
 {
-    sdv_kept *store = (sdv_kept *)user;
+    sdv_text *store = (sdv_text *)user;
     if (store->size < store->capacity) {
         size_t room = store->capacity - store->size;
         sdv_copy(store->text + store->size, bytes, size < room ? size : room, 1);
@@ -14638,7 +14611,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
                                                 const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_kept store = { (char *)text, 0, capacity };
+    sdv_text store = { (char *)text, 0, capacity };
     sdv_content from = { mesh, NULL, NULL };
     if (size) *size = 0;
     if (!size || (capacity && !text))
