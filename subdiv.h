@@ -1142,15 +1142,14 @@ static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
     arena->blocks = block;
     arena->free = (char *)(block + 1);
     arena->left = size;
+    arena->chunk *= 2;
 }
 
 // Makes sure that the next arrays of an arena, size bytes in all, come from one block.
 static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 {
     if (SDV_SEPARATE || size <= arena->left) return;
-    if (size < arena->chunk) size = arena->chunk;
-    if (arena->chunk) arena->chunk *= 2;
-    sdv_add_block(context, arena, size);
+    sdv_add_block(context, arena, size < arena->chunk ? arena->chunk : size);
 }
 
 // Allocates count items, not cleared. Never NULL while context->result is SUBDIV_OK.
@@ -13463,69 +13462,52 @@ static void sdv_fill(sdv_context *context, sdv_array *array, size_t count, const
     while (array->count < count && !context->result) sdv_push(context, array, item, 4);
 }
 
-// A large list stays where it is written: to move it would touch more memory. Each of its blocks is
-// linked to the one before and as large as all of those; the first has SDV_FIRST bytes.
-typedef struct sdv_series {
-    sdv_block *last;
-    char      *at, *end;                // where the next item goes; where the block ends
-    size_t     before;                  // bytes in the other blocks
-} sdv_series;
-
+// A large list stays where it is written: to move it would touch more memory. It is an arena whose
+// blocks have SDV_FIRST bytes, twice as many, and so on. All are full but the newest.
 enum { SDV_FIRST = 12288 };             // a multiple of all items
 
-static size_t sdv_series_size(const sdv_series *series)
+static size_t sdv_series_size(const sdv_arena *series)
 {
-    return series->last ? series->before + (size_t)(series->at - (char *)(series->last + 1)) : 0;
+    return series->chunk - SDV_FIRST - series->left;
 }
 
-static int sdv_series_grow(sdv_context *context, sdv_series *series)
-{
-    size_t size = sdv_series_size(series), room = size ? size : (size_t)SDV_FIRST;
-    sdv_block *block = context->result ? NULL : sdv_allocate(context, room);
-    if (!block) return 0;
-    block->next = series->last;
-    series->last = block;
-    series->at = (char *)(block + 1);
-    series->end = series->at + room;
-    series->before = size;
-    return 1;
-}
-
-SDV_INLINE void sdv_series_add(sdv_context *context, sdv_series *series, const void *item,
+SDV_INLINE void sdv_series_add(sdv_context *context, sdv_arena *series, const void *item,
                                size_t size)
 {
-    if (series->at == series->end && !sdv_series_grow(context, series)) return;
-    memcpy(series->at, item, size);
-    series->at += size;
+    if (series->left == 0) {
+        sdv_add_block(context, series, series->chunk);
+        if (context->result) return;
+    }
+    memcpy(series->free, item, size);
+    series->free += size;
+    series->left -= size;
 }
 
-static void sdv_series_free_last(sdv_series *series)
+static void sdv_series_free_last(sdv_arena *series)
 {
-    sdv_block *last = series->last;
-    size_t room = series->before > SDV_FIRST ? series->before / 2 : series->before;
-    series->last = last->next;
-    series->at = series->end = room ? (char *)(series->last + 1) + room : NULL;
-    series->before -= room;
+    sdv_block *last = series->blocks;
+    series->blocks = last->next;
+    series->chunk /= 2;
+    series->free = series->blocks ? (char *)(series->blocks + 1) + series->chunk / 2 : NULL;
+    series->left = 0;
     SUBDIV_FREE(last, last->user);
 }
 
 // Drops the last bytes.
-static void sdv_series_drop(sdv_series *series, size_t size)
+static void sdv_series_drop(sdv_arena *series, size_t size)
 {
-    size_t in_last;
-    while (size > (in_last = sdv_series_size(series) - series->before)) {
+    for (size_t in_last; size > (in_last = series->chunk / 2 - series->left); size -= in_last)
         sdv_series_free_last(series);
-        size -= in_last;
-    }
-    if (size) series->at -= size;
+    series->free -= size;
+    series->left += size;
 }
 
-// Moves all items to an array, or nowhere.
-static void sdv_series_take(sdv_series *series, void *to)
+// Moves all items to an array, if there is one.
+static void sdv_series_take(sdv_arena *series, void *to)
 {
-    for (; series->last; sdv_series_free_last(series))
-        if (to) sdv_copy((char *)to + series->before, series->last + 1,
-                         sdv_series_size(series) - series->before, 1);
+    for (; to && series->blocks; sdv_series_free_last(series))
+        memcpy((char *)to + series->chunk / 2 - SDV_FIRST, series->blocks + 1,
+               series->chunk / 2 - series->left);
 }
 
 typedef struct sdv_tag {                // one crease, corner or hole
@@ -13551,15 +13533,16 @@ typedef struct sdv_obj {
     size_t       begin, complete;       // begin to complete are whole statements
     int          ended;                 // nothing more to read
     int          line, next_line;       // of the statement, and of what follows
-    subdiv_mesh  mesh;                  // its counts, then all of it
+    subdiv_mesh  mesh;                  // its face count and size, then all of it
     int          rules[SDV_RULES];
-    sdv_series   positions, uvs, face_vertices, face_uvs;
+    sdv_arena    points[2], indices[2]; // series of vertices, of UVs, and of those of faces
     sdv_array    colors, face_sizes;
-    sdv_array    ahead[2];              // of vertices, of uvs
+    sdv_array    ahead[2];              // of vertices, of UVs
     sdv_array    skipped;               // numbers of the file's faces that are not in the mesh
     int          uv_faces, mixed_faces; // with a vt at all of their vertices, at some of them
     int          bare_line, mixed_line; // of the first face without vt, and of the first such
-    int          counts[SDV_STATEMENT_KINDS], lines[SDV_STATEMENT_KINDS];   // of what is skipped
+    int          counts[SDV_STATEMENT_KINDS];   // of vertices, of UVs, of what is skipped
+    int          lines[SDV_STATEMENT_KINDS];    // of the first that is skipped
     sdv_array    statement_faces, statement_text, statements;
     sdv_array    ints, floats;          // of one tag
     sdv_array    tags;                  // all creases, corners and holes, in the file's order; and
@@ -13758,7 +13741,7 @@ SDV_INLINE const char *sdv_read_point(sdv_obj *obj, const char *p, int uv)
 {
     static const float white = 1;
     float numbers[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
-    int *made = uv ? &obj->mesh.uv_count : &obj->mesh.vertex_count, count;
+    int *made = &obj->counts[uv], count;
     p = sdv_read_numbers(obj, p, numbers, uv ? 3 : 8, &count);
     if (obj->context->result) return p;
     if (count < (uv ? 1 : 3))
@@ -13766,8 +13749,7 @@ SDV_INLINE const char *sdv_read_point(sdv_obj *obj, const char *p, int uv)
                       : "a vertex needs 3 coordinates, here are %d", count);
     if (*made == INT_MAX)
         sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many %s", uv ? "vt" : "vertices");
-    sdv_series_add(obj->context, uv ? &obj->uvs : &obj->positions, numbers,
-                   (uv ? 2 : 3) * sizeof(float));
+    sdv_series_add(obj->context, &obj->points[uv], numbers, (uv ? 2 : 3) * sizeof(float));
     if (count == 6 || count == 7) {
         sdv_fill(obj->context, &obj->colors, 3 * (size_t)*made, &white);
         for (int i = 3; i < 6; i++)
@@ -13801,7 +13783,7 @@ static void sdv_note_ahead(sdv_obj *obj, int uv, int index)
 static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
     int64_t number;
-    int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+    int count = obj->counts[uv];
     const char *end = sdv_read_integer(p, &number), *behind = end;
     if (!end) return NULL;
     int64_t index = number + (number < 0 ? count : -1);
@@ -13819,7 +13801,7 @@ static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *
 
 SDV_INLINE const char *sdv_read_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
-    unsigned count = (unsigned)(uv ? obj->mesh.uv_count : obj->mesh.vertex_count);
+    unsigned count = (unsigned)obj->counts[uv];
     unsigned number = 0, digit;
     const char *first = p;
     for (; (digit = (unsigned char)*p - (unsigned)'0') < 10; p++) number = number * 10 + digit;
@@ -13851,9 +13833,9 @@ static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 static void sdv_fill_uvs(sdv_obj *obj, size_t last)
 {
     const int none = -1;
-    size_t size = sdv_series_size(&obj->face_vertices) - last * sizeof(int);
-    while (sdv_series_size(&obj->face_uvs) < size && !obj->context->result)
-        sdv_series_add(obj->context, &obj->face_uvs, &none, sizeof none);
+    size_t size = sdv_series_size(&obj->indices[0]) - last * sizeof(int);
+    while (sdv_series_size(&obj->indices[1]) < size && !obj->context->result)
+        sdv_series_add(obj->context, &obj->indices[1], &none, sizeof none);
 }
 
 static const char *sdv_read_face(sdv_obj *obj, const char *p)
@@ -13871,22 +13853,22 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
             sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a face-vertex");
             return p;
         }
-        sdv_series_add(obj->context, &obj->face_vertices, &v, sizeof v);
+        sdv_series_add(obj->context, &obj->indices[0], &v, sizeof v);
         if (uv) {
             if (uvs++ == 0 && obj->uv_faces < obj->mesh.face_count) sdv_fill_uvs(obj, size + 1);
-            sdv_series_add(obj->context, &obj->face_uvs, &t, sizeof t);
+            sdv_series_add(obj->context, &obj->indices[1], &t, sizeof t);
         }
         p = end;
     }
     if (obj->context->result) return p;
     int number = obj->mesh.face_count + (int)obj->skipped.count;
-    if (uvs && (uvs < size || size < 3)) sdv_series_drop(&obj->face_uvs, uvs * sizeof(int));
+    if (uvs && (uvs < size || size < 3)) sdv_series_drop(&obj->indices[1], uvs * sizeof(int));
     if (size > INT_MAX || number == INT_MAX) {
         sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many faces");
     } else if (size < 3) {
         sdv_warn(obj->context, obj->line, "a face with %d vertices is skipped", (int)size);
         sdv_push(obj->context, &obj->skipped, &number, sizeof number);
-        sdv_series_drop(&obj->face_vertices, size * sizeof(int));
+        sdv_series_drop(&obj->indices[0], size * sizeof(int));
     } else {
         sdv_add_face(obj, size, uvs);
     }
@@ -14090,11 +14072,11 @@ static void sdv_read_statements(sdv_obj *obj)
 // Checks what can only be said when everything is read.
 static void sdv_check_obj(sdv_obj *obj)
 {
-    if (obj->mesh.vertex_count == 0)
+    if (obj->counts[SDV_VERTEX] == 0)
         sdv_fail(obj->context, SUBDIV_ERROR_EMPTY, "the file has no vertices");
     for (int uv = 0; uv < 2; uv++) {
         const sdv_ahead *ahead = (const sdv_ahead *)sdv_items(&obj->ahead[uv]);
-        int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+        int count = obj->counts[uv];
         for (size_t i = 0; i < obj->ahead[uv].count; i++) {
             obj->line = ahead[i].line;
             if (ahead[i].index >= count)
@@ -14189,6 +14171,8 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     subdiv_mesh *mesh = &obj->mesh;
     if (!obj->context->result) sdv_check_obj(obj);
     if (obj->context->result) return;
+    mesh->vertex_count = obj->counts[SDV_VERTEX];
+    mesh->uv_count = obj->counts[SDV_UV];
     mesh->boundary = (subdiv_boundary)obj->rules[0];
     mesh->uv_rule = (subdiv_uv_rule)obj->rules[1];
     mesh->creasing = (subdiv_creasing)obj->rules[2];
@@ -14206,10 +14190,10 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     sdv_warn_skipped(obj);
     if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, SDV_PLAIN);
     if (obj->context->result) return;
-    sdv_series_take(&obj->positions, out->positions);
-    sdv_series_take(&obj->face_vertices, out->face_vertices);
-    sdv_series_take(&obj->uvs, out->uvs);
-    sdv_series_take(&obj->face_uvs, out->face_uvs);
+    sdv_series_take(&obj->points[0], out->positions);
+    sdv_series_take(&obj->points[1], out->uvs);
+    sdv_series_take(&obj->indices[0], out->face_vertices);
+    sdv_series_take(&obj->indices[1], out->face_uvs);
     sdv_copy(out->holes, sdv_items(&obj->lists[SDV_HOLES]), (size_t)out->hole_count, sizeof(int));
 }
 
@@ -14226,13 +14210,16 @@ static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subd
     obj.read = read;
     obj.user = user;
     obj.line = obj.next_line = 1;
+    for (int uv = 0; uv < 2; uv++) obj.points[uv] = obj.indices[uv] = sdv_new_arena(SDV_FIRST);
     sdv_grow(context, &obj.text, 1 << 18, 1);      // stays in the cache; grows for longer lines
     sdv_skip_byte_order_mark(&obj);
     sdv_read_statements(&obj);
     sdv_finish_obj(&obj, mesh);
 
-    sdv_series *series[] = { &obj.positions, &obj.uvs, &obj.face_vertices, &obj.face_uvs };
-    for (size_t i = 0; i < sizeof series / sizeof *series; i++) sdv_series_take(series[i], NULL);
+    for (int uv = 0; uv < 2; uv++) {
+        sdv_arena_free(&obj.points[uv]);
+        sdv_arena_free(&obj.indices[uv]);
+    }
     sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.ahead[0], &obj.ahead[1],
         &obj.skipped, &obj.statement_faces, &obj.statement_text, &obj.statements, &obj.ints,
         &obj.floats, &obj.tags, &obj.lists[0], &obj.lists[1], &obj.lists[2], &obj.sharpness[0],
