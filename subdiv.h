@@ -1095,22 +1095,16 @@ typedef struct sdv_context {            // the state of one call of the library
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...);
 
 // Asks Linux for huge pages: to touch a large block page by page costs more than to fill it.
-#if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
-extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
-
 static void sdv_huge_pages(void *memory, size_t size)
 {
     uintptr_t page = (uintptr_t)1 << 21, first = ((uintptr_t)memory + page - 1) & ~(page - 1);
     uintptr_t end = ((uintptr_t)memory + size) & ~(page - 1);
-    if (end > first) sdv_madvise((void *)first, end - first, 14);   // MADV_HUGEPAGE
-}
-#else
-static void sdv_huge_pages(void *memory, size_t size)
-{
-    (void)memory;
-    (void)size;
-}
+    if (end <= first) return;
+#if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
+    extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
+    sdv_madvise((void *)first, end - first, 14);                // MADV_HUGEPAGE
 #endif
+}
 
 // The bytes of so many items; if there is no such number, more than sdv_allocate can get.
 static size_t sdv_bytes(size_t count, size_t item)
@@ -13381,19 +13375,16 @@ SDV_INLINE char *sdv_write_float(const sdv_figures *figures, char *p, const floa
     sdv_find_digits(text, &zeros, &last);
     int count = last + 1 - zeros, point = 8 - zeros + ten;
     text >>= 8 * zeros;
-    if (point >= 0 && ten < 0) {
-        *p = '0';
-        sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
-        p += point + (point == 0);
-        *p = '.';
-        sdv_store_eight(p + 1, text >> 8 * point);
-        return count > point ? p + 1 + count - point : p;       // 12
-    }
-    if (point < 0 && point >= -4) {
-        memcpy(p, "0.0000", 6);
-        p += 2 - point;
+    if (point > 0 && ten < 0) {
         sdv_store_eight(p, text);
-        return p + count;
+        p[point] = '.';
+        sdv_store_eight(p + point + 1, text >> 8 * point);
+        return p + (count > point ? count + 1 : point);         // 1.2 or 12
+    }
+    if (point <= 0 && point >= -4) {
+        memcpy(p, "0.0000", 6);
+        sdv_store_eight(p + 2 - point, text);
+        return p + 2 - point + count;
     }
     return sdv_write_decimal(p, digits, ten);
 }
@@ -14178,10 +14169,8 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     mesh->creasing = (subdiv_creasing)obj->rules[2];
     mesh->triangles = (subdiv_triangles)obj->rules[3];
     sdv_sort_tags(obj);
-    if (obj->face_sizes.count) {
-        mesh->face_size = 0;
-        mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
-    }
+    if (obj->face_sizes.count) mesh->face_size = 0;
+    mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
     if (obj->colors.count)
         sdv_fill(obj->context, &obj->colors, 3 * (size_t)mesh->vertex_count, &white);
     mesh->colors = (float *)sdv_items(&obj->colors);
@@ -14530,21 +14519,17 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
     sdv_write_tags(out, &fine);
 }
 
-typedef struct sdv_content {            // what is written: a mesh, or a surface being refined
-    const subdiv_mesh *mesh;
-    const subdiv_surface *surface;
-    const float *positions;             // of the surface
-} sdv_content;
-
-static subdiv_result sdv_write_obj(sdv_context *context, sdv_content from, subdiv_write write,
-                                   void *user, const subdiv_options *opt)
+// Writes a mesh or, if that is NULL, a surface with positions while it is refined.
+static subdiv_result sdv_write_obj(sdv_context *context, const subdiv_mesh *mesh,
+                                   const subdiv_surface *surface, const float *positions,
+                                   subdiv_write write, void *user, const subdiv_options *opt)
 {
     subdiv_mesh copy;
     memset(&copy, 0, sizeof copy);
     if (context->result) return context->result;
-    if (from.surface && from.surface->levels == 0) {            // no larger than the cage
-        context->result = subdiv_surface_mesh(&copy, from.surface, from.positions, opt);
-        from.mesh = &copy;
+    if (surface && surface->levels == 0) {                      // no larger than the cage
+        context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
+        mesh = &copy;
     }
     sdv_arena arena = sdv_scratch();
     sdv_figures *figures = SDV_NEW(context, &arena, sdv_figures, 1);
@@ -14552,8 +14537,8 @@ static subdiv_result sdv_write_obj(sdv_context *context, sdv_content from, subdi
     out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
     if (!context->result) {
         sdv_make_figures(figures);
-        if (from.mesh) sdv_write_mesh(&out, from.mesh);
-        else sdv_stream_surface(&out, &arena, from.surface, from.positions);
+        if (mesh) sdv_write_mesh(&out, mesh);
+        else sdv_stream_surface(&out, &arena, surface, positions);
         sdv_flush(&out);
     }
     sdv_arena_free(&arena);
@@ -14565,10 +14550,9 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { mesh, NULL, NULL };
     if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_all(&context, mesh);
-    return sdv_write_obj(&context, from, write, user, opt);
+    return sdv_write_obj(&context, mesh, NULL, NULL, write, user, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
@@ -14576,9 +14560,8 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, write != NULL);
-    return sdv_write_obj(&context, from, write, user, opt);
+    return sdv_write_obj(&context, NULL, surface, positions, write, user, opt);
 }
 
 // Keeps what fits the sdv_text; its size is that of all.
@@ -14597,16 +14580,13 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
                                                 size_t capacity, size_t *size,
                                                 const subdiv_options *opt)
 {
-    sdv_context context = sdv_begin(opt);
     sdv_text store = { (char *)text, 0, capacity };
-    sdv_content from = { mesh, NULL, NULL };
-    if (size) *size = 0;
-    if (!size || (capacity && !text))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_all(&context, mesh);
-    if (!sdv_write_obj(&context, from, sdv_write_memory, &store, opt)) *size = store.size;
-    if (!context.result && capacity && capacity < store.size)
-        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
+    subdiv_write write = size && (text || !capacity) ? sdv_write_memory : NULL;
+    subdiv_result result = subdiv_save_obj_callback(mesh, write, &store, opt);
+    if (size) *size = result ? 0 : store.size;
+    if (result || !capacity || capacity >= store.size) return result;
+    sdv_context context = sdv_begin(opt);
+    sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
     return context.result;
 }
 
@@ -14675,12 +14655,13 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
     return context.result;
 }
 
-static subdiv_result sdv_write_path(sdv_context *context, sdv_content from, const char *path,
-                                    const subdiv_options *opt)
+static subdiv_result sdv_write_path(sdv_context *context, const subdiv_mesh *mesh,
+                                    const subdiv_surface *surface, const float *positions,
+                                    const char *path, const subdiv_options *opt)
 {
     FILE *file = context->result ? NULL : sdv_open(context, path, "wb");
     if (!file) return context->result;                      // bad arguments leave a file as it is
-    sdv_write_obj(context, from, sdv_write_file, file, opt);
+    sdv_write_obj(context, mesh, surface, positions, sdv_write_file, file, opt);
     if (fclose(file)) sdv_fail_io(context, "writing failed");
     return context->result;
 }
@@ -14689,20 +14670,18 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
                                          const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { mesh, NULL, NULL };
     if (!path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "path is NULL");
     else sdv_check_all(&context, mesh);
-    return sdv_write_path(&context, from, path, opt);
+    return sdv_write_path(&context, mesh, NULL, NULL, path, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, path != NULL);
     if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
-    return sdv_write_path(&context, from, path, opt);
+    return sdv_write_path(&context, NULL, surface, positions, path, opt);
 }
 
 #endif // SUBDIV_NO_STDIO
