@@ -13211,11 +13211,10 @@ static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 // The shortest text of any float, by trial.
 static char *sdv_write_exactly(char *p, float number)
 {
-    float size = (float)fabs((double)number);
-    uint32_t bits, digits = 0;
+    float size = fabsf(number);
+    uint32_t digits = 0;
     int ten = 0;
-    memcpy(&bits, &number, sizeof bits);
-    if (bits >> 31) *p++ = '-';
+    if (copysignf(1, number) < 0) *p++ = '-';
     if (size > 0) digits = sdv_shortest(size, &ten);
     return sdv_write_decimal(p, digits, ten);
 }
@@ -13513,8 +13512,8 @@ typedef struct sdv_ahead {              // a face that names a vertex or vt whic
 
 typedef enum sdv_statement {
     SDV_VERTEX, SDV_UV, SDV_FACE, SDV_TAG, SDV_KEPT, SDV_PASSED, SDV_ELEMENT, SDV_FREE_FORM,
-    SDV_UNKNOWN, SDV_STATEMENT_KINDS
-} sdv_statement;
+    SDV_UNKNOWN, SDV_BARE_FACE, SDV_MIXED_FACE, SDV_STATEMENT_KINDS
+} sdv_statement;                        // bare faces have no vt, mixed ones some, others all
 
 typedef struct sdv_obj {
     sdv_context *context;
@@ -13530,10 +13529,8 @@ typedef struct sdv_obj {
     sdv_array    colors, face_sizes;
     sdv_array    ahead[2];              // of vertices, of UVs
     sdv_array    skipped;               // numbers of the file's faces that are not in the mesh
-    int          uv_faces, mixed_faces; // with a vt at all of their vertices, at some of them
-    int          bare_line, mixed_line; // of the first face without vt, and of the first such
-    int          counts[SDV_STATEMENT_KINDS];   // of vertices, of UVs, of what is skipped
-    int          lines[SDV_STATEMENT_KINDS];    // of the first that is skipped
+    int          counts[SDV_STATEMENT_KINDS];   // of vertices, UVs, faces, and what is skipped
+    int          lines[SDV_STATEMENT_KINDS];    // of the first one, but for vertices and UVs
     sdv_array    statement_faces, statement_text, statements;
     sdv_array    ints, floats;          // of one tag
     sdv_array    tags;                  // all creases, corners and holes, in the file's order; and
@@ -13800,17 +13797,17 @@ SDV_INLINE const char *sdv_read_index(sdv_obj *obj, const char *p, int uv, int *
     return p - first < 10 && number - 1 < count ? p : sdv_read_any_index(obj, first, uv, out);
 }
 
+static void sdv_count(sdv_obj *obj, sdv_statement kind)
+{
+    if (obj->counts[kind] == 0) obj->lines[kind] = obj->line;
+    if (obj->counts[kind] < INT_MAX) obj->counts[kind]++;
+}
+
 // Counts a face whose vertices are kept already; uvs: how many of them have a vt.
 static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 {
     subdiv_mesh *mesh = &obj->mesh;
-    if (uvs == size) {
-        obj->uv_faces++;
-    } else {
-        int *line = uvs ? &obj->mixed_line : &obj->bare_line;
-        if (*line == 0) *line = obj->line;
-        obj->mixed_faces += uvs > 0;
-    }
+    sdv_count(obj, uvs == size ? SDV_FACE : uvs ? SDV_MIXED_FACE : SDV_BARE_FACE);
     if (mesh->face_count == 0) mesh->face_size = (int)size;
     if (obj->face_sizes.count || mesh->face_size != (int)size) {
         int face_size = (int)size;
@@ -13846,7 +13843,8 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
         }
         sdv_series_add(obj->context, &obj->indices[0], &v, sizeof v);
         if (uv) {
-            if (uvs++ == 0 && obj->uv_faces < obj->mesh.face_count) sdv_fill_uvs(obj, size + 1);
+            if (uvs++ == 0 && obj->counts[SDV_FACE] < obj->mesh.face_count)
+                sdv_fill_uvs(obj, size + 1);
             sdv_series_add(obj->context, &obj->indices[1], &t, sizeof t);
         }
         p = end;
@@ -14027,8 +14025,7 @@ static const char *sdv_read_statement(sdv_obj *obj, const char *p)
     } else if (kind == SDV_TAG) {
         p = sdv_read_tag(obj, keyword);
     } else {
-        if (obj->counts[kind] == 0) obj->lines[kind] = obj->line;
-        if (obj->counts[kind] < INT_MAX) obj->counts[kind]++;
+        sdv_count(obj, kind);
         if (obj->line == 1 && strncmp(keyword.begin, "version https://git-lfs", 23) == 0)
             sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a Git LFS pointer, not the file itself");
     }
@@ -14134,15 +14131,17 @@ static void sdv_sort_tags(sdv_obj *obj)
 // A mesh has UVs if any of its faces has.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
-    int faces = obj->mesh.face_count, bare = faces - obj->uv_faces - obj->mixed_faces;
-    if (obj->mixed_faces)
-        sdv_warn(obj->context, obj->mixed_line,
+    int faces = obj->mesh.face_count, any = obj->counts[SDV_FACE] > 0;
+    int bare = obj->counts[SDV_BARE_FACE], mixed = obj->counts[SDV_MIXED_FACE];
+    if (mixed)
+        sdv_warn(obj->context, obj->lines[SDV_MIXED_FACE],
                  "%d of %d faces have a vt at some of their vertices only: they get no UVs",
-                 obj->mixed_faces, faces);
-    if (obj->uv_faces == 0) obj->mesh.uv_count = 0;
-    else sdv_fill_uvs(obj, 0);
-    if (obj->uv_faces && bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare, faces);
+                 mixed, faces);
+    if (any) sdv_fill_uvs(obj, 0);
+    else obj->mesh.uv_count = 0;
+    if (any && bare)
+        sdv_warn(obj->context, obj->lines[SDV_BARE_FACE], "%d of %d faces have no UVs", bare,
+                 faces);
 }
 
 static void sdv_finish_statements(sdv_obj *obj)
@@ -14224,26 +14223,21 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
     return sdv_load_text(&context, mesh, read, user);
 }
 
-typedef struct sdv_memory {
-    const char *text;
-    size_t left;
-} sdv_memory;
-
 static size_t sdv_read_memory(void *user, void *bytes, size_t size)
 {
-    sdv_memory *memory = (sdv_memory *)user;
-    if (size > memory->left) size = memory->left;
-    sdv_copy(bytes, memory->text, size, 1);
-    memory->text += size;
-    memory->left -= size;
+    sdv_token *left = (sdv_token *)user;
+    size_t most = (size_t)(left->end - left->begin);
+    if (size > most) size = most;
+    sdv_copy(bytes, left->begin, size, 1);
+    left->begin += size;
     return size;
 }
 
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt)
 {
-    sdv_memory memory = { (const char *)text, size };
-    return subdiv_load_obj_callback(mesh, text || size == 0 ? sdv_read_memory : NULL, &memory, opt);
+    sdv_token left = { (const char *)text, text ? (const char *)text + size : NULL };
+    return subdiv_load_obj_callback(mesh, text || size == 0 ? sdv_read_memory : NULL, &left, opt);
 }
 
 // ----------------------------------------------------------------------------- >>obj-write
@@ -14441,21 +14435,20 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
     float *window = SDV_NEW(out->context, arena, float, stride * (size_t)most);
     char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
     if (out->context->result) return;
-    subdiv_result result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
-    for (int first = 0; first < total && !result && !out->context->result; first = end) {
+    out->context->result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
+    for (int first = 0; first < total && !out->context->result; first = end) {
         int limit = first < inside ? inside : total, face = 0, faces = surface->cage_face_count;
         end = limit - first > SDV_STREAM_POINTS ? first + SDV_STREAM_POINTS : limit;
         if (first >= inside) {
             face = sdv_face_inside(&surface->order, first);
             faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
         }
-        result = subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
-                                       window, width, opt);
+        subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
+                              window, width, opt);
         for (size_t i = 0; i < (size_t)(end - first) && factor != 1; i++)
             sdv_multiply(window + i * stride, 3, factor);
         sdv_write_lines(out, keyword, width, window, NULL, end - first);
     }
-    if (!out->context->result) out->context->result = result;
 }
 
 // Positions with the colours behind them, or alone.
