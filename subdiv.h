@@ -1106,7 +1106,7 @@ static void sdv_huge_pages(void *memory, size_t size)
 #endif
 }
 
-// The bytes of so many items; if there is no such number, more than sdv_allocate can get.
+// Returns the bytes of count items, or more than sdv_allocate can get if they are too many.
 static size_t sdv_bytes(size_t count, size_t item)
 {
     return count <= (size_t)PTRDIFF_MAX / item ? count * item : (size_t)PTRDIFF_MAX;
@@ -13060,26 +13060,27 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 
 #if !defined(SUBDIV_NO_OBJ) || !defined(SUBDIV_NO_TOOLS)
 // ------------------------------------------------------------------------------- >>numbers
-// Text to the nearest float, and a float to its shortest text, independent of the locale. 53 or 64
-// bits do for both, unless a number comes so close to where the answer changes that their error
-// could matter. Then integers of any size decide.
+// Reads text as the nearest float and writes a float as its shortest text, whatever the locale. 53
+// or 64 bits are enough unless a number is so close to where the answer changes that their error
+// could matter. Then large integers decide.
 
 static const double sdv_tens[] = { 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
     1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
 
-static double sdv_scale(double number, int64_t ten)     // number * 10^ten, to about 4 ulp
+// Returns number * 10^ten, to about 4 ulp.
+static double sdv_scale(double number, int64_t ten)
 {
     for (; ten > 22; ten -= 22) number *= 1e22;
     for (; ten < -22; ten += 22) number /= 1e22;
     return ten < 0 ? number / sdv_tens[-ten] : number * sdv_tens[ten];
 }
 
-typedef struct sdv_decimal {
+typedef struct sdv_decimal {            // head * 10^exponent, or a little more
     uint64_t head;                      // the first digits, up to 19
     int      head_count;
-    int64_t  exponent;                  // the number is head * 10^exponent, or a little more if
-    int      more;                      // there are more digits than head has: then
-    const char *digits, *end;           // all digits, with leading zeros and a point
+    int64_t  exponent;
+    int      more;                      // there are more digits than head has
+    const char *digits, *end;           // if more: all digits, with leading zeros and a point
 } sdv_decimal;
 
 typedef struct sdv_big {                // an unsigned integer of up to 1536 bits
@@ -13117,8 +13118,8 @@ static int sdv_big_compare(const sdv_big *a, const sdv_big *b)
     return 0;
 }
 
-// -1, 0 or 1: the decimal is less than, equal to, greater than the middle of two floats. A middle
-// has at most 113 digits, so behind the first 120 it only matters whether there is a nonzero one.
+// Returns -1, 0 or 1: the decimal is less than, equal to or greater than the middle of two floats.
+// A middle has at most 113 digits, so of those behind the first 120 only one that is not 0 matters.
 static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
 {
     int count = decimal->more ? 0 : decimal->head_count, binary = 0, rest = 0;
@@ -13141,7 +13142,7 @@ static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
     return order == 0 ? rest : order;
 }
 
-// The nearest float; of two equally near the even one. Infinity if it is too large.
+// Returns the nearest float, of two equally near the even one, and infinity if it is too large.
 static float sdv_nearest_float(const sdv_decimal *decimal)
 {
     int64_t magnitude = decimal->head_count + decimal->exponent;    // below 10^magnitude
@@ -13163,7 +13164,7 @@ static float sdv_nearest_float(const sdv_decimal *decimal)
     return (float)(middle * (1 + sdv_compare_decimal(decimal, middle) * ldexp(1, -50)));
 }
 
-// The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
+// Finds, by trial, the fewest digits, 1 to 9, that read back as the same float: digits * 10^ten.
 static uint32_t sdv_shortest(float number, int *ten)
 {
     double size = (double)number;
@@ -13185,7 +13186,7 @@ static uint32_t sdv_shortest(float number, int *ten)
     return (uint32_t)decimal.head;
 }
 
-// digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
+// Writes digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns their end.
 static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
     for (; digits && digits % 10 == 0; digits /= 10) ten++;
@@ -13208,7 +13209,7 @@ static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
     return p;
 }
 
-// The shortest text of any float, by trial.
+// Writes the shortest text of any float, by trial. Returns where it ends.
 static char *sdv_write_exactly(char *p, float number)
 {
     float size = fabsf(number);
@@ -13227,7 +13228,7 @@ static int sdv_is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-// [+-]digits, saturating far outside of every range. Returns where it ends, NULL without digits.
+// Reads [+-]digits, of a huge number only the first. Returns where they end, NULL without digits.
 SDV_INLINE const char *sdv_read_integer(const char *p, int64_t *out)
 {
     const char sign = *p, *first = p += sign == '-' || sign == '+';
@@ -13238,8 +13239,8 @@ SDV_INLINE const char *sdv_read_integer(const char *p, int64_t *out)
     return p > first ? p : NULL;
 }
 
-// Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
-// little above the double. NULL for others.
+// Reads most numbers at once: up to 18 digits without an exponent, if the float is the same a bit
+// below and a bit above the double. Returns where they end, NULL for others.
 SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
 {
     static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
@@ -13262,8 +13263,8 @@ SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
     return *out == (float)(d * (1 + error)) ? p : NULL;
 }
 
-// [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it is
-// anything else.
+// Reads [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it
+// is anything else.
 static const char *sdv_read_number(const char *p, float *out)
 {
     const char *end = sdv_read_short_number(p, out);
@@ -13293,9 +13294,10 @@ static const char *sdv_read_number(const char *p, float *out)
     return p;
 }
 
-typedef struct sdv_figures {            // what writing many numbers needs
-    uint64_t gaps[256];                 // [exponent of a float] to the next one, in units of
-    int      tens[256];                 // 10^tens / 2^36: 1 to 10 of 10^tens. 0: by trial
+typedef struct sdv_figures {            // tables for writing many numbers
+    int      tens[256];                 // [exponent of a float] the next is 1 to 10 units of
+                                        // 10^tens away, the gap
+    uint64_t gaps[256];                 // in units of 10^tens / 2^36; 0: find the text by trial
     uint32_t quads[10000];              // 0000 to 9999, the first digit in the lowest byte
 } sdv_figures;
 
@@ -13314,14 +13316,14 @@ static void sdv_make_figures(sdv_figures *figures)
                                           i % 10 << 24);
 }
 
-// A number below 10^8 as text with all 8 digits, the first one in the lowest byte.
+// Returns a number below 10^8 as text with all 8 digits, the first one in the lowest byte.
 SDV_INLINE uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number)
 {
     uint32_t high = number / 10000;
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
-// The first and the last of 8 digits that is not 0; one of them is.
+// Finds the first and the last of 8 digits that is not 0. There is one.
 SDV_INLINE void sdv_find_digits(uint64_t text, int *first, int *last)
 {
     uint64_t others = text ^ 0x3030303030303030u;
@@ -13343,7 +13345,7 @@ SDV_INLINE void sdv_store_eight(char *p, uint64_t text)
         for (int i = 0; i < 8; i++) p[i] = (char)(text >> 8 * i & 255);
 }
 
-// A blank and the shortest text, mostly at once: with the blank at most 17 characters, and up to 8
+// Writes a blank and the shortest text, mostly at once. They have at most 17 characters; up to 8
 // more may be spoiled. Returns where they end.
 //
 // All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
@@ -13388,7 +13390,7 @@ SDV_INLINE char *sdv_write_float(const sdv_figures *figures, char *p, const floa
     return sdv_write_decimal(p, digits, ten);
 }
 
-// A number from 0 on, of at most 10 digits; may spoil as many characters. Returns where it ends.
+// Writes a number from 0 on, and may spoil up to 10 characters. Returns where it ends.
 SDV_INLINE char *sdv_write_index(const sdv_figures *figures, char *p, int number)
 {
     if (number >= 100000000) {
@@ -13429,7 +13431,7 @@ static void sdv_forget_errno(void)
 #endif
 }
 
-// Reading or writing failed; often the system knows why.
+// Fails because reading or writing failed. Often the system knows why.
 static void sdv_fail_io(sdv_context *context, const char *what)
 {
 #ifndef SUBDIV_NO_STDIO
@@ -13646,7 +13648,7 @@ typedef struct sdv_token {
     const char *begin, *end;
 } sdv_token;
 
-// The token at p; empty at the end of the statement.
+// Returns the token at p; empty at the end of the statement.
 static sdv_token sdv_token_at(const char *p)
 {
     sdv_token token = { p, p };
@@ -13669,7 +13671,7 @@ static int sdv_token_is(sdv_token token, const char *text)
     return token.begin == token.end && (*text == 0 || *text == ' ');
 }
 
-// The token at p cannot be used: "%t ..." in the message.
+// Fails because of the token at p, the message's %t.
 static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const char *message)
 {
     sdv_token token = sdv_token_at(p);
@@ -13708,7 +13710,7 @@ static const char *sdv_read_odd_number(sdv_obj *obj, const char *p, float *numbe
     return obj->context->result ? NULL : end;
 }
 
-// At most so many numbers; counts those that are there.
+// Reads and counts numbers, at most so many.
 SDV_INLINE const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numbers, int most,
                                     int *count)
 {
@@ -13766,7 +13768,7 @@ static void sdv_note_ahead(sdv_obj *obj, int uv, int index)
         sdv_push(obj->context, ahead, &entry, sizeof entry);
 }
 
-// The index of a vertex or vt in a face, counted from 1, or from the last so far if negative.
+// Reads the index of a vertex or vt, counted from 1 or, if negative, back from the last so far.
 // Returns where it ends, NULL if there is none.
 static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
@@ -13866,8 +13868,8 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
 
 // -------- tags
 
-// Creases, corners or holes: so many indices each with one sharpness, or one each; or a chain of
-// creases with one for each link. Returns 0 if it is anything else.
+// Notes a tag of creases, corners or holes. All share one sharpness or each has its own; creases
+// may be a chain of vertices, with one for each link. Returns 0 if it is anything else.
 static int sdv_use_list(sdv_obj *obj, int kind)
 {
     const int *at = (const int *)sdv_items(&obj->ints);
@@ -13886,7 +13888,7 @@ static int sdv_use_list(sdv_obj *obj, int kind)
     return 1;
 }
 
-// A tag by its name; word: its first string. Returns 0 if it makes no sense.
+// Uses a tag by its name; word is its first string. Returns 0 if it makes no sense.
 static int sdv_use_tag(sdv_obj *obj, sdv_token name, sdv_token word)
 {
     int value = obj->ints.count == 1 ? *(const int *)sdv_items(&obj->ints) : -1;
@@ -13904,7 +13906,7 @@ static int sdv_use_tag(sdv_obj *obj, sdv_token name, sdv_token word)
     return 0;
 }
 
-// The counts of a tag, "ints/floats/strings".
+// Reads the counts of a tag, "ints/floats/strings". Returns 0 if it is anything else.
 static int sdv_read_tag_counts(sdv_token token, int64_t counts[3])
 {
     const char *p = token.begin;
@@ -13916,8 +13918,8 @@ static int sdv_read_tag_counts(sdv_token token, int64_t counts[3])
     return p == token.end;
 }
 
-// name ints/floats/strings ... Takes the values that are really there, whatever the counts say.
-// Returns 0 if it makes no sense.
+// Reads name ints/floats/strings ... and uses the tag. Makes room for the values that are there,
+// not for those that the counts promise. Returns 0 if it makes no sense.
 static int sdv_read_values(sdv_obj *obj, const char **at)
 {
     int64_t counts[3], value;
@@ -14087,7 +14089,7 @@ static void sdv_warn_skipped(sdv_obj *obj)
                      texts[kind - SDV_ELEMENT]);
 }
 
-// A face of the file is a face of the mesh, but for those that were skipped: -1.
+// Returns the mesh's number of a face of the file; -1 if it was skipped or does not exist.
 static int sdv_mesh_face(const sdv_obj *obj, int face)
 {
     const int *skipped = (const int *)sdv_items(&obj->skipped);
@@ -14128,7 +14130,7 @@ static void sdv_sort_tags(sdv_obj *obj)
     mesh->hole_count = (int)obj->lists[SDV_HOLES].count;
 }
 
-// A mesh has UVs if any of its faces has.
+// Keeps the UVs if any face has some at each of its vertices.
 static void sdv_finish_uvs(sdv_obj *obj)
 {
     int faces = obj->mesh.face_count, any = obj->counts[SDV_FACE] > 0;
@@ -14154,7 +14156,7 @@ static void sdv_finish_statements(sdv_obj *obj)
     obj->mesh.statements = (char **)sdv_items(&obj->statements);
 }
 
-// Everything that was read, in one block.
+// Makes the mesh, a single block, of everything that was read.
 static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
 {
     static const float white = 1;
@@ -14294,7 +14296,7 @@ static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *
     return p;
 }
 
-// Creases, corners or holes, each a tag of its own: the form that every reader of tags understands.
+// Writes creases, corners or holes, each as a tag of its own, which every reader understands.
 static void sdv_write_list(sdv_output *out, int kind, int count, const int *indices,
                            const float *sharpness)
 {
@@ -14315,7 +14317,7 @@ static void sdv_write_list(sdv_output *out, int kind, int count, const int *indi
     }
 }
 
-// Nothing if all is as usual; otherwise always the boundary, as readers differ in their defaults.
+// Writes nothing if all is as usual, else always the boundary, as readers differ in their defaults.
 static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
 {
     const int rules[SDV_RULES] = { (int)mesh->boundary, (int)mesh->uv_rule, (int)mesh->creasing,
@@ -14336,7 +14338,7 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
     sdv_write_list(out, SDV_HOLES, mesh->hole_count, mesh->holes, NULL);
 }
 
-// Lines of so many numbers, and behind each 3 of more unless that is NULL: v x y z r g b.
+// Writes lines of width numbers, and behind them 3 of more unless that is NULL: v x y z r g b.
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
@@ -14352,8 +14354,8 @@ static void sdv_write_lines(sdv_output *out, const char *keyword, int width, con
     }
 }
 
-// Faces of one size: f a, a/t, a//a or a/t/a. uvs is NULL without; a face with a -1 there has none.
-// Normals are numbered as the vertices.
+// Writes faces of one size: f a, a/t, a//a or a/t/a. uvs may be NULL; a face with a -1 there has
+// none. Normals are numbered as the vertices.
 static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs, int normals,
                             int size, int count)
 {
@@ -14387,7 +14389,7 @@ static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs
     }
 }
 
-// The statements before a face, from number i on; returns the number of the next.
+// Writes the statements before a face, from number i on. Returns the number of the next.
 static int sdv_write_statements(sdv_output *out, const subdiv_mesh *mesh, int i, int face)
 {
     for (; i < mesh->statement_count && mesh->statement_faces[i] <= face; i++) {
@@ -14422,9 +14424,9 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
 
 enum { SDV_STREAM_POINTS = 1 << 20 };
 
-// The points of a surface, width numbers each, a window at a time. The first windows hold the
-// points of vertices and edges, which any face may make; the others those inside a few faces, or a
-// part of one. The first three numbers are positions, to be multiplied by factor.
+// Writes the points of a surface, width numbers each, a window at a time. The first windows hold
+// the points of vertices and edges, which any face may make; the others those inside a few faces or
+// a part of one. The first three numbers are a position, to be multiplied by factor.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
                               const char *keyword, int width, const float *values, float factor)
 {
@@ -14451,7 +14453,7 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
     }
 }
 
-// Positions with the colours behind them, or alone.
+// Returns positions with the colour behind each, or alone if there are no colours.
 static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
                                     const subdiv_surface *surface, const float *positions)
 {
@@ -14465,8 +14467,8 @@ static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
     return joined;
 }
 
-// The faces, a row of a grid at a time, and before them their statements. row and uvs have room for
-// one each.
+// Writes the faces, a row of a grid at a time, and before them their statements. row and uvs have
+// room for the indices of a row.
 static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs)
 {
     const sdv_order *order = &surface->order;
