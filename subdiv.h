@@ -14238,8 +14238,9 @@ static size_t sdv_read_memory(void *user, void *bytes, size_t size)
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt)
 {
+    if (size == 0) text = "";                               // it may be NULL
     sdv_token left = { (const char *)text, text ? (const char *)text + size : NULL };
-    return subdiv_load_obj_callback(mesh, text || size == 0 ? sdv_read_memory : NULL, &left, opt);
+    return subdiv_load_obj_callback(mesh, text ? sdv_read_memory : NULL, &left, opt);
 }
 
 // ----------------------------------------------------------------------------- >>obj-write
