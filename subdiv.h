@@ -14079,14 +14079,20 @@ static void sdv_check_obj(sdv_obj *obj)
     if (obj->tags.count > INT_MAX) sdv_fail(obj->context, SUBDIV_ERROR_TOO_LARGE, "too many tags");
 }
 
-static void sdv_warn_skipped(sdv_obj *obj)
+static void sdv_warn_counted(sdv_obj *obj)
 {
-    static const char *const texts[] = { "points and lines (p, l)",
-        "free-form statements (curves and surfaces)", "statements with unknown keywords" };
-    for (int kind = SDV_ELEMENT; kind <= SDV_UNKNOWN; kind++)
-        if (obj->counts[kind])
-            sdv_warn(obj->context, obj->lines[kind], "%d %s are skipped", obj->counts[kind],
-                     texts[kind - SDV_ELEMENT]);
+    static const struct { int kind; const char *text; } odd[] = {
+        { SDV_MIXED_FACE,
+          "%d of %d faces have a vt at some of their vertices only: they get no UVs" },
+        { SDV_BARE_FACE,  "%d of %d faces have no UVs" },
+        { SDV_ELEMENT,    "%d points and lines (p, l) are skipped" },
+        { SDV_FREE_FORM,  "%d free-form statements (curves and surfaces) are skipped" },
+        { SDV_UNKNOWN,    "%d statements with unknown keywords are skipped" } };
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        int kind = odd[i].kind, count = obj->counts[kind];
+        if (count)
+            sdv_warn(obj->context, obj->lines[kind], odd[i].text, count, obj->mesh.face_count);
+    }
 }
 
 // Returns the mesh's number of a face of the file; -1 if it was skipped or does not exist.
@@ -14130,22 +14136,6 @@ static void sdv_sort_tags(sdv_obj *obj)
     mesh->hole_count = (int)obj->lists[SDV_HOLES].count;
 }
 
-// Keeps the UVs if any face has some at each of its vertices.
-static void sdv_finish_uvs(sdv_obj *obj)
-{
-    int faces = obj->mesh.face_count, any = obj->counts[SDV_FACE] > 0;
-    int bare = obj->counts[SDV_BARE_FACE], mixed = obj->counts[SDV_MIXED_FACE];
-    if (mixed)
-        sdv_warn(obj->context, obj->lines[SDV_MIXED_FACE],
-                 "%d of %d faces have a vt at some of their vertices only: they get no UVs",
-                 mixed, faces);
-    if (any) sdv_fill_uvs(obj, 0);
-    else obj->mesh.uv_count = 0;
-    if (any && bare)
-        sdv_warn(obj->context, obj->lines[SDV_BARE_FACE], "%d of %d faces have no UVs", bare,
-                 faces);
-}
-
 static void sdv_finish_statements(sdv_obj *obj)
 {
     char *text = (char *)sdv_items(&obj->statement_text);
@@ -14175,9 +14165,11 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     if (obj->colors.count)
         sdv_fill(obj->context, &obj->colors, 3 * (size_t)mesh->vertex_count, &white);
     mesh->colors = (float *)sdv_items(&obj->colors);
-    sdv_finish_uvs(obj);
+    // A mesh has UVs if any of its faces has. Only then are bare faces odd.
+    if (obj->counts[SDV_FACE]) sdv_fill_uvs(obj, 0);
+    else mesh->uv_count = obj->counts[SDV_BARE_FACE] = 0;
     sdv_finish_statements(obj);
-    sdv_warn_skipped(obj);
+    sdv_warn_counted(obj);
     if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, SDV_PLAIN);
     if (obj->context->result) return;
     sdv_series_take(&obj->points[0], out->positions);
