@@ -1099,34 +1099,28 @@ typedef struct sdv_context {            // the state of one call of the library
 static void sdv_fail(sdv_context *context, subdiv_result code, const char *format, ...);
 
 // Asks Linux for huge pages: to touch a large block page by page costs more than to fill it.
-#if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
-extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
-
 static void sdv_huge_pages(void *memory, size_t size)
 {
     uintptr_t page = (uintptr_t)1 << 21, first = ((uintptr_t)memory + page - 1) & ~(page - 1);
     uintptr_t end = ((uintptr_t)memory + size) & ~(page - 1);
-    if (end > first) sdv_madvise((void *)first, end - first, 14);   // MADV_HUGEPAGE
-}
-#else
-static void sdv_huge_pages(void *memory, size_t size)
-{
-    (void)memory;
-    (void)size;
-}
+    if (end <= first) return;
+#if defined(__linux__) && defined(__GNUC__) && !defined(SUBDIV_NO_HUGE_PAGES)
+    extern int sdv_madvise(void *address, size_t size, int advice) __asm__("madvise");
+    sdv_madvise((void *)first, end - first, 14);                // MADV_HUGEPAGE
 #endif
+}
 
-// The bytes of so many items; if there is no such number, more than sdv_allocate can get.
+// Returns the bytes of count items, or more than sdv_allocate can get if they are too many.
 static size_t sdv_bytes(size_t count, size_t item)
 {
     return count <= (size_t)PTRDIFF_MAX / item ? count * item : (size_t)PTRDIFF_MAX;
 }
 
-// Allocates a block with room for size bytes. NULL when out of memory.
+// Allocates a block with room for size bytes. NULL when out of memory, and after an error.
 static sdv_block *sdv_allocate(sdv_context *context, size_t size)
 {
     sdv_block *block = NULL;
-    if (size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
+    if (!context->result && size <= (size_t)PTRDIFF_MAX - sizeof(sdv_block))
         block = (sdv_block *)SUBDIV_MALLOC(size + sizeof(sdv_block), context->user);
     if (!block) {
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
@@ -1146,25 +1140,22 @@ static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
     arena->blocks = block;
     arena->free = (char *)(block + 1);
     arena->left = size;
+    arena->chunk *= 2;
 }
 
 // Makes sure that the next arrays of an arena, size bytes in all, come from one block.
 static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 {
-    if (SDV_SEPARATE || context->result || size <= arena->left) return;
-    if (size < arena->chunk) size = arena->chunk;
-    if (arena->chunk) arena->chunk *= 2;
-    sdv_add_block(context, arena, size);
+    if (SDV_SEPARATE || size <= arena->left) return;
+    sdv_add_block(context, arena, size < arena->chunk ? arena->chunk : size);
 }
 
 // Allocates count items, not cleared. Never NULL while context->result is SUBDIV_OK.
 static void *sdv_new(sdv_context *context, sdv_arena *arena, size_t count, size_t item)
 {
     size_t size = sdv_bytes(count, item);
-    if (context->result) return NULL;
-    if (!SDV_SEPARATE) size = (size + 16) / 16 * 16;
     if (SDV_SEPARATE) sdv_add_block(context, arena, size);
-    else sdv_reserve(context, arena, size);
+    else sdv_reserve(context, arena, size = (size + 16) / 16 * 16);
     if (context->result) return NULL;
     char *array = arena->free;
     arena->free += size;
@@ -1208,7 +1199,7 @@ static void sdv_array_free(sdv_array *array)
 // memory.
 static int sdv_grow(sdv_context *context, sdv_array *array, size_t capacity, size_t item)
 {
-    sdv_block *block = context->result ? NULL : sdv_allocate(context, sdv_bytes(capacity, item));
+    sdv_block *block = sdv_allocate(context, sdv_bytes(capacity, item));
     if (!block) return 0;
     sdv_copy(block + 1, sdv_items(array), array->count, item);
     sdv_array_free(array);
@@ -1308,8 +1299,8 @@ static char *sdv_digits(char *end, uint64_t number)
     return end;
 }
 
-// Adds text as printf does, without locale or stdio. %d: int; %s: text; %t: pointer and int, so
-// many bytes, cut short after 40.
+// Adds text as printf does, without locale or stdio. %d: int; %s: text; %t: two pointers, the text
+// from the one to the other, cut short after 40 bytes.
 static void sdv_format(sdv_text *out, const char *format, va_list args)
 {
     for (const char *p = format; *p; p++) {
@@ -1323,9 +1314,10 @@ static void sdv_format(sdv_text *out, const char *format, va_list args)
             sdv_put(out, first, (size_t)(end - first));
         } else {
             const char *text = va_arg(args, const char *);
-            int size = *p == 't' ? va_arg(args, int) : 0;
-            sdv_put(out, text, *p == 's' ? strlen(text) : (size_t)(size < 40 ? size : 40));
-            if (size > 40) sdv_put(out, "...", 3);
+            const char *end = *p == 't' ? va_arg(args, const char *) : text + strlen(text);
+            int cut = *p == 't' && end - text > 40;
+            sdv_put(out, text, cut ? 40 : (size_t)(end - text));
+            if (cut) sdv_put(out, "...", 3);
         }
     }
 }
@@ -13252,26 +13244,27 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 
 #if !defined(SUBDIV_NO_OBJ) || !defined(SUBDIV_NO_TOOLS)
 // ------------------------------------------------------------------------------- >>numbers
-// Text to the nearest float, and a float to its shortest text, independent of the locale. 53 or 64
-// bits do for both, unless a number comes so close to where the answer changes that their error
-// could matter. Then integers of any size decide.
+// Reads text as the nearest float and writes a float as its shortest text, whatever the locale. 53
+// or 64 bits are enough unless a number is so close to where the answer changes that their error
+// could matter. Then large integers decide.
 
 static const double sdv_tens[] = { 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
     1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
 
-static double sdv_scale(double number, int64_t ten)     // number * 10^ten, to about 4 ulp
+// Returns number * 10^ten, to about 4 ulp.
+static double sdv_scale(double number, int64_t ten)
 {
     for (; ten > 22; ten -= 22) number *= 1e22;
     for (; ten < -22; ten += 22) number /= 1e22;
     return ten < 0 ? number / sdv_tens[-ten] : number * sdv_tens[ten];
 }
 
-typedef struct sdv_decimal {
+typedef struct sdv_decimal {            // head * 10^exponent, or a little more
     uint64_t head;                      // the first digits, up to 19
     int      head_count;
-    int64_t  exponent;                  // the number is head * 10^exponent, or a little more if
-    int      more;                      // there are more digits than head has: then
-    const char *digits, *end;           // all digits, with leading zeros and a point
+    int64_t  exponent;
+    int      more;                      // there are more digits than head has
+    const char *digits, *end;           // if more: all digits, with leading zeros and a point
 } sdv_decimal;
 
 typedef struct sdv_big {                // an unsigned integer of up to 1536 bits
@@ -13309,8 +13302,8 @@ static int sdv_big_compare(const sdv_big *a, const sdv_big *b)
     return 0;
 }
 
-// -1, 0 or 1: the decimal is less than, equal to, greater than the middle of two floats. A middle
-// has at most 113 digits, so behind the first 120 it only matters whether there is a nonzero one.
+// Returns -1, 0 or 1: the decimal is less than, equal to or greater than the middle of two floats.
+// A middle has at most 113 digits, so of those behind the first 120 only one that is not 0 matters.
 static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
 {
     int count = decimal->more ? 0 : decimal->head_count, binary = 0, rest = 0;
@@ -13333,7 +13326,7 @@ static int sdv_compare_decimal(const sdv_decimal *decimal, double middle)
     return order == 0 ? rest : order;
 }
 
-// The nearest float; of two equally near the even one. Infinity if it is too large.
+// Returns the nearest float, of two equally near the even one, and infinity if it is too large.
 static float sdv_nearest_float(const sdv_decimal *decimal)
 {
     int64_t magnitude = decimal->head_count + decimal->exponent;    // below 10^magnitude
@@ -13355,7 +13348,7 @@ static float sdv_nearest_float(const sdv_decimal *decimal)
     return (float)(middle * (1 + sdv_compare_decimal(decimal, middle) * ldexp(1, -50)));
 }
 
-// The shortest of 1 to 9 digits that read back as the same float: digits * 10^ten. By trial.
+// Finds, by trial, the fewest digits, 1 to 9, that read back as the same float: digits * 10^ten.
 static uint32_t sdv_shortest(float number, int *ten)
 {
     double size = (double)number;
@@ -13377,7 +13370,7 @@ static uint32_t sdv_shortest(float number, int *ten)
     return (uint32_t)decimal.head;
 }
 
-// digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns where they end.
+// Writes digits * 10^ten in at most 15 characters: 1200, 12, 0.0012 or 1.2e-8. Returns their end.
 static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
 {
     for (; digits && digits % 10 == 0; digits /= 10) ten++;
@@ -13400,14 +13393,13 @@ static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
     return p;
 }
 
-// The shortest text of any float, by trial.
+// Writes the shortest text of any float, by trial. Returns where it ends.
 static char *sdv_write_exactly(char *p, float number)
 {
-    float size = (float)fabs((double)number);
-    uint32_t bits, digits = 0;
+    float size = fabsf(number);
+    uint32_t digits = 0;
     int ten = 0;
-    memcpy(&bits, &number, sizeof bits);
-    if (bits >> 31) *p++ = '-';
+    if (copysignf(1, number) < 0) *p++ = '-';
     if (size > 0) digits = sdv_shortest(size, &ten);
     return sdv_write_decimal(p, digits, ten);
 }
@@ -13420,21 +13412,19 @@ static int sdv_is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-// [+-]digits, saturating far outside of every range. Returns where it ends, NULL without digits.
+// Reads [+-]digits, of a huge number only the first. Returns where they end, NULL without digits.
 SDV_INLINE const char *sdv_read_integer(const char *p, int64_t *out)
 {
     const char sign = *p, *first = p += sign == '-' || sign == '+';
     uint64_t number = 0, digit;
-    for (; (digit = (unsigned char)*p - (uint64_t)'0') < 10; p++) number = number * 10 + digit;
-    if (p - first > 18)
-        for (number = 0, p = first; sdv_is_digit(*p); p++)
-            if (number < INT64_MAX / 100) number = number * 10 + (uint64_t)(*p - '0');
+    for (; (digit = (unsigned char)*p - (uint64_t)'0') < 10; p++)
+        if (number < INT64_MAX / 100) number = number * 10 + digit;
     *out = sign == '-' ? -(int64_t)number : (int64_t)number;
     return p > first ? p : NULL;
 }
 
-// Most numbers, at once: up to 18 digits, no exponent, and the same float a little below and a
-// little above the double. NULL for others.
+// Reads most numbers at once: up to 18 digits without an exponent, if the float is the same a bit
+// below and a bit above the double. Returns where they end, NULL for others.
 SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
 {
     static const double units[] = { 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10,
@@ -13457,8 +13447,8 @@ SDV_INLINE const char *sdv_read_short_number(const char *p, float *out)
     return *out == (float)(d * (1 + error)) ? p : NULL;
 }
 
-// [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it is
-// anything else.
+// Reads [+-]digits[.digits][e[+-]digits], any number of digits. Returns where it ends, NULL if it
+// is anything else.
 static const char *sdv_read_number(const char *p, float *out)
 {
     const char *end = sdv_read_short_number(p, out);
@@ -13488,9 +13478,10 @@ static const char *sdv_read_number(const char *p, float *out)
     return p;
 }
 
-typedef struct sdv_figures {            // what writing many numbers needs
-    uint64_t gaps[256];                 // [exponent of a float] to the next one, in units of
-    int      tens[256];                 // 10^tens / 2^36: 1 to 10 of 10^tens. 0: by trial
+typedef struct sdv_figures {            // tables for writing many numbers
+    int      tens[256];                 // [exponent of a float] the next is 1 to 10 units of
+                                        // 10^tens away, the gap
+    uint64_t gaps[256];                 // in units of 10^tens / 2^36; 0: find the text by trial
     uint32_t quads[10000];              // 0000 to 9999, the first digit in the lowest byte
 } sdv_figures;
 
@@ -13509,14 +13500,14 @@ static void sdv_make_figures(sdv_figures *figures)
                                           i % 10 << 24);
 }
 
-// A number below 10^8 as text with all 8 digits, the first one in the lowest byte.
+// Returns a number below 10^8 as text with all 8 digits, the first one in the lowest byte.
 SDV_INLINE uint64_t sdv_eight_digits(const sdv_figures *figures, uint32_t number)
 {
     uint32_t high = number / 10000;
     return figures->quads[high] | (uint64_t)figures->quads[number - 10000 * high] << 32;
 }
 
-// The first and the last of 8 digits that is not 0; one of them is.
+// Finds the first and the last of 8 digits that is not 0. There is one.
 SDV_INLINE void sdv_find_digits(uint64_t text, int *first, int *last)
 {
     uint64_t others = text ^ 0x3030303030303030u;
@@ -13538,7 +13529,7 @@ SDV_INLINE void sdv_store_eight(char *p, uint64_t text)
         for (int i = 0; i < 8; i++) p[i] = (char)(text >> 8 * i & 255);
 }
 
-// A blank and the shortest text, mostly at once: with the blank at most 17 characters, and up to 8
+// Writes a blank and the shortest text, mostly at once. They have at most 17 characters; up to 8
 // more may be spoiled. Returns where they end.
 //
 // All numbers up to half a gap away read back as this float, and gaps are 1 to 10 units of 10^ten.
@@ -13569,24 +13560,21 @@ SDV_INLINE char *sdv_write_float(const sdv_figures *figures, char *p, const floa
     sdv_find_digits(text, &zeros, &last);
     int count = last + 1 - zeros, point = 8 - zeros + ten;
     text >>= 8 * zeros;
-    if (point >= 0 && ten < 0) {
-        *p = '0';
-        sdv_store_eight(p + (point == 0), text);                // 0.12, or else 1.2
-        p += point + (point == 0);
-        *p = '.';
-        sdv_store_eight(p + 1, text >> 8 * point);
-        return count > point ? p + 1 + count - point : p;       // 12
-    }
-    if (point < 0 && point >= -4) {
-        memcpy(p, "0.0000", 6);
-        p += 2 - point;
+    if (point > 0 && ten < 0) {
         sdv_store_eight(p, text);
-        return p + count;
+        p[point] = '.';
+        sdv_store_eight(p + point + 1, text >> 8 * point);
+        return p + (count > point ? count + 1 : point);         // 1.2 or 12
+    }
+    if (point <= 0 && point >= -4) {
+        memcpy(p, "0.0000", 6);
+        sdv_store_eight(p + 2 - point, text);
+        return p + 2 - point + count;
     }
     return sdv_write_decimal(p, digits, ten);
 }
 
-// A number from 0 on, of at most 10 digits; may spoil as many characters. Returns where it ends.
+// Writes a number from 0 on, and may spoil up to 10 characters. Returns where it ends.
 SDV_INLINE char *sdv_write_index(const sdv_figures *figures, char *p, int number)
 {
     if (number >= 100000000) {
@@ -13627,7 +13615,7 @@ static void sdv_forget_errno(void)
 #endif
 }
 
-// Reading or writing failed; often the system knows why.
+// Fails because reading or writing failed. Often the system knows why.
 static void sdv_fail_io(sdv_context *context, const char *what)
 {
 #ifndef SUBDIV_NO_STDIO
@@ -13650,69 +13638,52 @@ static void sdv_fill(sdv_context *context, sdv_array *array, size_t count, const
     while (array->count < count && !context->result) sdv_push(context, array, item, 4);
 }
 
-// A large list stays where it is written: to move it would touch more memory. Each of its blocks is
-// linked to the one before and as large as all of those; the first has SDV_FIRST bytes.
-typedef struct sdv_series {
-    sdv_block *last;
-    char      *at, *end;                // where the next item goes; where the block ends
-    size_t     before;                  // bytes in the other blocks
-} sdv_series;
-
+// A large list stays where it is written: to move it would touch more memory. It is an arena whose
+// blocks have SDV_FIRST bytes, twice as many, and so on. All are full but the newest.
 enum { SDV_FIRST = 12288 };             // a multiple of all items
 
-static size_t sdv_series_size(const sdv_series *series)
+static size_t sdv_series_size(const sdv_arena *series)
 {
-    return series->last ? series->before + (size_t)(series->at - (char *)(series->last + 1)) : 0;
+    return series->chunk - SDV_FIRST - series->left;
 }
 
-static int sdv_series_grow(sdv_context *context, sdv_series *series)
-{
-    size_t size = sdv_series_size(series), room = size ? size : (size_t)SDV_FIRST;
-    sdv_block *block = context->result ? NULL : sdv_allocate(context, room);
-    if (!block) return 0;
-    block->next = series->last;
-    series->last = block;
-    series->at = (char *)(block + 1);
-    series->end = series->at + room;
-    series->before = size;
-    return 1;
-}
-
-SDV_INLINE void sdv_series_add(sdv_context *context, sdv_series *series, const void *item,
+SDV_INLINE void sdv_series_add(sdv_context *context, sdv_arena *series, const void *item,
                                size_t size)
 {
-    if (series->at == series->end && !sdv_series_grow(context, series)) return;
-    memcpy(series->at, item, size);
-    series->at += size;
+    if (series->left == 0) {
+        sdv_add_block(context, series, series->chunk);
+        if (context->result) return;
+    }
+    memcpy(series->free, item, size);
+    series->free += size;
+    series->left -= size;
 }
 
-static void sdv_series_free_last(sdv_series *series)
+static void sdv_series_free_last(sdv_arena *series)
 {
-    sdv_block *last = series->last;
-    size_t room = series->before > SDV_FIRST ? series->before / 2 : series->before;
-    series->last = last->next;
-    series->at = series->end = room ? (char *)(series->last + 1) + room : NULL;
-    series->before -= room;
+    sdv_block *last = series->blocks;
+    series->blocks = last->next;
+    series->chunk /= 2;
+    series->free = series->blocks ? (char *)(series->blocks + 1) + series->chunk / 2 : NULL;
+    series->left = 0;
     SUBDIV_FREE(last, last->user);
 }
 
 // Drops the last bytes.
-static void sdv_series_drop(sdv_series *series, size_t size)
+static void sdv_series_drop(sdv_arena *series, size_t size)
 {
-    size_t in_last;
-    while (size > (in_last = sdv_series_size(series) - series->before)) {
+    for (size_t in_last; size > (in_last = series->chunk / 2 - series->left); size -= in_last)
         sdv_series_free_last(series);
-        size -= in_last;
-    }
-    if (size) series->at -= size;
+    series->free -= size;
+    series->left += size;
 }
 
-// Moves all items to an array, or nowhere.
-static void sdv_series_take(sdv_series *series, void *to)
+// Moves all items to an array, if there is one.
+static void sdv_series_take(sdv_arena *series, void *to)
 {
-    for (; series->last; sdv_series_free_last(series))
-        if (to) sdv_copy((char *)to + series->before, series->last + 1,
-                         sdv_series_size(series) - series->before, 1);
+    for (; to && series->blocks; sdv_series_free_last(series))
+        memcpy((char *)to + series->chunk / 2 - SDV_FIRST, series->blocks + 1,
+               series->chunk / 2 - series->left);
 }
 
 typedef struct sdv_tag {                // one crease, corner or hole
@@ -13727,8 +13698,8 @@ typedef struct sdv_ahead {              // a face that names a vertex or vt whic
 
 typedef enum sdv_statement {
     SDV_VERTEX, SDV_UV, SDV_FACE, SDV_TAG, SDV_KEPT, SDV_PASSED, SDV_ELEMENT, SDV_FREE_FORM,
-    SDV_UNKNOWN, SDV_STATEMENT_KINDS
-} sdv_statement;
+    SDV_UNKNOWN, SDV_BARE_FACE, SDV_MIXED_FACE, SDV_STATEMENT_KINDS
+} sdv_statement;                        // bare faces have no vt, mixed ones some, others all
 
 typedef struct sdv_obj {
     sdv_context *context;
@@ -13738,15 +13709,14 @@ typedef struct sdv_obj {
     size_t       begin, complete;       // begin to complete are whole statements
     int          ended;                 // nothing more to read
     int          line, next_line;       // of the statement, and of what follows
-    subdiv_mesh  mesh;                  // its counts, then all of it
+    subdiv_mesh  mesh;                  // its face count and size, then all of it
     int          rules[SDV_RULES];
-    sdv_series   positions, uvs, face_vertices, face_uvs;
+    sdv_arena    points[2], indices[2]; // series of vertices, of UVs, and of those of faces
     sdv_array    colors, face_sizes;
-    sdv_array    ahead[2];              // of vertices, of uvs
+    sdv_array    ahead[2];              // of vertices, of UVs
     sdv_array    skipped;               // numbers of the file's faces that are not in the mesh
-    int          uv_faces, mixed_faces; // with a vt at all of their vertices, at some of them
-    int          bare_line, mixed_line; // of the first face without vt, and of the first such
-    int          counts[SDV_STATEMENT_KINDS], lines[SDV_STATEMENT_KINDS];   // of what is skipped
+    int          counts[SDV_STATEMENT_KINDS];   // of vertices, UVs, faces, and what is skipped
+    int          lines[SDV_STATEMENT_KINDS];    // of the first one, but for vertices and UVs
     sdv_array    statement_faces, statement_text, statements;
     sdv_array    ints, floats;          // of one tag
     sdv_array    tags;                  // all creases, corners and holes, in the file's order; and
@@ -13862,7 +13832,7 @@ typedef struct sdv_token {
     const char *begin, *end;
 } sdv_token;
 
-// The token at p; empty at the end of the statement.
+// Returns the token at p; empty at the end of the statement.
 static sdv_token sdv_token_at(const char *p)
 {
     sdv_token token = { p, p };
@@ -13885,19 +13855,14 @@ static int sdv_token_is(sdv_token token, const char *text)
     return token.begin == token.end && (*text == 0 || *text == ' ');
 }
 
-static int sdv_length(const char *begin, const char *end)
-{
-    return end - begin < 1000 ? (int)(end - begin) : 1000;
-}
-
-// The token at p cannot be used: "%t ..." in the message.
+// Fails because of the token at p, the message's %t.
 static void sdv_refuse(sdv_obj *obj, subdiv_result code, const char *p, const char *message)
 {
     sdv_token token = sdv_token_at(p);
     if (*token.end == 0)
         sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "binary data: not an OBJ file");
     else
-        sdv_fail_line(obj, code, message, p, sdv_length(p, token.end));
+        sdv_fail_line(obj, code, message, p, token.end);
 }
 
 // Skips the rest of a statement, whatever it is. Returns NULL after an error.
@@ -13929,7 +13894,7 @@ static const char *sdv_read_odd_number(sdv_obj *obj, const char *p, float *numbe
     return obj->context->result ? NULL : end;
 }
 
-// At most so many numbers; counts those that are there.
+// Reads and counts numbers, at most so many.
 SDV_INLINE const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numbers, int most,
                                     int *count)
 {
@@ -13945,40 +13910,26 @@ SDV_INLINE const char *sdv_read_numbers(sdv_obj *obj, const char *p, float *numb
     return p;
 }
 
-// x y z, then nothing, or w, or r g b, or r g b and alpha.
-static const char *sdv_read_vertex(sdv_obj *obj, const char *p)
+// Reads x y z, then nothing, or w, or r g b, or r g b and alpha; of a vt u, u v or u v w.
+SDV_INLINE const char *sdv_read_point(sdv_obj *obj, const char *p, int uv)
 {
     static const float white = 1;
-    float numbers[8];
-    int count;
-    p = sdv_read_numbers(obj, p, numbers, 8, &count);
+    float numbers[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+    int *made = &obj->counts[uv], count;
+    p = sdv_read_numbers(obj, p, numbers, uv ? 3 : 8, &count);
     if (obj->context->result) return p;
-    if (count < 3)
-        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a vertex needs 3 coordinates, here are %d", count);
-    if (obj->mesh.vertex_count == INT_MAX)
-        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many vertices");
-    sdv_series_add(obj->context, &obj->positions, numbers, 3 * sizeof(float));
+    if (count < (uv ? 1 : 3))
+        sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, uv ? "a vt needs 1 to 3 numbers"
+                      : "a vertex needs 3 coordinates, here are %d", count);
+    if (*made == INT_MAX)
+        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many %s", uv ? "vt" : "vertices");
+    sdv_series_add(obj->context, &obj->points[uv], numbers, (uv ? 2 : 3) * sizeof(float));
     if (count == 6 || count == 7) {
-        sdv_fill(obj->context, &obj->colors, 3 * (size_t)obj->mesh.vertex_count, &white);
+        sdv_fill(obj->context, &obj->colors, 3 * (size_t)*made, &white);
         for (int i = 3; i < 6; i++)
             sdv_push(obj->context, &obj->colors, &numbers[i], sizeof(float));
     }
-    obj->mesh.vertex_count++;
-    return p;
-}
-
-// u, u v or u v w.
-static const char *sdv_read_uv(sdv_obj *obj, const char *p)
-{
-    float numbers[3] = { 0, 0, 0 };
-    int count;
-    p = sdv_read_numbers(obj, p, numbers, 3, &count);
-    if (obj->context->result) return p;
-    if (count == 0) sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a vt needs 1 to 3 numbers");
-    if (obj->mesh.uv_count == INT_MAX)
-        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many vt");
-    sdv_series_add(obj->context, &obj->uvs, numbers, 2 * sizeof(float));
-    obj->mesh.uv_count++;
+    ++*made;
     return p;
 }
 
@@ -14001,12 +13952,12 @@ static void sdv_note_ahead(sdv_obj *obj, int uv, int index)
         sdv_push(obj->context, ahead, &entry, sizeof entry);
 }
 
-// The index of a vertex or vt in a face, counted from 1, or from the last so far if negative.
+// Reads the index of a vertex or vt, counted from 1 or, if negative, back from the last so far.
 // Returns where it ends, NULL if there is none.
 static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
     int64_t number;
-    int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+    int count = obj->counts[uv];
     const char *end = sdv_read_integer(p, &number), *behind = end;
     if (!end) return NULL;
     int64_t index = number + (number < 0 ? count : -1);
@@ -14018,13 +13969,13 @@ static const char *sdv_read_any_index(sdv_obj *obj, const char *p, int uv, int *
         sdv_fail_line(obj, SUBDIV_ERROR_INDEX,
                       number == 0 ? "%s %t does not exist (the first is 1)"
                                   : "%s %t does not exist (the file has %d so far)",
-                      uv ? "vt" : "vertex", p, sdv_length(p, end), count);
+                      uv ? "vt" : "vertex", p, end, count);
     return end;
 }
 
 SDV_INLINE const char *sdv_read_index(sdv_obj *obj, const char *p, int uv, int *out)
 {
-    unsigned count = (unsigned)(uv ? obj->mesh.uv_count : obj->mesh.vertex_count);
+    unsigned count = (unsigned)obj->counts[uv];
     unsigned number = 0, digit;
     const char *first = p;
     for (; (digit = (unsigned char)*p - (unsigned)'0') < 10; p++) number = number * 10 + digit;
@@ -14032,17 +13983,17 @@ SDV_INLINE const char *sdv_read_index(sdv_obj *obj, const char *p, int uv, int *
     return p - first < 10 && number - 1 < count ? p : sdv_read_any_index(obj, first, uv, out);
 }
 
+static void sdv_count(sdv_obj *obj, sdv_statement kind)
+{
+    if (obj->counts[kind] == 0) obj->lines[kind] = obj->line;
+    if (obj->counts[kind] < INT_MAX) obj->counts[kind]++;
+}
+
 // Counts a face whose vertices are kept already; uvs: how many of them have a vt.
 static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 {
     subdiv_mesh *mesh = &obj->mesh;
-    if (uvs == size) {
-        obj->uv_faces++;
-    } else {
-        int *line = uvs ? &obj->mixed_line : &obj->bare_line;
-        if (*line == 0) *line = obj->line;
-        obj->mixed_faces += uvs > 0;
-    }
+    sdv_count(obj, uvs == size ? SDV_FACE : uvs ? SDV_MIXED_FACE : SDV_BARE_FACE);
     if (mesh->face_count == 0) mesh->face_size = (int)size;
     if (obj->face_sizes.count || mesh->face_size != (int)size) {
         int face_size = (int)size;
@@ -14056,9 +14007,9 @@ static void sdv_add_face(sdv_obj *obj, size_t size, size_t uvs)
 static void sdv_fill_uvs(sdv_obj *obj, size_t last)
 {
     const int none = -1;
-    size_t size = sdv_series_size(&obj->face_vertices) - last * sizeof(int);
-    while (sdv_series_size(&obj->face_uvs) < size && !obj->context->result)
-        sdv_series_add(obj->context, &obj->face_uvs, &none, sizeof none);
+    size_t size = sdv_series_size(&obj->indices[0]) - last * sizeof(int);
+    while (sdv_series_size(&obj->indices[1]) < size && !obj->context->result)
+        sdv_series_add(obj->context, &obj->indices[1], &none, sizeof none);
 }
 
 static const char *sdv_read_face(sdv_obj *obj, const char *p)
@@ -14076,22 +14027,23 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
             sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a face-vertex");
             return p;
         }
-        sdv_series_add(obj->context, &obj->face_vertices, &v, sizeof v);
+        sdv_series_add(obj->context, &obj->indices[0], &v, sizeof v);
         if (uv) {
-            if (uvs++ == 0 && obj->uv_faces < obj->mesh.face_count) sdv_fill_uvs(obj, size + 1);
-            sdv_series_add(obj->context, &obj->face_uvs, &t, sizeof t);
+            if (uvs++ == 0 && obj->counts[SDV_FACE] < obj->mesh.face_count)
+                sdv_fill_uvs(obj, size + 1);
+            sdv_series_add(obj->context, &obj->indices[1], &t, sizeof t);
         }
         p = end;
     }
     if (obj->context->result) return p;
     int number = obj->mesh.face_count + (int)obj->skipped.count;
-    if (uvs && (uvs < size || size < 3)) sdv_series_drop(&obj->face_uvs, uvs * sizeof(int));
+    if (uvs && (uvs < size || size < 3)) sdv_series_drop(&obj->indices[1], uvs * sizeof(int));
     if (size > INT_MAX || number == INT_MAX) {
         sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many faces");
     } else if (size < 3) {
         sdv_warn(obj->context, obj->line, "a face with %d vertices is skipped", (int)size);
         sdv_push(obj->context, &obj->skipped, &number, sizeof number);
-        sdv_series_drop(&obj->face_vertices, size * sizeof(int));
+        sdv_series_drop(&obj->indices[0], size * sizeof(int));
     } else {
         sdv_add_face(obj, size, uvs);
     }
@@ -14100,8 +14052,8 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
 
 // -------- tags
 
-// Creases, corners or holes: so many indices each with one sharpness, or one each; or a chain of
-// creases with one for each link. Returns 0 if it is anything else.
+// Notes a tag of creases, corners or holes. All share one sharpness or each has its own; creases
+// may be a chain of vertices, with one for each link. Returns 0 if it is anything else.
 static int sdv_use_list(sdv_obj *obj, int kind)
 {
     const int *at = (const int *)sdv_items(&obj->ints);
@@ -14120,7 +14072,7 @@ static int sdv_use_list(sdv_obj *obj, int kind)
     return 1;
 }
 
-// A tag by its name; word: its first string. Returns 0 if it makes no sense.
+// Uses a tag by its name; word is its first string. Returns 0 if it makes no sense.
 static int sdv_use_tag(sdv_obj *obj, sdv_token name, sdv_token word)
 {
     int value = obj->ints.count == 1 ? *(const int *)sdv_items(&obj->ints) : -1;
@@ -14138,7 +14090,7 @@ static int sdv_use_tag(sdv_obj *obj, sdv_token name, sdv_token word)
     return 0;
 }
 
-// The counts of a tag, "ints/floats/strings".
+// Reads the counts of a tag, "ints/floats/strings". Returns 0 if it is anything else.
 static int sdv_read_tag_counts(sdv_token token, int64_t counts[3])
 {
     const char *p = token.begin;
@@ -14150,8 +14102,8 @@ static int sdv_read_tag_counts(sdv_token token, int64_t counts[3])
     return p == token.end;
 }
 
-// name ints/floats/strings ... Takes the values that are really there, whatever the counts say.
-// Returns 0 if it makes no sense.
+// Reads name ints/floats/strings ... and uses the tag. Makes room for the values that are there,
+// not for those that the counts promise. Returns 0 if it makes no sense.
 static int sdv_read_values(sdv_obj *obj, const char **at)
 {
     int64_t counts[3], value;
@@ -14180,8 +14132,7 @@ static const char *sdv_read_tag(sdv_obj *obj, sdv_token keyword)
     const char *p = keyword.end, *end = keyword.end;
     if (sdv_read_values(obj, &p)) return p;
     while (!sdv_at_end(end)) end++;
-    sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin,
-             sdv_length(keyword.begin, end));
+    sdv_warn(obj->context, obj->line, "the tag \"%t\" is skipped", keyword.begin, end);
     return p;
 }
 
@@ -14250,18 +14201,17 @@ static const char *sdv_read_statement(sdv_obj *obj, const char *p)
     }
     p = keyword.end;
     if (kind == SDV_VERTEX) {
-        p = sdv_read_vertex(obj, p);
+        p = sdv_read_point(obj, p, 0);
     } else if (kind == SDV_FACE) {
         p = sdv_read_face(obj, p);
     } else if (kind == SDV_UV) {
-        p = sdv_read_uv(obj, p);
+        p = sdv_read_point(obj, p, 1);
     } else if (kind == SDV_KEPT) {
         return sdv_keep_statement(obj, keyword);
     } else if (kind == SDV_TAG) {
         p = sdv_read_tag(obj, keyword);
     } else {
-        if (obj->counts[kind] == 0) obj->lines[kind] = obj->line;
-        if (obj->counts[kind] < INT_MAX) obj->counts[kind]++;
+        sdv_count(obj, kind);
         if (obj->line == 1 && strncmp(keyword.begin, "version https://git-lfs", 23) == 0)
             sdv_fail_line(obj, SUBDIV_ERROR_SYNTAX, "a Git LFS pointer, not the file itself");
     }
@@ -14296,11 +14246,11 @@ static void sdv_read_statements(sdv_obj *obj)
 // Checks what can only be said when everything is read.
 static void sdv_check_obj(sdv_obj *obj)
 {
-    if (obj->mesh.vertex_count == 0)
+    if (obj->counts[SDV_VERTEX] == 0)
         sdv_fail(obj->context, SUBDIV_ERROR_EMPTY, "the file has no vertices");
     for (int uv = 0; uv < 2; uv++) {
         const sdv_ahead *ahead = (const sdv_ahead *)sdv_items(&obj->ahead[uv]);
-        int count = uv ? obj->mesh.uv_count : obj->mesh.vertex_count;
+        int count = obj->counts[uv];
         for (size_t i = 0; i < obj->ahead[uv].count; i++) {
             obj->line = ahead[i].line;
             if (ahead[i].index >= count)
@@ -14313,17 +14263,23 @@ static void sdv_check_obj(sdv_obj *obj)
     if (obj->tags.count > INT_MAX) sdv_fail(obj->context, SUBDIV_ERROR_TOO_LARGE, "too many tags");
 }
 
-static void sdv_warn_skipped(sdv_obj *obj)
+static void sdv_warn_counted(sdv_obj *obj)
 {
-    static const char *const texts[] = { "points and lines (p, l)",
-        "free-form statements (curves and surfaces)", "statements with unknown keywords" };
-    for (int kind = SDV_ELEMENT; kind <= SDV_UNKNOWN; kind++)
-        if (obj->counts[kind])
-            sdv_warn(obj->context, obj->lines[kind], "%d %s are skipped", obj->counts[kind],
-                     texts[kind - SDV_ELEMENT]);
+    static const struct { int kind; const char *text; } odd[] = {
+        { SDV_MIXED_FACE,
+          "%d of %d faces have a vt at some of their vertices only: they get no UVs" },
+        { SDV_BARE_FACE,  "%d of %d faces have no UVs" },
+        { SDV_ELEMENT,    "%d points and lines (p, l) are skipped" },
+        { SDV_FREE_FORM,  "%d free-form statements (curves and surfaces) are skipped" },
+        { SDV_UNKNOWN,    "%d statements with unknown keywords are skipped" } };
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        int kind = odd[i].kind, count = obj->counts[kind];
+        if (count)
+            sdv_warn(obj->context, obj->lines[kind], odd[i].text, count, obj->mesh.face_count);
+    }
 }
 
-// A face of the file is a face of the mesh, but for those that were skipped: -1.
+// Returns the mesh's number of a face of the file; -1 if it was skipped or does not exist.
 static int sdv_mesh_face(const sdv_obj *obj, int face)
 {
     const int *skipped = (const int *)sdv_items(&obj->skipped);
@@ -14364,20 +14320,6 @@ static void sdv_sort_tags(sdv_obj *obj)
     mesh->hole_count = (int)obj->lists[SDV_HOLES].count;
 }
 
-// A mesh has UVs if any of its faces has.
-static void sdv_finish_uvs(sdv_obj *obj)
-{
-    int faces = obj->mesh.face_count, bare = faces - obj->uv_faces - obj->mixed_faces;
-    if (obj->mixed_faces)
-        sdv_warn(obj->context, obj->mixed_line,
-                 "%d of %d faces have a vt at some of their vertices only: they get no UVs",
-                 obj->mixed_faces, faces);
-    if (obj->uv_faces == 0) obj->mesh.uv_count = 0;
-    else sdv_fill_uvs(obj, 0);
-    if (obj->uv_faces && bare)
-        sdv_warn(obj->context, obj->bare_line, "%d of %d faces have no UVs", bare, faces);
-}
-
 static void sdv_finish_statements(sdv_obj *obj)
 {
     char *text = (char *)sdv_items(&obj->statement_text);
@@ -14388,34 +14330,36 @@ static void sdv_finish_statements(sdv_obj *obj)
     obj->mesh.statements = (char **)sdv_items(&obj->statements);
 }
 
-// Everything that was read, in one block.
+// Makes the mesh, a single block, of everything that was read.
 static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
 {
     static const float white = 1;
     subdiv_mesh *mesh = &obj->mesh;
     if (!obj->context->result) sdv_check_obj(obj);
     if (obj->context->result) return;
+    mesh->vertex_count = obj->counts[SDV_VERTEX];
+    mesh->uv_count = obj->counts[SDV_UV];
     mesh->boundary = (subdiv_boundary)obj->rules[0];
     mesh->uv_rule = (subdiv_uv_rule)obj->rules[1];
     mesh->creasing = (subdiv_creasing)obj->rules[2];
     mesh->triangles = (subdiv_triangles)obj->rules[3];
     sdv_sort_tags(obj);
-    if (obj->face_sizes.count) {
-        mesh->face_size = 0;
-        mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
-    }
+    if (obj->face_sizes.count) mesh->face_size = 0;
+    mesh->face_sizes = (int *)sdv_items(&obj->face_sizes);
     if (obj->colors.count)
         sdv_fill(obj->context, &obj->colors, 3 * (size_t)mesh->vertex_count, &white);
     mesh->colors = (float *)sdv_items(&obj->colors);
-    sdv_finish_uvs(obj);
+    // A mesh has UVs if any of its faces has. Only then are bare faces odd.
+    if (obj->counts[SDV_FACE]) sdv_fill_uvs(obj, 0);
+    else mesh->uv_count = obj->counts[SDV_BARE_FACE] = 0;
     sdv_finish_statements(obj);
-    sdv_warn_skipped(obj);
+    sdv_warn_counted(obj);
     if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, SDV_PLAIN);
     if (obj->context->result) return;
-    sdv_series_take(&obj->positions, out->positions);
-    sdv_series_take(&obj->face_vertices, out->face_vertices);
-    sdv_series_take(&obj->uvs, out->uvs);
-    sdv_series_take(&obj->face_uvs, out->face_uvs);
+    sdv_series_take(&obj->points[0], out->positions);
+    sdv_series_take(&obj->points[1], out->uvs);
+    sdv_series_take(&obj->indices[0], out->face_vertices);
+    sdv_series_take(&obj->indices[1], out->face_uvs);
     sdv_copy(out->holes, sdv_items(&obj->lists[SDV_HOLES]), (size_t)out->hole_count, sizeof(int));
 }
 
@@ -14432,13 +14376,16 @@ static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subd
     obj.read = read;
     obj.user = user;
     obj.line = obj.next_line = 1;
+    for (int uv = 0; uv < 2; uv++) obj.points[uv] = obj.indices[uv] = sdv_new_arena(SDV_FIRST);
     sdv_grow(context, &obj.text, 1 << 18, 1);      // stays in the cache; grows for longer lines
     sdv_skip_byte_order_mark(&obj);
     sdv_read_statements(&obj);
     sdv_finish_obj(&obj, mesh);
 
-    sdv_series *series[] = { &obj.positions, &obj.uvs, &obj.face_vertices, &obj.face_uvs };
-    for (size_t i = 0; i < sizeof series / sizeof *series; i++) sdv_series_take(series[i], NULL);
+    for (int uv = 0; uv < 2; uv++) {
+        sdv_arena_free(&obj.points[uv]);
+        sdv_arena_free(&obj.indices[uv]);
+    }
     sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.ahead[0], &obj.ahead[1],
         &obj.skipped, &obj.statement_faces, &obj.statement_text, &obj.statements, &obj.ints,
         &obj.floats, &obj.tags, &obj.lists[0], &obj.lists[1], &obj.lists[2], &obj.sharpness[0],
@@ -14454,27 +14401,22 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
     return sdv_load_text(&context, mesh, read, user);
 }
 
-typedef struct sdv_memory {
-    const char *text;
-    size_t left;
-} sdv_memory;
-
 static size_t sdv_read_memory(void *user, void *bytes, size_t size)
 {
-    sdv_memory *memory = (sdv_memory *)user;
-    if (size > memory->left) size = memory->left;
-    sdv_copy(bytes, memory->text, size, 1);
-    memory->text += size;
-    memory->left -= size;
+    sdv_token *left = (sdv_token *)user;
+    size_t most = (size_t)(left->end - left->begin);
+    if (size > most) size = most;
+    sdv_copy(bytes, left->begin, size, 1);
+    left->begin += size;
     return size;
 }
 
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt)
 {
-    sdv_context context = sdv_begin(opt);
-    sdv_memory memory = { (const char *)text, size };
-    return sdv_load_text(&context, mesh, text || size == 0 ? sdv_read_memory : NULL, &memory);
+    if (size == 0) text = "";                               // it may be NULL
+    sdv_token left = { (const char *)text, text ? (const char *)text + size : NULL };
+    return subdiv_load_obj_callback(mesh, text ? sdv_read_memory : NULL, &left, opt);
 }
 
 // ----------------------------------------------------------------------------- >>obj-write
@@ -14531,7 +14473,7 @@ static char *sdv_write_floats(const sdv_figures *figures, char *p, const float *
     return p;
 }
 
-// Creases, corners or holes, each a tag of its own: the form that every reader of tags understands.
+// Writes creases, corners or holes, each as a tag of its own, which every reader understands.
 static void sdv_write_list(sdv_output *out, int kind, int count, const int *indices,
                            const float *sharpness)
 {
@@ -14552,7 +14494,7 @@ static void sdv_write_list(sdv_output *out, int kind, int count, const int *indi
     }
 }
 
-// Nothing if all is as usual; otherwise always the boundary, as readers differ in their defaults.
+// Writes nothing if all is as usual, else always the boundary, as readers differ in their defaults.
 static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
 {
     const int rules[SDV_RULES] = { (int)mesh->boundary, (int)mesh->uv_rule, (int)mesh->creasing,
@@ -14573,7 +14515,7 @@ static void sdv_write_tags(sdv_output *out, const subdiv_mesh *mesh)
     sdv_write_list(out, SDV_HOLES, mesh->hole_count, mesh->holes, NULL);
 }
 
-// Lines of so many numbers, and behind each 3 of more unless that is NULL: v x y z r g b.
+// Writes lines of width numbers, and behind them 3 of more unless that is NULL: v x y z r g b.
 static void sdv_write_lines(sdv_output *out, const char *keyword, int width, const float *values,
                             const float *more, int count)
 {
@@ -14589,8 +14531,8 @@ static void sdv_write_lines(sdv_output *out, const char *keyword, int width, con
     }
 }
 
-// Faces of one size: f a, a/t, a//a or a/t/a. uvs is NULL without; a face with a -1 there has none.
-// Normals are numbered as the vertices.
+// Writes faces of one size: f a, a/t, a//a or a/t/a. uvs may be NULL; a face with a -1 there has
+// none. Normals are numbered as the vertices.
 static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs, int normals,
                             int size, int count)
 {
@@ -14624,7 +14566,7 @@ static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs
     }
 }
 
-// The statements before a face, from number i on; returns the number of the next.
+// Writes the statements before a face, from number i on. Returns the number of the next.
 static int sdv_write_statements(sdv_output *out, const subdiv_mesh *mesh, int i, int face)
 {
     for (; i < mesh->statement_count && mesh->statement_faces[i] <= face; i++) {
@@ -14659,9 +14601,9 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
 
 enum { SDV_STREAM_POINTS = 1 << 20 };
 
-// The points of a surface, width numbers each, a window at a time. The first windows hold the
-// points of vertices and edges, which any face may make; the others those inside a few faces, or a
-// part of one. The first three numbers are positions, to be multiplied by factor.
+// Writes the points of a surface, width numbers each, a window at a time. The first windows hold
+// the points of vertices and edges, which any face may make; the others those inside a few faces or
+// a part of one. The first three numbers are a position, to be multiplied by factor.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
                               const char *keyword, int width, const float *values, float factor)
 {
@@ -14672,24 +14614,23 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
     float *window = SDV_NEW(out->context, arena, float, stride * (size_t)most);
     char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
     if (out->context->result) return;
-    subdiv_result result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
-    for (int first = 0; first < total && !result && !out->context->result; first = end) {
+    out->context->result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
+    for (int first = 0; first < total && !out->context->result; first = end) {
         int limit = first < inside ? inside : total, face = 0, faces = surface->cage_face_count;
         end = limit - first > SDV_STREAM_POINTS ? first + SDV_STREAM_POINTS : limit;
         if (first >= inside) {
             face = sdv_face_inside(&surface->order, first);
             faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
         }
-        result = subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
-                                       window, width, opt);
+        subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
+                              window, width, opt);
         for (size_t i = 0; i < (size_t)(end - first) && factor != 1; i++)
             sdv_multiply(window + i * stride, 3, factor);
         sdv_write_lines(out, keyword, width, window, NULL, end - first);
     }
-    if (!out->context->result) out->context->result = result;
 }
 
-// Positions with the colours behind them, or alone.
+// Returns positions with the colour behind each, or alone if there are no colours.
 static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
                                     const subdiv_surface *surface, const float *positions)
 {
@@ -14703,8 +14644,8 @@ static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
     return joined;
 }
 
-// The faces, a row of a grid at a time, and before them their statements. row and uvs have room for
-// one each.
+// Writes the faces, a row of a grid at a time, and before them their statements. row and uvs have
+// room for the indices of a row.
 static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs)
 {
     const sdv_order *order = &surface->order;
@@ -14750,21 +14691,17 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
     sdv_write_tags(out, &fine);
 }
 
-typedef struct sdv_content {            // what is written: a mesh, or a surface being refined
-    const subdiv_mesh *mesh;
-    const subdiv_surface *surface;
-    const float *positions;             // of the surface
-} sdv_content;
-
-static subdiv_result sdv_write_obj(sdv_context *context, sdv_content from, subdiv_write write,
-                                   void *user, const subdiv_options *opt)
+// Writes a mesh or, if that is NULL, a surface with positions while it is refined.
+static subdiv_result sdv_write_obj(sdv_context *context, const subdiv_mesh *mesh,
+                                   const subdiv_surface *surface, const float *positions,
+                                   subdiv_write write, void *user, const subdiv_options *opt)
 {
     subdiv_mesh copy;
     memset(&copy, 0, sizeof copy);
     if (context->result) return context->result;
-    if (from.surface && from.surface->levels == 0) {            // no larger than the cage
-        context->result = subdiv_surface_mesh(&copy, from.surface, from.positions, opt);
-        from.mesh = &copy;
+    if (surface && surface->levels == 0) {                      // no larger than the cage
+        context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
+        mesh = &copy;
     }
     sdv_arena arena = sdv_scratch();
     sdv_figures *figures = SDV_NEW(context, &arena, sdv_figures, 1);
@@ -14772,8 +14709,8 @@ static subdiv_result sdv_write_obj(sdv_context *context, sdv_content from, subdi
     out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
     if (!context->result) {
         sdv_make_figures(figures);
-        if (from.mesh) sdv_write_mesh(&out, from.mesh);
-        else sdv_stream_surface(&out, &arena, from.surface, from.positions);
+        if (mesh) sdv_write_mesh(&out, mesh);
+        else sdv_stream_surface(&out, &arena, surface, positions);
         sdv_flush(&out);
     }
     sdv_arena_free(&arena);
@@ -14785,10 +14722,9 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { mesh, NULL, NULL };
     if (!write) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
     else sdv_check_all(&context, mesh);
-    return sdv_write_obj(&context, from, write, user, opt);
+    return sdv_write_obj(&context, mesh, NULL, NULL, write, user, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
@@ -14796,19 +14732,14 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, write != NULL);
-    return sdv_write_obj(&context, from, write, user, opt);
+    return sdv_write_obj(&context, NULL, surface, positions, write, user, opt);
 }
 
-typedef struct sdv_kept {
-    char *text;
-    size_t size, capacity;
-} sdv_kept;
-
+// Keeps what fits the sdv_text; its size is that of all.
 static size_t sdv_write_memory(void *user, const void *bytes, size_t size)
 {
-    sdv_kept *store = (sdv_kept *)user;
+    sdv_text *store = (sdv_text *)user;
     if (store->size < store->capacity) {
         size_t room = store->capacity - store->size;
         sdv_copy(store->text + store->size, bytes, size < room ? size : room, 1);
@@ -14821,16 +14752,13 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
                                                 size_t capacity, size_t *size,
                                                 const subdiv_options *opt)
 {
+    sdv_text store = { (char *)text, 0, capacity };
+    subdiv_write write = size && (text || !capacity) ? sdv_write_memory : NULL;
+    subdiv_result result = subdiv_save_obj_callback(mesh, write, &store, opt);
+    if (size) *size = result ? 0 : store.size;
+    if (result || !capacity || capacity >= store.size) return result;
     sdv_context context = sdv_begin(opt);
-    sdv_kept store = { (char *)text, 0, capacity };
-    sdv_content from = { mesh, NULL, NULL };
-    if (size) *size = 0;
-    if (!size || (capacity && !text))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
-    else sdv_check_all(&context, mesh);
-    if (!sdv_write_obj(&context, from, sdv_write_memory, &store, opt)) *size = store.size;
-    if (!context.result && capacity && capacity < store.size)
-        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
+    sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit the buffer");
     return context.result;
 }
 
@@ -14899,12 +14827,13 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
     return context.result;
 }
 
-static subdiv_result sdv_write_path(sdv_context *context, sdv_content from, const char *path,
-                                    const subdiv_options *opt)
+static subdiv_result sdv_write_path(sdv_context *context, const subdiv_mesh *mesh,
+                                    const subdiv_surface *surface, const float *positions,
+                                    const char *path, const subdiv_options *opt)
 {
     FILE *file = context->result ? NULL : sdv_open(context, path, "wb");
     if (!file) return context->result;                      // bad arguments leave a file as it is
-    sdv_write_obj(context, from, sdv_write_file, file, opt);
+    sdv_write_obj(context, mesh, surface, positions, sdv_write_file, file, opt);
     if (fclose(file)) sdv_fail_io(context, "writing failed");
     return context->result;
 }
@@ -14913,20 +14842,18 @@ SUBDIV_DEF subdiv_result subdiv_save_obj(const subdiv_mesh *mesh, const char *pa
                                          const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { mesh, NULL, NULL };
     if (!path) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "path is NULL");
     else sdv_check_all(&context, mesh);
-    return sdv_write_path(&context, from, path, opt);
+    return sdv_write_path(&context, mesh, NULL, NULL, path, opt);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const float *positions,
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_content from = { NULL, surface, positions };
     sdv_check_mesh_surface(&context, surface, path != NULL);
     if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
-    return sdv_write_path(&context, from, path, opt);
+    return sdv_write_path(&context, NULL, surface, positions, path, opt);
 }
 
 #endif // SUBDIV_NO_STDIO
