@@ -8035,7 +8035,8 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
         if (h < 0 || (i > 0 && h == first) || level->across[level->across[h]] != h) return 0;
         s[i] = level->sharpness[h];
     }
-    return h == first && memcmp(s, s + 2, 2 * sizeof *s) == 0 && sdv_cross_freely(s[0], s[1], rules);
+    return h == first && memcmp(s, s + 2, 2 * sizeof *s) == 0 &&
+           sdv_cross_freely(s[0], s[1], rules);
 }
 
 // Returns the kind of a vertex where something is sharp. Edged: it is on a crease that stays sharp.

@@ -509,7 +509,8 @@ static void check_pieces(const subdiv_surface *s, const float *in)
         CHECK(same_bytes(part + 1, t + 6 * i, 6, sizeof(float)));
         double least = 1e-12 * dot(a, a) * dot(b, b);                   // parallel but for rounding
         vec far = of_floats(p + 3 * i), near = add(far, -1, of_floats(in));
-        double fold = 1e-10 * (dot(a, a) + dot(b, b)) + 1.6e-11 * fmax(dot(far, far), dot(near, near));
+        double origin = 1.6e-11 * fmax(dot(far, far), dot(near, near));
+        double fold = 1e-10 * (dot(a, a) + dot(b, b)) + origin;
         if (dot(m, m) == 0 && fmin(dot(a, a), dot(b, b)) <= 1.01 * fold) continue;
         if (dot(c, c) > 1.01 * least) CHECK_NEAR(largest_of(add(unit(c), -1, m)), 0, 1e-6);
         else if (dot(c, c) <= 0.99 * least) CHECK(dot(m, m) == 0);

@@ -209,7 +209,7 @@ static inline void build_torus(test_cage *c, subdiv_scheme scheme, int nx, int n
 // Two n-gons joined by n quads; the cube is the prism over a square.
 static inline void build_prism(test_cage *c, int n)
 {
-    int top[16], bottom[16];
+    int top[16] = { 0 }, bottom[16] = { 0 };
     double turn = 8 * atan(1.0) / n;
     cage_clear(c, SUBDIV_CATMULL_CLARK);
     for (int i = 0; i < n; i++) top[i] = cage_vertex(c, cos(turn * i), sin(turn * i), 0.7);
