@@ -851,9 +851,9 @@ static void add_sheet(int from, int to)
     int turned = below(2), least = from == to ? 3 : 1, faces = least + below(3);
     for (int i = 0, a = from, b; i < faces; i++, a = b) {
         b = i + 1 < faces ? cage_vertex(&cage, i, below(9), below(9)) : to;
-        int from = turned ? b : a, to = turned ? a : b;
-        if (cage.mesh.scheme == SUBDIV_LOOP) cage_triangle(&cage, 0, from, to);
-        else cage_quad(&cage, 0, from, cage_vertex(&cage, below(9), i, 3), to);
+        int first = turned ? b : a, last = turned ? a : b;
+        if (cage.mesh.scheme == SUBDIV_LOOP) cage_triangle(&cage, 0, first, last);
+        else cage_quad(&cage, 0, first, cage_vertex(&cage, below(9), i, 3), last);
     }
 }
 
