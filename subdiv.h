@@ -2098,6 +2098,8 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *le
     level->face_starts[level->face_count] = h;
 }
 
+static void sdv_level_fade(sdv_level *level);                   // see >>sharpness
+
 // Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
 // scratch the rest.
 static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
@@ -2127,6 +2129,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     if (mesh->boundary == SUBDIV_BOUNDARY_NONE && mesh->scheme != SUBDIV_BILINEAR)
         sdv_open_boundary(cage);
     sdv_implied_sharpness(cage, mesh->boundary);
+    sdv_level_fade(level);
 }
 
 // ----------------------------------------------------------------------------- >>sharpness
@@ -2222,11 +2225,11 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
-// The sharp edges at a vertex: how many now and on the next level, and of those that fade away
-// until then how many and the sum of their sharpness.
+// The sharp edges at a vertex: how many now, on the next level and forever, and the sum of the
+// sharpness of those that fade away until the next level.
 typedef struct sdv_sharp_edges {
-    int   now, next, ending;
-    float sum;
+    int   now, next, forever;
+    float ending;
 } sdv_sharp_edges;
 
 // half: what is left of an edge one level down.
@@ -2235,9 +2238,8 @@ static void sdv_meet_edge(sdv_sharp_edges *edges, float sharpness, float half)
     if (sharpness <= 0) return;
     edges->now++;
     edges->next += half > 0;
-    if (half > 0) return;
-    edges->ending++;
-    edges->sum += sharpness;
+    edges->forever += sharpness >= SUBDIV_INFINITE;
+    if (half <= 0) edges->ending += sharpness;
 }
 
 static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
@@ -2252,29 +2254,17 @@ static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
     return edges;
 }
 
-// How a vertex fades, of whose sharpness so much is left one level down, with its edges.
-static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
+// How a vertex fades, by its own sharpness and its edges.
+static sdv_fading sdv_fading_of(float sharpness, const sdv_sharp_edges *edges)
 {
-    int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
-    float mean = count ? (ends ? sharpness + edges->sum : edges->sum) / (float)count : 0;
+    float left = sdv_fade(sharpness), sum = edges->ending;
+    int ends = sharpness > 0 && left <= 0, count = edges->now - edges->next + ends;
+    float mean = count ? (ends ? sharpness + sum : sum) / (float)count : 0;
     sdv_fading fading;
     fading.rule = sdv_vertex_rule(sharpness, edges->now);
     fading.next = sdv_vertex_rule(left, edges->next);
     fading.weight = (double)(mean < 1 ? mean : 1);
     return fading;
-}
-
-// Counts the edges at a vertex that stay sharp forever.
-static int sdv_forever_edges(const sdv_level *level, int v)
-{
-    int count = 0;
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++)
-            count += sdv_is_edge_at(level, two[i], i == 0) &&
-                     level->sharpness[two[i]] >= SUBDIV_INFINITE;
-    }
-    return count;
 }
 
 // Is nothing at a vertex semi-sharp?
@@ -2296,22 +2286,13 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
-// How a vertex fades by its own sharpness and that of its edges.
-static sdv_fading sdv_own_fading(const sdv_level *level, int v)
-{
-    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    float sharpness = level->vertex_sharpness[v];
-    if (!level->creased[v] && sharpness <= 0) return smooth;
-    sdv_sharp_edges edges = sdv_count_sharp_edges(level, v);
-    return sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
-}
-
-// A vertex of UVs with a partner fades as that does, but, while its seam stays semi-sharp, a level
-// later [OSD].
+// How a vertex fades. One of UVs with a partner fades as that does, but, while its seam stays
+// semi-sharp, a level later [OSD].
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    int partner = level->partner ? level->partner[v] : -1;
-    sdv_fading fading = sdv_own_fading(level, partner >= 0 ? partner : v);
+    int partner = level->partner ? level->partner[v] : -1, own = partner >= 0 ? partner : v;
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, own);
+    sdv_fading fading = sdv_fading_of(level->vertex_sharpness[own], &edges);
     if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
@@ -3749,7 +3730,7 @@ static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side 
             continue;
         }
         for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
-        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], key[4], &sharp), regular);
+        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], &sharp), regular);
         if (!loop) mask = sdv_spread_vertex(mask, regular);
         int around = mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
         sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
@@ -4096,14 +4077,14 @@ static void sdv_seam_sharpness(sdv_seams *seams)
 }
 
 // Chaikin's averages reach across seams: so they take the sums at the vertices of the cage, on each
-// level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
+// level, sums [levels + 1][2 * vertex_count]. What happens at a vertex depends on nothing else.
 static void sdv_chaikin_sums(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
                              sdv_seams *seams, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
     size_t count = 2 * (size_t)cage->vertex_count;
-    float *sums = level->sums = SDV_NEW(context, keep, float, count * (size_t)levels);
+    float *sums = level->sums = SDV_NEW(context, keep, float, count * ((size_t)levels + 1));
     float *s = SDV_NEW(context, scratch, float, cage->face_vertex_count);
     level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
     level->origin_count = cage->vertex_count;
@@ -4112,7 +4093,7 @@ static void sdv_chaikin_sums(sdv_context *context, sdv_arena *keep, sdv_arena *s
     for (int h = 0; h < level->face_vertex_count; h++)
         level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
     sdv_copy(s, cage->sharpness, (size_t)cage->face_vertex_count, sizeof(float));
-    for (int i = 0; i < levels; i++) {
+    for (int i = 0; i <= levels; i++) {
         for (int v = 0; v < cage->vertex_count; v++, sums += 2) {
             sdv_sum_semi_sharp(cage, s, v, sums);
             for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h])
@@ -4147,14 +4128,10 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_level_count(level);
     sdv_seam_edges(seams);
     sdv_seam_sharpness(seams);
+    sdv_level_fade(level);
 }
 
 // ------------------------------------------------------------------------------- >>prepare
-
-typedef struct sdv_limit_weights {      // the mask of a limit row: see >>limit-rows
-    int    count;                       // points
-    float *weights;                     // [3][count] for the position, then for either tangent
-} sdv_limit_weights;
 
 // The functions that prepare and evaluate a surface for SUBDIV_EXACT. Only calls that may make such
 // a surface name them, so programs without these calls do not get their code.
@@ -4328,18 +4305,24 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
 
 // ------------------------------------------------------------------------------ >>limit-rows
 // A limit row makes a point of the limit and its two tangents from points of the last level.
+//
+// The edges at a vertex that are sharp forever part its faces into sectors, each with a limit of
+// its own. A sector is open, from one such edge to the next, or all around the vertex; so is that
+// of a dart, whose first edge is the sharp one. The points of a sector are the vertex, its
+// neighbours counter-clockwise and, under Catmull-Clark, the vertices across its faces. A step of
+// refinement makes the same points of the next level from these alone: it is a matrix.
+//
+// Where nothing fades, the masks of >>masks are the limit. Elsewhere the sharpness is faded level
+// by level until nothing does. The rows of weights there, times the matrices of all the steps that
+// led there, the last one first, are the rows for the points of the last level.
 
-// The faces around a vertex up to infinitely sharp edges are a sector: a closed ring, or open from
-// one such edge to another. A dart is a ring, whose first edge is the sharp one. The points of a
-// sector are the vertex, its neighbours counter-clockwise and, under Catmull-Clark, the vertices
-// across its faces. One step of refinement makes the same points of the next level from these.
 typedef struct sdv_ray {                // an edge at the vertex: its sharpness and, one level down,
     float now, half, behind;            // that of its half there and of the half behind that
 } sdv_ray;
 
 typedef struct sdv_sector {
-    int      faces, edges;              // a ring has as many edges as faces, else one more
-    int      first, ring;               // its first face-vertex; no edge of it is infinitely sharp
+    int      first;                     // its first face-vertex
+    int      faces, edges;              // an open sector has one edge more than faces
     int      count;
     sdv_ray *rays;                      // [count] the edges, then sharp ones of other sectors
     float    corner;                    // the sharpness of the vertex
@@ -4353,7 +4336,7 @@ static int sdv_sector_points(const sdv_rules *rules, const sdv_sector *s)
     return 1 + s->edges + (rules->loop ? 0 : s->faces);
 }
 
-// Makes a sector where nothing fades, of a rule.
+// Makes a sector of a rule, where nothing fades.
 static void sdv_settle(sdv_sector *s, sdv_rule rule, int faces, int open)
 {
     const float forever = SUBDIV_INFINITE;
@@ -4377,33 +4360,33 @@ static int sdv_sector_fades(const sdv_sector *s)
 static void sdv_fade_sector(const sdv_rules *rules, const sdv_sector *from, sdv_sector *to)
 {
     sdv_ray *rays = to->rays;
-    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN, semi = 0;
+    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN, semi = 0;     // uniform: no others
     float sum = 0;
     *to = *from;
     to->rays = rays;
     to->corner = sdv_fade(from->corner);
     for (int i = 0; i < from->count; i++) {
         rays[i].now = from->rays[i].half;
-        if (!sdv_is_semi_sharp(rays[i].now)) continue;
+        if (!chaikin || !sdv_is_semi_sharp(rays[i].now)) continue;
         sum += rays[i].now;
         semi++;
     }
     for (int i = 0; i < from->count; i++) {
         float s = rays[i].now, other = from->rays[i].behind;
-        rays[i].half = chaikin ? sdv_fade_chaikin(s, sum, semi) : sdv_fade(s);
-        rays[i].behind = chaikin ? sdv_fade_chaikin(s, s + other, 1 + (other > 0)) : sdv_fade(s);
+        rays[i].half = sdv_fade_chaikin(s, sum, semi);
+        rays[i].behind = sdv_fade_chaikin(s, s + other, 1 + (chaikin && other > 0));
     }
 }
 
-// Goes back one step, from weights w of a sector's points on the next level to weights of those on
-// this level: a row of weights times the matrix of the step.
+// Multiplies a row of weights by the matrix of a step: w weighs a sector's points on the next
+// level, out those on this level.
 static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const double *w, double *out)
 {
     int n = s->faces, edges = s->edges, loop = rules->loop;
     double *edge = out + 1, *across = edge + edges;
     sdv_sharp_edges sharp = { 0, 0, 0, 0 };
     for (int i = 0; i < s->count; i++) sdv_meet_edge(&sharp, s->rays[i].now, s->rays[i].half);
-    sdv_fading fading = sdv_fading_of(s->corner, sdv_fade(s->corner), &sharp);
+    sdv_fading fading = sdv_fading_of(s->corner, &sharp);
     sdv_mask vertex = sdv_vertex_mask(rules, fading, n);
     out[0] = w[0] * vertex.self;
     for (int i = 0; i < edges; i++) edge[i] = w[0] * vertex.edge;
@@ -4426,7 +4409,7 @@ static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const dou
     }
 }
 
-// Goes back one step with the rows of a limit: the point's, and two tangents', which may have any
+// Does so with the rows of a limit: the point's and those of two tangents, which may have any
 // length. room [points].
 static void sdv_rows_back(const sdv_rules *rules, const sdv_sector *s, double *rows, double *room)
 {
@@ -4459,7 +4442,7 @@ static void sdv_settled_rows(const sdv_rules *rules, const sdv_sector *s, double
     for (int i = 1 + s->edges; i < points; i++) rows[i] = mask.face;
     sdv_mask vertex = rule == SDV_CREASE ? sdv_crease_vertex() : sdv_corner_vertex();
     if (open) sdv_crease_tangents(rules, vertex, n, t0, t1);
-    else if (rule != SDV_CORNER || s->rays[0].now <= 0) sdv_smooth_tangents(rules, n, t0, t1);
+    else sdv_smooth_tangents(rules, n, t0, t1);
     // A dart has no closed form. The more faces, the more alike are the waves, and the longer it
     // takes until the slowest is left.
     int steps = n < 44 ? 64 + n * n : SDV_DART_STEPS;
@@ -4467,7 +4450,7 @@ static void sdv_settled_rows(const sdv_rules *rules, const sdv_sector *s, double
 }
 
 // Makes the rows of the limit of sector states[0]: goes on to the level where nothing fades, and
-// back. states [SDV_FADE_LEVELS + 1] have room for rays. room [points].
+// back. states [SDV_FADE_LEVELS + 1] have room for rays, room for points.
 static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *rows, double *room)
 {
     int level = 0;
@@ -4477,12 +4460,9 @@ static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *
     while (level-- > 0) sdv_rows_back(rules, &states[level], rows, room);
 }
 
-// Kinds of limit rows whose weights depend on the number of faces alone: of sectors where nothing
-// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; and of
-// linear surfaces, with two edges for tangents.
-typedef enum sdv_limit_kind {
-    SDV_RING, SDV_SLIT, SDV_SPAN, SDV_SPIKE, SDV_WEDGE, SDV_TIP, SDV_LIMIT_KINDS
-} sdv_limit_kind;
+// Kinds of limit rows whose weights depend on the number of faces alone, as nothing fades. Those of
+// an open sector are SDV_CREASE and SDV_WEDGE. The tangents of a linear surface are two edges.
+enum { SDV_WEDGE = SDV_CORNER + 1, SDV_LINEAR, SDV_LIMIT_KINDS };
 
 enum { SDV_FADED = 16 };
 
@@ -4496,86 +4476,76 @@ typedef struct sdv_limit_writer {       // writes limit rows
     const sdv_level *level;             // the last
     const sdv_rules *rules;
     const sdv_filler *fill;
-    sdv_array   masks;                  // sdv_limit_weights, one for each kind and number of faces
-    int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
+    float     **known;                  // [SDV_LIMIT_KINDS * (most + 1)] weights [3][points] for the
+                                        // position and either tangent, or NULL
     double     *rows, *room;            // of a sector: [3][points], [points]
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
-    int        *edge, *place;           // see sdv_find_rays
+    int        *seen;                   // see sdv_find_rays
 } sdv_limit_writer;
 
-// Makes the mask of a kind. Its points are in the order of sdv_limit_row.
-static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_arena *arena,
-                                            sdv_limit_kind kind, int faces)
+// Adds a limit row of a kind, whose points are in limit->writer->points. Makes its weights the
+// first time, under SUBDIV_PLAIN each time.
+static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int target)
 {
-    static const sdv_rule rules[SDV_TIP] = { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER,
-                                             SDV_CORNER };
-    static const double tip[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    const double *rows = kind == SDV_TIP ? tip : limit->rows;
-    sdv_limit_weights made = { 3, NULL };
-    if (kind != SDV_TIP) {
-        sdv_settle(&limit->states[0], rules[kind], faces, kind == SDV_SPAN || kind == SDV_WEDGE);
-        sdv_settled_rows(limit->rules, &limit->states[0], limit->rows, limit->room);
-        made.count = sdv_sector_points(limit->rules, &limit->states[0]);
+    static const double linear[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    const sdv_rules *rules = limit->rules;
+    sdv_writer *writer = limit->writer;
+    float **known = &limit->known[kind * (writer->most + 1) + faces];
+    int open = kind == SDV_CREASE || kind == SDV_WEDGE;
+    int points = kind == SDV_LINEAR ? 3 : 1 + open + (rules->loop ? faces : 2 * faces);
+    if (!*known || SDV_IS_PLAIN) {
+        const double *rows = kind == SDV_LINEAR ? linear : limit->rows;
+        sdv_rule rule = kind == SDV_WEDGE ? SDV_CORNER : (sdv_rule)kind;
+        sdv_settle(&limit->states[0], rule, faces, open);
+        if (kind != SDV_LINEAR)
+            sdv_settled_rows(rules, &limit->states[0], limit->rows, limit->room);
+        if (!*known) *known = SDV_NEW(writer->context, writer->arena, float, 3 * (size_t)points);
+        for (int i = 0; i < 3 * points && *known; i++) (*known)[i] = (float)rows[i];
     }
-    made.weights = SDV_NEW(limit->writer->context, arena, float, 3 * (size_t)made.count);
-    for (int i = 0; i < 3 * made.count && made.weights; i++) made.weights[i] = (float)rows[i];
-    return made;
+    sdv_shape shape;
+    if (writer->context->result) return;
+    memset(&shape, 0, sizeof shape);
+    shape.count[0] = points - 1;
+    shape.regular = kind == SDV_SMOOTH && faces == (rules->loop ? 6 : 4);
+    sdv_add_shape(writer, &shape, *known, target);
 }
 
-// Returns the number of the mask of a kind, and makes it the first time; SUBDIV_PLAIN: each time.
-static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
+// Finds the sector, of a vertex of this rule, that has the face of h.
+static void sdv_find_sector(const sdv_level *level, int h, sdv_rule rule, sdv_sector *s)
 {
-    int *known = &limit->known[(int)kind * (limit->writer->most + 1) + faces];
-    if (*known >= 0 && !SDV_IS_PLAIN) return *known;
-    sdv_arena *arena = *known < 0 ? limit->writer->arena : &limit->writer->scratch;
-    sdv_limit_weights made = sdv_new_limit_mask(limit, arena, kind, faces);
-    if (*known >= 0) return *known;
-    sdv_limit_weights *mask = (sdv_limit_weights *)sdv_array_room(limit->writer->context,
-                                                            &limit->masks, 1, sizeof made);
-    if (!mask) return 0;
-    *mask = made;
-    return *known = (int)limit->masks.count++;
-}
-
-// Appends the points of count faces from h on, counter-clockwise: the neighbours (at a crease also
-// the one behind the last face), then the vertices across the faces.
-static void sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
-{
-    int *across = point + count + crease;
-    for (int i = 0; i < count; i++) {
-        *point++ = sdv_point_ahead(level, h);
-        if (!loop) *across++ = sdv_point_across(level, h);
-        if (crease && i + 1 == count) *point = sdv_point_behind(level, h);
-        h = sdv_around(level, h);
-    }
-}
-
-// Finds the faces of the sector that has the face of h: all in a ring, where nothing is sharp.
-static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
-{
-    int v = level->face_vertices[h], first = h, ring = 0, at, q;
+    int v = level->face_vertices[h], first = h, at = -1, q;
     s->first = h;
-    s->faces = level->vertex_faces[v];
-    s->ring = 1;
+    s->faces = s->edges = level->vertex_faces[v];
     if (!level->creased[v] && level->vertex_sharpness[v] < SUBDIV_INFINITE) return;
-    while (!ring && level->sharpness[first] < SUBDIV_INFINITE && level->across[first] != first) {
+    while (level->sharpness[first] < SUBDIV_INFINITE && at != h) {
         at = sdv_next(level, level->across[first]);
-        ring = at == h;
-        if (!ring) first = at;
+        if (at != h) first = at;
     }
-    if (ring)                           // begin at a sharp edge, so that more are alike
+    int open = at != h && rule != SDV_DART;
+    if (at == h)                        // begin at a sharp edge, so that more are alike
         for (first = h; level->sharpness[first] <= 0 && sdv_around(level, first) != h; )
             first = sdv_around(level, first);
     s->faces = 1;
     for (at = first; ; at = q, s->faces++) {
         int before = sdv_previous(level, at);
         q = level->across[before];
-        if (q == before || q == first) break;
-        if (sdv_sharpness_before(level, before) >= SUBDIV_INFINITE) break;
+        if (q == first || sdv_sharpness_before(level, before) >= SUBDIV_INFINITE) break;
     }
     s->first = first;
-    s->ring = ring;
+    s->edges = s->faces + open;
+}
+
+// Writes the points of a sector, without the vertex.
+static void sdv_add_sector(const sdv_level *level, const sdv_sector *s, int loop, int *point)
+{
+    int *across = point + s->edges;
+    for (int i = 0, h = s->first; i < s->faces; i++) {
+        *point++ = sdv_point_ahead(level, h);
+        if (!loop) *across++ = sdv_point_across(level, h);
+        if (i + 1 == s->edges - 1) *point = sdv_point_behind(level, h);
+        h = sdv_around(level, h);
+    }
 }
 
 // Finds how the edge of h fades at the vertex of h or, with end 1, where it ends.
@@ -4593,46 +4563,42 @@ static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
     return ray;
 }
 
-// Finds the rays of a sector, and those of other sharp edges at the vertex. An edge is meant by its
-// last face-vertex. Which ones the sector has tell limit->edge, by place, and limit->place, by
-// edge.
+// Returns the last face-vertex of the ring of h's edge.
+static int sdv_last_of_edge(const sdv_level *level, int h)
+{
+    while (level->across[h] > h) h = level->across[h];
+    return h;
+}
+
+// Finds the rays of a sector and those of other sharp edges at the vertex. limit->seen says of the
+// last face-vertex of each edge in which vertex's sector it was last.
 static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
     int v = level->face_vertices[s->first];
     s->corner = level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
-        int end = i == s->faces, h = end ? sdv_previous(level, at) : at, edge = h;
-        while (level->across[edge] > edge) edge = level->across[edge];
+        int before = sdv_previous(level, at), end = i == s->faces, h = end ? before : at;
         s->rays[i] = sdv_ray_of(limit, h, end);
-        limit->edge[i] = edge;
-        limit->place[edge] = i;
-        if (i + 1 < s->faces) at = level->across[sdv_previous(level, at)];
+        limit->seen[sdv_last_of_edge(level, h)] = v;
+        if (i + 1 < s->faces) at = level->across[before];
     }
     s->count = s->edges;
     for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k])
         for (int end = 0; end < 2; end++) {
-            int h = end ? sdv_previous(level, k) : k, edge = h;
+            int h = end ? sdv_previous(level, k) : k;
             if (!sdv_is_edge_at(level, h, !end)) continue;
-            while (level->across[edge] > edge) edge = level->across[edge];
-            int at = limit->place[edge];
-            if (at < s->edges && limit->edge[at] == edge) continue;
+            if (limit->seen[sdv_last_of_edge(level, h)] == v) continue;
             sdv_ray ray = sdv_ray_of(limit, h, end);
             if (ray.now > 0) s->rays[s->count++] = ray;
         }
 }
 
-// Adds a limit row whose points are in limit->writer->points.
-static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, int faces, int target)
+static int sdv_same_sector(const sdv_sector *a, const sdv_sector *b)
 {
-    int number = sdv_find_limit_mask(limit, kind, faces);
-    const sdv_limit_weights *mask = (const sdv_limit_weights *)sdv_items(&limit->masks) + number;
-    sdv_shape shape;
-    if (limit->writer->context->result) return;
-    memset(&shape, 0, sizeof shape);
-    shape.count[0] = mask->count - 1;
-    shape.regular = kind == SDV_RING && faces == (limit->rules->loop ? 6 : 4);
-    sdv_add_shape(limit->writer, &shape, mask->weights, target);
+    return a->count == b->count && a->edges == b->edges && a->faces == b->faces &&
+           memcmp(&a->corner, &b->corner, sizeof a->corner) == 0 &&
+           memcmp(a->rays, b->rays, (size_t)a->count * sizeof *a->rays) == 0;
 }
 
 // Returns the rows of sector states[0], which fades. Makes them unless a sector like it was there.
@@ -4648,15 +4614,12 @@ static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
     }
     sdv_faded *known = &limit->faded[(hash * 2654435761u) >> 28];
     sdv_sector *of = &known->sector;
-    int same = known->rows && !SDV_IS_PLAIN && of->count == s->count && of->edges == s->edges &&
-               of->faces == s->faces && memcmp(&of->corner, &s->corner, sizeof s->corner) == 0 &&
-               memcmp(of->rays, s->rays, (size_t)s->count * sizeof *s->rays) == 0;
-    if (same) return known->rows;
-    if (!known->rows) {
-        size_t most = (size_t)limit->writer->most;
-        of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
-        known->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
-    }
+    if (known->rows && !SDV_IS_PLAIN && sdv_same_sector(of, s)) return known->rows;
+    size_t most = (size_t)limit->writer->most;
+    for (int i = 1; i <= SDV_FADE_LEVELS && !limit->states[i].rays; i++)
+        limit->states[i].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    if (!known->rows) of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    if (!known->rows) known->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
     if (context->result) return NULL;
     sdv_ray *rays = of->rays;
     *of = *s;
@@ -4705,61 +4668,52 @@ static int sdv_first_seen(const subdiv_surface *surface, const sdv_level *level,
     return best;
 }
 
-// Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
-// the vertices across its faces. Where sharp edges part the faces, it is the limit of the sector
-// that has the face of h.
+// Adds the limit row of the vertex of h: that of the sector that has the face of h.
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
-    const sdv_rules *rules = limit->rules;
-    int v = level->face_vertices[h], faces = 0, open = 0, *point = limit->writer->points;
-    sdv_sector *s = &limit->states[0];
-    sdv_limit_kind kind = SDV_TIP;
-    *point++ = level->first_point + v;
-    if (rules->linear) {
-        point[0] = sdv_point_ahead(level, h);
-        point[1] = sdv_point_behind(level, h);
-    } else {
-        static const sdv_limit_kind rings[4] = { SDV_RING, SDV_SLIT, SDV_RING, SDV_SPIKE };
-        float corner = level->vertex_sharpness[v];
-        sdv_find_sector(level, h, s);
-        sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
-                                        sdv_forever_edges(level, v));
-        faces = s->faces;
-        open = !s->ring && rule != SDV_DART;
-        s->edges = faces + open;
-        kind = !open ? rings[rule] : rule == SDV_CREASE ? SDV_SPAN : SDV_WEDGE;
-        sdv_add_fan(level, s->first, faces, open, rules->loop, point);
-        if (!sdv_vertex_settled(level, v)) {
-            sdv_find_rays(limit, s);
-            sdv_fading_row(limit, target);
-            return;
-        }
+    int v = level->face_vertices[h], *points = limit->writer->points;
+    points[0] = level->first_point + v;
+    if (limit->rules->linear) {
+        points[1] = sdv_point_ahead(level, h);
+        points[2] = sdv_point_behind(level, h);
+        sdv_settled_row(limit, SDV_LINEAR, 0, target);
+        return;
     }
-    sdv_limit_batch_row(limit, kind, faces, target);
+    sdv_sector *s = &limit->states[0];
+    float corner = level->vertex_sharpness[v];
+    sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
+                                    sdv_count_sharp_edges(level, v).forever);
+    sdv_find_sector(level, h, rule, s);
+    sdv_add_sector(level, s, limit->rules->loop, points + 1);
+    if (sdv_vertex_settled(level, v)) {
+        int wedge = rule == SDV_CORNER && s->edges > s->faces;
+        sdv_settled_row(limit, wedge ? SDV_WEDGE : (int)rule, s->faces, target);
+    } else {
+        sdv_find_rays(limit, s);
+        sdv_fading_row(limit, target);
+    }
 }
 
-// fill: of the level, if its points stand on lines; else NULL. semi: something is semi-sharp.
+// fill: of the level, if its points stand on lines; else NULL.
 static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
-                            const sdv_filler *fill, int semi, sdv_limit_writer *limit)
+                            const sdv_filler *fill, sdv_limit_writer *limit)
 {
     sdv_context *context = writer->context;
+    sdv_arena *scratch = &writer->scratch;
     size_t most = (size_t)writer->most, known = SDV_LIMIT_KINDS * (most + 1);
-    size_t places = semi ? (size_t)level->face_vertex_count : 0;
     memset(limit, 0, sizeof *limit);
     limit->writer = writer;
     limit->level = level;
     limit->rules = rules;
     limit->fill = fill;
-    limit->known = SDV_NEW(context, &writer->scratch, int, known);
-    limit->rows = SDV_NEW(context, &writer->scratch, double, 3 * (2 * most + 2));
-    limit->room = SDV_NEW(context, &writer->scratch, double, 2 * most + 2);
-    for (int i = 0; i <= (semi ? SDV_FADE_LEVELS : 0); i++)
-        limit->states[i].rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
-    limit->edge = SDV_NEW(context, &writer->scratch, int, most + 1);
-    limit->place = SDV_NEW(context, &writer->scratch, int, places);
-    for (size_t i = 0; i < places && !context->result; i++) limit->place[i] = 0;
-    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
+    limit->known = SDV_NEW(context, scratch, float *, known);
+    limit->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
+    limit->room = SDV_NEW(context, scratch, double, 2 * most + 2);
+    limit->states[0].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    limit->seen = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = NULL;
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) limit->seen[h] = -1;
 }
 
 // ------------------------------------------------------------------------------------ >>fill
@@ -4915,6 +4869,7 @@ static void sdv_fade_cage(sdv_level *level)
             level->sharpness[h] = sdv_half(level, h);
     }
     if (level->sums) level->sums += 2 * (size_t)level->origin_count;
+    sdv_level_fade(level);
 }
 
 // Begins the rows from one level to the next: finds the open batches of smooth points.
@@ -4990,27 +4945,26 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
     int loop = fill->rules->loop, *points = limit->writer->points, n = 0;
-    sdv_limit_kind kind = fill->rules->linear ? SDV_TIP : sharp ? SDV_SPAN : SDV_RING;
+    int kind = fill->rules->linear ? SDV_LINEAR : sharp ? SDV_CREASE : SDV_SMOOTH;
     points[n++] = p[t];
     points[n++] = p[t + 1];
-    if (kind == SDV_TIP) {
-        points[n++] = left[t];
-        sdv_limit_batch_row(limit, kind, 0, target);
+    points[n++] = left[t];
+    if (kind == SDV_LINEAR) {
+        sdv_settled_row(limit, kind, 0, target);
         return;
     }
-    points[n++] = left[t];
     if (loop) points[n++] = left[t - 1];
     points[n++] = p[t - 1];
-    if (kind == SDV_RING) points[n++] = right[loop ? t - 1 : t];
-    if (kind == SDV_RING && loop) points[n++] = right[t];
+    if (!sharp) points[n++] = right[loop ? t - 1 : t];
+    if (!sharp && loop) points[n++] = right[t];
     if (!loop) points[n++] = left[t + 1];
     if (!loop) points[n++] = left[t - 1];
-    if (!loop && kind == SDV_RING) points[n++] = right[t - 1];
-    if (!loop && kind == SDV_RING) points[n++] = right[t + 1];
+    if (!loop && !sharp) points[n++] = right[t - 1];
+    if (!loop && !sharp) points[n++] = right[t + 1];
     int fades = line && (line->now[t - 1] > 0 || line->now[t] > 0);
     if (fades) sdv_line_sector(line, loop, t, &limit->states[0]);
     if (fades) sdv_fading_row(limit, target);
-    else sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
+    else sdv_settled_row(limit, kind, (loop ? 3 : 2) << !sharp, target);
 }
 
 // Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
@@ -5050,8 +5004,8 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
         points[2] = points[1];
         points[1] = points[sides];
     }
-    if (fill->rules->linear) sdv_limit_batch_row(limit, SDV_TIP, 0, centre);
-    else sdv_limit_batch_row(limit, SDV_RING, sides, centre);
+    sdv_settled_row(limit, fill->rules->linear ? SDV_LINEAR : SDV_SMOOTH,
+                    fill->rules->linear ? 0 : sides, centre);
 }
 
 // Adds the row that makes point target of the result, or of a limit, a copy of a work point.
@@ -5065,12 +5019,12 @@ static void sdv_stay_row(sdv_writer *writer, int limit, int point, int target)
 }
 
 // Adds all limit rows. Vertices without faces stay where they are.
-static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface, int semi)
+static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
 {
     sdv_context *context = fill->writer.context;
     sdv_level *level = fill->level;
     sdv_limit_writer limit;
-    sdv_begin_limit(&fill->writer, &surface->rules, level, fill, semi, &limit);
+    sdv_begin_limit(&fill->writer, &surface->rules, level, fill, &limit);
     fill->from = surface->orders[surface->levels];
     fill->to = surface->order;
     fill->base = level->first_point = surface->bases[surface->levels];
@@ -5093,19 +5047,6 @@ static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface, int semi)
         if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
     }
     sdv_end_batches(&fill->writer, &surface->limit_rows);
-    sdv_array_free(&limit.masks);
-}
-
-// Whether any sharpness of the cage is semi-sharp.
-static int sdv_has_semi_sharp(const sdv_level *cage)
-{
-    int semi = 0;
-    for (int v = 0; v < cage->vertex_count; v++) {
-        semi |= sdv_is_semi_sharp(cage->vertex_sharpness[v]);
-        for (int h = cage->vertex_first[v]; h >= 0 && cage->creased[v]; h = cage->vertex_next[h])
-            semi |= sdv_is_semi_sharp(cage->sharpness[h]);
-    }
-    return semi;
 }
 
 // Finds the first work point of each level. The last level has work points for a limit alone.
@@ -5166,19 +5107,16 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.level = cage;
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
-    int semi = sdv_has_semi_sharp(cage);
     if (SDV_IS_PLAIN) sdv_plain_rows(context, surface, cage, &fill.writer, scratch);
     else sdv_find_orders(context, surface, cage);
     for (int i = 0; i < levels && !context->result; i++) {
-        if (semi) sdv_level_fade(cage);
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
         if (!SDV_IS_PLAIN) sdv_fill_level(&fill, surface, i);
-        if (semi) sdv_fade_cage(cage);
+        sdv_fade_cage(cage);
     }
     if (!context->result && sharpness) sdv_surviving_sharpness(context, surface, cage, &pieces);
-    if (limit && semi) sdv_level_fade(cage);
     if (limit && fill.pieces && !context->result) sdv_fade_lines(cage, (int)n, &pieces);
-    if (limit && !SDV_IS_PLAIN && !context->result) sdv_fill_limit(&fill, surface, semi);
+    if (limit && !SDV_IS_PLAIN && !context->result) sdv_fill_limit(&fill, surface);
     sdv_writer_free(&fill.writer);
 }
 
@@ -5352,9 +5290,8 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.value_count = values->count;
     seams.rule = values->rule;
     sdv_share_rules(context, made, surface);
-    if (!context->result)                   // plain: the last level fades, too
-        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face,
-                        made->levels + SDV_IS_PLAIN);
+    if (!context->result)
+        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
@@ -5463,7 +5400,8 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 // May a vertex be smooth, or the end of a single crease, on this level or a later one?
 static int sdv_may_be_smooth(const sdv_level *level, int v)
 {
-    return level->vertex_sharpness[v] < SUBDIV_INFINITE && sdv_forever_edges(level, v) < 2;
+    return level->vertex_sharpness[v] < SUBDIV_INFINITE &&
+           sdv_count_sharp_edges(level, v).forever < 2;
 }
 
 // Asks the callback of a mesh for the mask of a valence, unless it is known. limit: such a vertex
@@ -7846,7 +7784,6 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
     sdv_level level = *cage, next = level;
     sdv_limit_writer limit;
     sdv_split split;
-    sdv_level_fade(&level);
     for (int i = 0; i < surface->levels && !context->result; i++, level = next) {
         double points = level.first_point + 2.0 * level.vertex_count + level.face_count;
         memset(level.rough, 1, (size_t)level.face_count);      // so that all of it is split
@@ -7857,10 +7794,9 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
     }
     if (context->result) return;
     surface->work_count = level.first_point + level.vertex_count;
-    sdv_begin_limit(writer, &surface->rules, &level, NULL, 1, &limit);
+    sdv_begin_limit(writer, &surface->rules, &level, NULL, &limit);
     sdv_plain_result(surface, cage, &limit);
     sdv_end_batches(writer, &surface->limit_rows);
-    sdv_array_free(&limit.masks);
 }
 
 #ifndef SUBDIV_NO_EXACT
@@ -9453,7 +9389,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     maker.surface = surface;
     if (!context->result) {
         memset(level.core, 1, (size_t)level.face_count);
-        sdv_level_fade(&level);
         surface->work_count = level.vertex_count;
     }
     for (int i = 0; level.face_count && !context->result; i++) {
@@ -15306,7 +15241,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     if (!context.result)
         sdv_set_vertex_rule(&context, &x.arena, cage, &x.cage.level, 0, &x.rules);
     if (!context.result) sdv_find_point(&x, point);
-    if (!context.result) sdv_level_fade(&x.cage.level);
     if (!context.result) sdv_find_mask(&x);
     if (!context.result) sdv_find_groups(&x);
     if (!context.result) sdv_explain_point(&x, point);
