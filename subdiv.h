@@ -2291,8 +2291,10 @@ static float sdv_seam_left(const sdv_level *level, int v)
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
     int partner = level->partner ? level->partner[v] : -1, own = partner >= 0 ? partner : v;
+    sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    if (!level->creased[own] && level->vertex_sharpness[own] <= 0) return fading;
     sdv_sharp_edges edges = sdv_count_sharp_edges(level, own);
-    sdv_fading fading = sdv_fading_of(level->vertex_sharpness[own], &edges);
+    fading = sdv_fading_of(level->vertex_sharpness[own], &edges);
     if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
@@ -2881,25 +2883,15 @@ static int sdv_inside_index(const sdv_grid *grid, int row, int column)
     return sdv_inside_point(grid->inside, grid->columns, grid->triangle, row, column);
 }
 
-static int sdv_quad_index(const sdv_grid *grid, int row, int column)
+// Returns the index of a point. The last row of a triangle is one point, at its right end.
+static int sdv_grid_index(const sdv_grid *grid, int row, int column)
 {
-    int top = row == grid->rows, right = column == grid->columns;
+    int top = row == grid->rows, right = column + grid->triangle * row == grid->columns;
     if ((row == 0 || top) && (column == 0 || right)) return grid->corner[top ? 3 - right : right];
     if (row == 0) return sdv_side_index(grid, 0, column);
     if (right) return sdv_side_index(grid, 1, row);
     if (top) return sdv_side_index(grid, 2, column);
     if (column == 0) return sdv_side_index(grid, 3, row);
-    return sdv_inside_index(grid, row, column);
-}
-
-static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
-{
-    int n = grid->rows;
-    if (row == n) return grid->corner[2];
-    if (row == 0 && (column == 0 || column == n)) return grid->corner[column == n];
-    if (row == 0) return sdv_side_index(grid, 0, column);
-    if (column == 0) return sdv_side_index(grid, 3, row);
-    if (row + column == n) return sdv_side_index(grid, 1, row);
     return sdv_inside_index(grid, row, column);
 }
 
@@ -2910,12 +2902,6 @@ static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
     if (row == 0) return grid->side[0];
     if (!grid->triangle && row == grid->rows) return grid->side[2];
     return line;
-}
-
-static int sdv_grid_index(const sdv_grid *grid, int row, int column)
-{
-    return grid->triangle ? sdv_triangle_index(grid, row, column)
-                          : sdv_quad_index(grid, row, column);
 }
 
 typedef struct sdv_row {                // a part of a row of points
@@ -3534,7 +3520,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 // points beside the next level's lines. So deep levels keep lines and frames alone.
 
 typedef struct sdv_last_row {           // of a line that is or was sharp: most rows are like it
-    float     key[5];                   // all that the shape depends on
+    float     key[5];                   // all that the shape depends on: see sdv_sharp_rows
     sdv_shape shape;
     int       batch;                    // -1: none yet
 } sdv_last_row;
@@ -3550,8 +3536,7 @@ typedef struct sdv_filler {             // writes the rows from one level to the
     int         *made;                  // [2 n + 1] points of the next level, beside a line of it
     int          odd, even;             // open batches: of edge and vertex points on smooth lines,
     int          face;                  // of face points
-    sdv_last_row sharp[2];              // of edge points, of vertex points
-    int          edges;                 // edges that have rows so far; faces meet them in order
+    sdv_last_row sharp[2];              // of vertex points, of edge points
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
@@ -3680,65 +3665,56 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
         sdv_points_around(fill, loop, t, sdv_put_row(&fill->writer, fill->even, at));
 }
 
-// Adds a row on a sharp edge that is not like the last one, and keeps it as the last one.
-static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
+// Return the shapes of rows on a line, from what sharpness says there: of an edge point, from that
+// of its piece and of the two halves one level down; of a vertex point, from that of the pieces
+// before and after it, of their halves at it, and of the point itself. whole: with all points, also
+// those without weight, as sdv_smooth_rows writes them.
+static sdv_shape sdv_odd_shape(const sdv_rules *rules, const float *key, int whole)
 {
-    memcpy(row->key, key, sizeof row->key);
-    row->batch = sdv_find_open(&fill->writer, &row->shape, NULL);
-    sdv_copy_row(&fill->writer, row->batch, &row->shape, target);
+    sdv_mask mask = sdv_edge_mask(rules, key[0], key[1] > 0 && key[2] > 0, 2, 0);
+    if (!rules->loop) mask = sdv_spread_edge(mask, 2);
+    int beside = whole || mask.face != 0;
+    sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face },
+                      { 2, 0, 0, beside ? rules->loop ? 2 : 4 : 0 }, beside && !whole };
+    return sdv_shape_of(&runs);
 }
 
-// Add the rows of odd and of even points of a line that is or was sharp.
-static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
+static sdv_shape sdv_even_shape(const sdv_rules *rules, const float *key, int whole)
 {
-    int loop = fill->rules->loop, at = target.first + target.step;
-    sdv_last_row *row = &fill->sharp[0];
-    for (int j = 0; j < line->n; j++, at += 2 * target.step) {
-        float s = line->now ? line->now[j] : line->sharpness;
-        int stays = line->next ? line->next[2 * j] > 0 && line->next[2 * j + 1] > 0 : s > 0;
-        const float key[5] = { s, (float)stays, 0, 0, 0 };
-        sdv_points_at_piece(fill, loop, j, fill->writer.points);
-        if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
-            sdv_copy_row(&fill->writer, row->batch, &row->shape, at);
-            continue;
-        }
-        sdv_mask mask = sdv_edge_mask(fill->rules, s, stays, 2, 0);
-        if (!loop) mask = sdv_spread_edge(mask, 2);
-        int beside = mask.face != 0 ? loop ? 2 : 4 : 0;
-        sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face }, { 2, 0, 0, beside },
-                          beside > 0 };
-        row->shape = sdv_shape_of(&runs);
-        sdv_add_sharp_row(fill, row, key, at);
-    }
+    int loop = rules->loop, regular = loop ? 6 : 4;
+    sdv_sharp_edges sharp = { 0, 0, 0, 0 };
+    for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
+    sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], &sharp), regular);
+    if (!loop) mask = sdv_spread_vertex(mask, regular);
+    int around = whole || mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
+    sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
+                        (float)mask.face },
+                      { 1, along ? 2 : 0, around ? regular - 2 : 0, around && !loop ? 4 : 0 },
+                      around && !whole };
+    return sdv_shape_of(&runs);
 }
 
-static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
+// Adds the rows of a line that is or was sharp.
+static void sdv_sharp_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
 {
     const sdv_rules *rules = fill->rules;
-    int loop = rules->loop, regular = loop ? 6 : 4, at = target.first + 2 * target.step;
+    float s = line->sharpness;
     int straight = rules->straight && fill->level->across[line->h] == line->h;
-    sdv_last_row *row = &fill->sharp[1];
-    for (int t = 1; t < line->n; t++, at += 2 * target.step) {
-        sdv_sharp_edges sharp = { 0, 0, 0, 0 };
-        float key[5] = { line->sharpness, line->sharpness, line->sharpness, line->sharpness,
-                         straight ? SDV_IMPLIED : 0 };
-        if (line->now) memcpy(key, line->now + t - 1, 2 * sizeof *key);
-        if (line->next) memcpy(key + 2, line->next + 2 * t - 1, 2 * sizeof *key);
-        sdv_points_around(fill, loop, t, fill->writer.points);
-        if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
-            sdv_copy_row(&fill->writer, row->batch, &row->shape, at);
-            continue;
+    for (int k = 1; k < 2 * line->n; k++) {
+        int odd = k % 2, at = k / 2;
+        float key[5] = { s, s, s, s, straight && !odd ? SDV_IMPLIED : 0 };
+        if (line->now && odd) key[0] = line->now[at];
+        if (line->now && !odd) memcpy(key, line->now + at - 1, 2 * sizeof *key);
+        if (line->next) memcpy(key + 2 - odd, line->next + k - 1, 2 * sizeof *key);
+        if (odd) sdv_points_at_piece(fill, rules->loop, at, fill->writer.points);
+        else sdv_points_around(fill, rules->loop, at, fill->writer.points);
+        sdv_last_row *row = &fill->sharp[odd];
+        if (row->batch < 0 || memcmp(key, row->key, sizeof key) != 0) {
+            memcpy(row->key, key, sizeof key);
+            row->shape = odd ? sdv_odd_shape(rules, key, 0) : sdv_even_shape(rules, key, 0);
+            row->batch = sdv_find_open(&fill->writer, &row->shape, NULL);
         }
-        for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
-        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], &sharp), regular);
-        if (!loop) mask = sdv_spread_vertex(mask, regular);
-        int around = mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
-        sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
-                            (float)mask.face },
-                          { 1, along ? 2 : 0, around ? regular - 2 : 0, around && !loop ? 4 : 0 },
-                          around };
-        row->shape = sdv_shape_of(&runs);
-        sdv_add_sharp_row(fill, row, key, at);
+        sdv_copy_row(&fill->writer, row->batch, &row->shape, target.first + target.step * k);
     }
 }
 
@@ -3753,14 +3729,9 @@ static void sdv_line_rows(sdv_filler *fill, int h)
     if (beside) sdv_points_beside(&fill->from, base, h, 0, fill->left);
     if (beside) sdv_points_beside(&fill->from, base, across, 1, fill->right);
     target.first += fill->target;
-    if (beside && !line.now && fill->rules->loop) {
-        sdv_smooth_rows(fill, 1, line.n, target);
-    } else if (beside && !line.now) {
-        sdv_smooth_rows(fill, 0, line.n, target);
-    } else {
-        sdv_odd_rows(fill, &line, target);
-        sdv_even_rows(fill, &line, target);
-    }
+    if (!beside || line.now) sdv_sharp_rows(fill, &line, target);
+    else if (fill->rules->loop) sdv_smooth_rows(fill, 1, line.n, target);
+    else sdv_smooth_rows(fill, 0, line.n, target);
 }
 
 // Finds the points of spoke i of an n-gon, from the middle of edge i to the centre, and those
@@ -4476,39 +4447,44 @@ typedef struct sdv_limit_writer {       // writes limit rows
     const sdv_level *level;             // the last
     const sdv_rules *rules;
     const sdv_filler *fill;
-    float     **known;                  // [SDV_LIMIT_KINDS * (most + 1)] weights [3][points] for the
-                                        // position and either tangent, or NULL
+    int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] open batches, or -1
     double     *rows, *room;            // of a sector: [3][points], [points]
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
     int        *seen;                   // see sdv_find_rays
 } sdv_limit_writer;
 
-// Adds a limit row of a kind, whose points are in limit->writer->points. Makes its weights the
-// first time, under SUBDIV_PLAIN each time.
-static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int target)
+// Returns the open batch for rows of a kind; -1: out of memory. It has the weights [3][points] for
+// the position and either tangent. They are made the first time, under SUBDIV_PLAIN each time.
+static int sdv_settled_batch(sdv_limit_writer *limit, int kind, int faces)
 {
     static const double linear[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    const sdv_rules *rules = limit->rules;
-    sdv_writer *writer = limit->writer;
-    float **known = &limit->known[kind * (writer->most + 1) + faces];
-    int open = kind == SDV_CREASE || kind == SDV_WEDGE;
-    int points = kind == SDV_LINEAR ? 3 : 1 + open + (rules->loop ? faces : 2 * faces);
-    if (!*known || SDV_IS_PLAIN) {
-        const double *rows = kind == SDV_LINEAR ? linear : limit->rows;
-        sdv_rule rule = kind == SDV_WEDGE ? SDV_CORNER : (sdv_rule)kind;
-        sdv_settle(&limit->states[0], rule, faces, open);
-        if (kind != SDV_LINEAR)
-            sdv_settled_rows(rules, &limit->states[0], limit->rows, limit->room);
-        if (!*known) *known = SDV_NEW(writer->context, writer->arena, float, 3 * (size_t)points);
-        for (int i = 0; i < 3 * points && *known; i++) (*known)[i] = (float)rows[i];
-    }
+    const double *rows = kind == SDV_LINEAR ? linear : limit->rows;
+    sdv_sector *s = &limit->states[0];
+    int *known = &limit->known[kind * (limit->writer->most + 1) + faces], points = 3;
     sdv_shape shape;
-    if (writer->context->result) return;
+    if (*known >= 0 && !SDV_IS_PLAIN) return *known;
+    if (kind != SDV_LINEAR) {
+        sdv_settle(s, kind == SDV_WEDGE ? SDV_CORNER : (sdv_rule)kind, faces,
+                   kind == SDV_CREASE || kind == SDV_WEDGE);
+        sdv_settled_rows(limit->rules, s, limit->rows, limit->room);
+        points = sdv_sector_points(limit->rules, s);
+    }
+    if (*known >= 0) return *known;
+    float *weights = SDV_NEW(limit->writer->context, limit->writer->arena, float, 3 * points);
+    for (int i = 0; i < 3 * points && weights; i++) weights[i] = (float)rows[i];
     memset(&shape, 0, sizeof shape);
     shape.count[0] = points - 1;
-    shape.regular = kind == SDV_SMOOTH && faces == (rules->loop ? 6 : 4);
-    sdv_add_shape(writer, &shape, *known, target);
+    shape.regular = kind == SDV_SMOOTH && faces == (limit->rules->loop ? 6 : 4);
+    return *known = weights ? sdv_find_open(limit->writer, &shape, weights) : -1;
+}
+
+// Adds a limit row of a kind, whose points are in limit->writer->points.
+static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int target)
+{
+    int number = sdv_settled_batch(limit, kind, faces);
+    const sdv_open_batch *open = (const sdv_open_batch *)sdv_items(&limit->writer->open);
+    if (number >= 0) sdv_copy_row(limit->writer, number, &open[number].shape, target);
 }
 
 // Finds the sector, of a vertex of this rule, that has the face of h.
@@ -4707,12 +4683,12 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
     limit->level = level;
     limit->rules = rules;
     limit->fill = fill;
-    limit->known = SDV_NEW(context, scratch, float *, known);
+    limit->known = SDV_NEW(context, scratch, int, known);
     limit->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
     limit->room = SDV_NEW(context, scratch, double, 2 * most + 2);
     limit->states[0].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
     limit->seen = SDV_NEW(context, scratch, int, level->face_vertex_count);
-    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = NULL;
+    for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
     for (int h = 0; h < level->face_vertex_count && !context->result; h++) limit->seen[h] = -1;
 }
 
@@ -4875,27 +4851,19 @@ static void sdv_fade_cage(sdv_level *level)
 // Begins the rows from one level to the next: finds the open batches of smooth points.
 static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int level, int last)
 {
-    int loop = surface->rules.loop;
-    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    sdv_mask edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
-    sdv_mask vertex = sdv_vertex_mask(fill->rules, smooth, loop ? 6 : 4);
-    if (!loop) edge = sdv_spread_edge(edge, 2);
-    if (!loop) vertex = sdv_spread_vertex(vertex, 4);
-    sdv_runs odd = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, loop ? 2 : 4 }, 0 };
-    sdv_runs even = { { (float)vertex.self, 0, (float)vertex.edge, (float)vertex.face },
-                      { 1, 0, loop ? 6 : 4, loop ? 0 : 4 }, 0 };
-    sdv_runs face = { { (float)sdv_face_weight(4), 0, 0, 0 }, { 4, 0, 0, 0 }, 0 };
-    sdv_shape shapes[3] = { sdv_shape_of(&odd), sdv_shape_of(&even), sdv_shape_of(&face) };
-    fill->odd = sdv_find_open(&fill->writer, &shapes[0], NULL);
-    fill->even = sdv_find_open(&fill->writer, &shapes[1], NULL);
-    fill->face = sdv_find_open(&fill->writer, &shapes[2], NULL);
+    static const float smooth[5] = { 0, 0, 0, 0, 0 };
+    const sdv_runs runs = { { (float)sdv_face_weight(4), 0, 0, 0 }, { 4, 0, 0, 0 }, 0 };
+    sdv_shape odd = sdv_odd_shape(fill->rules, smooth, 1), face = sdv_shape_of(&runs);
+    sdv_shape even = sdv_even_shape(fill->rules, smooth, 1);
+    fill->odd = sdv_find_open(&fill->writer, &odd, NULL);
+    fill->even = sdv_find_open(&fill->writer, &even, NULL);
+    fill->face = sdv_find_open(&fill->writer, &face, NULL);
     fill->from = surface->orders[level];
     fill->to = last ? surface->order : surface->orders[level + 1];
     fill->base = fill->level->first_point = surface->bases[level];
     fill->target = last ? 0 : surface->bases[level + 1];
     fill->level->order = level ? &fill->from : NULL;
     fill->sharp[0].batch = fill->sharp[1].batch = -1;
-    fill->edges = 0;
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
@@ -4916,8 +4884,7 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
             int v = cage->face_vertices[h], e = cage->face_edges[h];
             if (cage->vertex_first[v] == h)
                 sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
-            if (e != fill->edges) continue;
-            fill->edges++;
+            if (cage->edge_first[e] != h) continue;
             if (level > 0) sdv_line_rows(fill, h);
             else sdv_edge_row(cage, fill->rules, h, fill->target + fill->to.first_edge_point + e,
                               writer);
