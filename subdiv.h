@@ -3757,10 +3757,6 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
     const sdv_level *cage = &fill->from.cage;
     int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
     int centre = fill->target + sdv_first_inside(&fill->to, f), *points = fill->writer.points;
-    for (int i = 0; i < sides; i++) {
-        sdv_spoke_points(fill, f, i);
-        sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
-    }
     sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
     sdv_mask mask = sdv_spread_vertex(sdv_vertex_mask(fill->rules, smooth, sides), sides);
     int around = mask.edge != 0 ? sides : 0;
@@ -3768,6 +3764,7 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
                       { 1, 0, around, around }, 0 };
     for (int i = 0; i < sides; i++) {
         sdv_spoke_points(fill, f, i);
+        sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
         points[0] = fill->line[m];
         points[1 + i] = fill->line[m - 1];
         points[1 + sides + i] = fill->left[m - 1];
@@ -4867,34 +4864,6 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
-// Adds the rows that make level + 1, face by face: those of the vertices and edges that no earlier
-// face has, and those of points inside the face that no grid makes.
-static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
-{
-    sdv_writer *writer = &fill->writer;
-    const sdv_level *cage = fill->level;
-    sdv_begin_fill(fill, surface, level, level + 1 == surface->levels && !surface->rules.limit);
-    for (int v = 0; v < cage->vertex_count; v++)
-        if (cage->vertex_first[v] < 0)
-            sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
-    for (int f = 0; f < cage->face_count && !writer->context->result; f++) {
-        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
-        sdv_batch_face(writer, f);
-        for (int h = start; h < end; h++) {
-            int v = cage->face_vertices[h], e = cage->face_edges[h];
-            if (cage->vertex_first[v] == h)
-                sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
-            if (cage->edge_first[e] != h) continue;
-            if (level > 0) sdv_line_rows(fill, h);
-            else sdv_edge_row(cage, fill->rules, h, fill->target + fill->to.first_edge_point + e,
-                              writer);
-        }
-        if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
-        if (fill->to.frame) sdv_frame_rows(fill, f);
-    }
-    sdv_end_batches(writer, &surface->refine[level]);
-}
-
 // Finds the sector of point t of a semi-sharp line.
 static void sdv_line_sector(const sdv_edge_line *line, int loop, int t, sdv_sector *s)
 {
@@ -4985,35 +4954,43 @@ static void sdv_stay_row(sdv_writer *writer, int limit, int point, int target)
     sdv_add_shape(writer, &alone, limit ? stay : NULL, target);
 }
 
-// Adds all limit rows. Vertices without faces stay where they are.
-static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface)
+// Adds the rows that make level + 1, face by face: those of the vertices and edges that no earlier
+// face has, and those of points inside the face that no grid makes. limit: rows from the last level
+// to the limit instead; NULL: no.
+static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
+                           sdv_limit_writer *limit)
 {
-    sdv_context *context = fill->writer.context;
-    sdv_level *level = fill->level;
-    sdv_limit_writer limit;
-    sdv_begin_limit(&fill->writer, &surface->rules, level, fill, &limit);
-    fill->from = surface->orders[surface->levels];
-    fill->to = surface->order;
-    fill->base = level->first_point = surface->bases[surface->levels];
-    fill->target = 0;
-    level->order = &fill->from;
-    for (int v = 0; v < level->vertex_count; v++)
-        if (level->vertex_first[v] < 0) sdv_stay_row(&fill->writer, 1, fill->base + v, v);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int end = sdv_face_end(level, f);
-        sdv_batch_face(&fill->writer, f);
-        for (int h = sdv_face_start(level, f); h < end && !context->result; h++) {
-            int v = level->face_vertices[h];
-            if (level->vertex_first[v] == h)
-                sdv_limit_row(&limit, sdv_first_seen(surface, level, level->vertex_next, h), v);
-            if (level->edge_first[level->face_edges[h]] != h) continue;
-            int forever = fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE;
-            sdv_limit_line(&limit, fill,
-                           forever ? sdv_first_seen(surface, level, level->across, h) : h);
-        }
-        if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
+    sdv_writer *writer = &fill->writer;
+    const sdv_level *cage = fill->level;
+    const sdv_rules *rules = fill->rules;
+    sdv_begin_fill(fill, surface, level, level + 1 >= surface->levels + rules->limit);
+    for (int v = 0; v < cage->vertex_count; v++) {
+        if (cage->vertex_first[v] >= 0) continue;
+        if (limit) sdv_stay_row(writer, 1, fill->base + v, v);
+        else sdv_vertex_row(cage, rules, v, fill->target + v, writer);
     }
-    sdv_end_batches(&fill->writer, &surface->limit_rows);
+    for (int f = 0; f < cage->face_count && !writer->context->result; f++) {
+        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
+        sdv_batch_face(writer, f);
+        for (int h = start; h < end; h++) {
+            int v = cage->face_vertices[h], e = cage->face_edges[h];
+            if (cage->vertex_first[v] == h && limit)
+                sdv_limit_row(limit, sdv_first_seen(surface, cage, cage->vertex_next, h), v);
+            else if (cage->vertex_first[v] == h)
+                sdv_vertex_row(cage, rules, v, fill->target + v, writer);
+            if (cage->edge_first[e] != h) continue;
+            int parted = rules->linear || cage->sharpness[h] >= SUBDIV_INFINITE;
+            if (limit)
+                sdv_limit_line(limit, fill,
+                               parted ? sdv_first_seen(surface, cage, cage->across, h) : h);
+            else if (level > 0) sdv_line_rows(fill, h);
+            else sdv_edge_row(cage, rules, h, fill->target + fill->to.first_edge_point + e, writer);
+        }
+        if (level > 0 && sdv_is_ngon(&fill->from, f) && limit) sdv_limit_spokes(limit, fill, f);
+        else if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
+        if (fill->to.frame) sdv_frame_rows(fill, f);
+    }
+    sdv_end_batches(writer, limit ? &surface->limit_rows : &surface->refine[level]);
 }
 
 // Finds the first work point of each level. The last level has work points for a limit alone.
@@ -5078,12 +5055,16 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     else sdv_find_orders(context, surface, cage);
     for (int i = 0; i < levels && !context->result; i++) {
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
-        if (!SDV_IS_PLAIN) sdv_fill_level(&fill, surface, i);
+        if (!SDV_IS_PLAIN) sdv_fill_level(&fill, surface, i, NULL);
         sdv_fade_cage(cage);
     }
     if (!context->result && sharpness) sdv_surviving_sharpness(context, surface, cage, &pieces);
     if (limit && fill.pieces && !context->result) sdv_fade_lines(cage, (int)n, &pieces);
-    if (limit && !SDV_IS_PLAIN && !context->result) sdv_fill_limit(&fill, surface);
+    if (limit && !SDV_IS_PLAIN && !context->result) {
+        sdv_limit_writer of_limit;
+        sdv_begin_limit(&fill.writer, &surface->rules, cage, &fill, &of_limit);
+        sdv_fill_level(&fill, surface, levels, &of_limit);
+    }
     sdv_writer_free(&fill.writer);
 }
 
