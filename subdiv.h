@@ -3403,23 +3403,23 @@ static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
     return fading.rule == SDV_CREASE ? &writer->crease : &writer->corner;
 }
 
-// Writes the points around a smooth vertex: its neighbours, then a point for each of its faces.
-static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
+// Appends the neighbours of v, if edges, and a point for each of its faces, if faces.
+SDV_INLINE int *sdv_add_ring(const sdv_level *level, int v, int edges, int faces, int *point)
 {
     const int *vertices = level->face_vertices;
-    int *across = point + level->vertex_faces[v], base = level->first_point;
+    int count = level->vertex_faces[v], base = level->first_point;
+    int *across = edges ? point + count : point;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
         int f = sdv_face_of(level, h), start = sdv_face_start(level, f);
         int next = h + 1 < sdv_face_end(level, f) ? h + 1 : start;
-        if (!level->order) {
-            *point++ = base + vertices[next];
-            if (!loop) *across++ = level->face_point[f];
-            continue;
-        }
-        sdv_side side = sdv_seen_edge(level->order, level->face_edges[h], v > vertices[next]);
-        *point++ = base + side.first + side.step;
-        if (!loop) *across++ = base + sdv_inside_corner(level->order, f, h - start);
+        if (edges && level->order) {
+            sdv_side side = sdv_seen_edge(level->order, level->face_edges[h], v > vertices[next]);
+            *point++ = base + side.first + side.step;
+        } else if (edges) *point++ = base + vertices[next];
+        if (faces) *across++ = level->order ? base + sdv_inside_corner(level->order, f, h - start)
+                                            : level->face_point[f];
     }
+    return faces ? across : point;
 }
 
 // Adds the row that makes point target from vertex v and the points around it. Without a crease
@@ -3433,34 +3433,26 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     if (known && *known >= 0) {
         int *row = sdv_put_row(writer, *known, target);
         row[0] = level->first_point + v;
-        if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, rules->loop, row + 1);
+        if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, 1, !rules->loop, row + 1);
         if (fading.rule == SDV_CREASE) sdv_add_neighbours(level, v, SDV_CREASE, 1, row + 1);
         return;
     }
     sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
     if (spread) mask = sdv_spread_vertex(mask, faces);
-    int *point = writer->points, *run = point;
+    int *point = writer->points, *ends[SDV_RUNS];
     sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
                         (float)mask.face },
                       { 0, 0, 0, 0 }, fading.rule != fading.next && fading.rule >= SDV_CREASE };
     if (mask.self != 0) *point++ = level->first_point + v;
-    runs.count[0] = (int)(point - run);
-    run = point;
+    ends[0] = point;
     if (mask.crease != 0) point = sdv_add_neighbours(level, v, fading.rule, 1, point);
-    runs.count[1] = (int)(point - run);
-    run = point;
-    if (mask.crease != 0 && mask.edge != 0)
-        point = sdv_add_neighbours(level, v, fading.rule, 0, point);
-    if (mask.crease == 0 && mask.edge != 0)
-        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-            *point++ = sdv_point_ahead(level, h);
-    runs.count[2] = (int)(point - run);
-    run = point;
-    if (mask.face != 0)
-        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-            *point++ = spread ? sdv_point_across(level, h)
-                              : level->face_point[sdv_face_of(level, h)];
-    runs.count[3] = (int)(point - run);
+    ends[1] = point;
+    if (mask.crease == 0) point = sdv_add_ring(level, v, mask.edge != 0, 0, point);
+    else if (mask.edge != 0) point = sdv_add_neighbours(level, v, fading.rule, 0, point);
+    ends[2] = point;
+    ends[3] = sdv_add_ring(level, v, 0, mask.face != 0, point);
+    for (int i = 0; i < SDV_RUNS; i++)
+        runs.count[i] = (int)(ends[i] - (i > 0 ? ends[i - 1] : writer->points));
     int number = sdv_add_runs(writer, &runs, target);
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
@@ -4836,9 +4828,10 @@ static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
 static void sdv_fade_cage(sdv_level *level)
 {
     for (int v = 0; v < level->vertex_count; v++) {
+        if (!level->creased[v] && level->vertex_sharpness[v] <= 0) continue;
         if (level->partner && level->partner[v] >= 0) level->seam[v] = sdv_seam_left(level, v);
         level->vertex_sharpness[v] = sdv_fade(level->vertex_sharpness[v]);
-        for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
             level->sharpness[h] = sdv_half(level, h);
     }
     if (level->sums) level->sums += 2 * (size_t)level->origin_count;
