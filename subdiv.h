@@ -4898,9 +4898,12 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
 
 // Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
 // centre.
-static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
+static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill,
+                           const subdiv_surface *surface, int h)
 {
     const sdv_level *level = fill->level;
+    if (fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE)
+        h = sdv_first_seen(surface, level, level->across, h);
     sdv_edge_line line = sdv_line_at(fill, h);
     sdv_side target = sdv_edge_side(&fill->to, h, 0);
     sdv_points_on_edge(&fill->from, fill->base, h, fill->line);
@@ -4972,10 +4975,7 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
             else if (cage->vertex_first[v] == h)
                 sdv_vertex_row(cage, rules, v, fill->target + v, writer);
             if (cage->edge_first[e] != h) continue;
-            int parted = rules->linear || cage->sharpness[h] >= SUBDIV_INFINITE;
-            if (limit)
-                sdv_limit_line(limit, fill,
-                               parted ? sdv_first_seen(surface, cage, cage->across, h) : h);
+            if (limit) sdv_limit_line(limit, fill, surface, h);
             else if (level > 0) sdv_line_rows(fill, h);
             else sdv_edge_row(cage, rules, h, fill->target + fill->to.first_edge_point + e, writer);
         }
