@@ -1735,31 +1735,21 @@ static int sdv_face_of(const sdv_level *level, int h)
     return level->face_of[h];
 }
 
-// Return the face-vertices before and after h in its face: "_any" for faces of any size.
-static int sdv_previous_any(const sdv_level *level, int h)
-{
-    int face = sdv_face_of(level, h);
-    return h > sdv_face_start(level, face) ? h - 1 : sdv_face_end(level, face) - 1;
-}
-
+// Return the face-vertices before and after h in its face.
 static inline int sdv_previous(const sdv_level *level, int h)
 {
     if (level->face_size == 4) return (h & ~3) | ((h + 3) & 3);
     if (level->face_size == 3) return (unsigned)h % 3 == 0 ? h + 2 : h - 1;
-    return sdv_previous_any(level, h);
-}
-
-static int sdv_next_any(const sdv_level *level, int h)
-{
-    int face = sdv_face_of(level, h);
-    return h + 1 < sdv_face_end(level, face) ? h + 1 : sdv_face_start(level, face);
+    const int *start = level->face_starts + level->face_of[h];
+    return h > start[0] ? h - 1 : start[1] - 1;
 }
 
 static inline int sdv_next(const sdv_level *level, int h)
 {
     if (level->face_size == 4) return (h & ~3) | ((h + 1) & 3);
     if (level->face_size == 3) return (unsigned)h % 3 == 2 ? h - 2 : h + 1;
-    return sdv_next_any(level, h);
+    const int *start = level->face_starts + level->face_of[h];
+    return h + 1 < start[1] ? h + 1 : start[0];
 }
 
 // Returns the first face-vertex of the quad of h.
@@ -4747,34 +4737,31 @@ static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_lev
     }
 }
 
-// Adds the creases of the result on edge e, piece by piece. Without room in fine only counts them.
-static void sdv_add_creases(subdiv_mesh *fine, const sdv_order *order, const sdv_level *cage, int e,
-                            const sdv_pieces *pieces, size_t *count)
-{
-    int n = order->n, h = cage->edge_first[e], number = pieces->count ? pieces->number[e] : -1;
-    int from = cage->face_vertices[h], end = cage->face_vertices[sdv_next(cage, h)];
-    const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
-    sdv_side side = sdv_seen_edge(order, e, from > end);
-    for (int j = 0; j < n; j++) {
-        int to = j + 1 == n ? end : side.first + side.step * (j + 1);
-        float s = number < 0 ? cage->sharpness[h] : of_edge[j];
-        if (sdv_survives(s) && fine->crease_vertices) {
-            fine->crease_vertices[2 * *count] = from;
-            fine->crease_vertices[2 * *count + 1] = to;
-            fine->crease_sharpness[*count] = s;
-        }
-        *count += (size_t)sdv_survives(s);
-        from = to;
-    }
-}
-
+// Counts the creases of the result, piece by piece, and lists them once it has room.
 static size_t sdv_surviving_creases(subdiv_surface *surface, const sdv_level *cage,
                                     const sdv_pieces *pieces)
 {
+    subdiv_mesh *fine = &surface->fine;
     size_t count = 0;
-    for (int e = 0; e < cage->edge_count; e++)
-        if (sdv_edge_is_seen(surface, cage, e))
-            sdv_add_creases(&surface->fine, &surface->order, cage, e, pieces, &count);
+    for (int e = 0; e < cage->edge_count; e++) {
+        int n = surface->order.n, number = pieces->count ? pieces->number[e] : -1;
+        int h = cage->edge_first[e], from = cage->face_vertices[h];
+        int end = cage->face_vertices[sdv_next(cage, h)];
+        const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
+        sdv_side side = sdv_seen_edge(&surface->order, e, from > end);
+        if (!sdv_edge_is_seen(surface, cage, e)) continue;
+        for (int j = 0, to; j < n; j++, from = to) {
+            float s = of_edge ? of_edge[j] : cage->sharpness[h];
+            to = j + 1 == n ? end : side.first + side.step * (j + 1);
+            if (!sdv_survives(s)) continue;
+            if (fine->crease_vertices) {
+                fine->crease_vertices[2 * count] = from;
+                fine->crease_vertices[2 * count + 1] = to;
+                fine->crease_sharpness[count] = s;
+            }
+            count++;
+        }
+    }
     return count;
 }
 
@@ -6771,6 +6758,16 @@ static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
     }
 }
 
+// Where four channels of the result go, from c on.
+static sdv_window sdv_result_window(const sdv_evaluation *e, int c)
+{
+    int lanes = e->channels - c < 4 ? e->channels - c : 4, count = e->end_point - e->first_point;
+    sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count,
+                                   count < e->surface->fine.vertex_count);
+    sdv_see_from(&out, sdv_work_of(e, c) + 4 * (size_t)e->surface->work_count);
+    return out;
+}
+
 // Makes the points of the result that belong to a share of the cage's faces.
 static void sdv_face_job(void *context, int job)
 {
@@ -6784,13 +6781,8 @@ static void sdv_face_job(void *context, int job)
         return;
     }
     for (int c = 0; c < e->channels; c += 4) {
-        int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        int count = e->end_point - e->first_point;
-        sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count,
-                                       count < surface->fine.vertex_count);
-        const float *work = sdv_work_of(e, c);
-        sdv_see_from(&out, work + 4 * (size_t)surface->work_count);
-        sdv_make_faces(surface, work, face, end, &out);
+        sdv_window out = sdv_result_window(e, c);
+        sdv_make_faces(surface, sdv_work_of(e, c), face, end, &out);
     }
 }
 
@@ -6798,13 +6790,9 @@ static void sdv_face_job(void *context, int job)
 static void sdv_copy_work(const sdv_evaluation *e)
 {
     for (int c = 0; c < e->channels; c += 4) {
-        int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        int count = e->end_point - e->first_point;
-        const float *work = sdv_work_of(e, c);
-        sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count, 0);
-        sdv_see_from(&out, work + 4 * (size_t)e->surface->work_count);
+        sdv_window out = sdv_result_window(e, c);
         for (int v = e->first_point; v < e->end_point; v++)
-            sdv_put_point(&out, v, sdv_load(work + 4 * (size_t)v));
+            sdv_put_point(&out, v, sdv_load(sdv_work_of(e, c) + 4 * (size_t)v));
     }
 }
 
