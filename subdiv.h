@@ -2776,8 +2776,6 @@ static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
     int last = order->loop ? 2 : 3;
     grid->columns = grid->rows = order->n;
     grid->triangle = order->loop;
-    grid->frame = order->frame;
-    grid->inside = sdv_first_inside(order, f);
     for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
     grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
     grid->side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
@@ -4458,7 +4456,7 @@ static int sdv_settled_batch(sdv_limit_writer *limit, int kind, int faces)
     return *known = weights ? sdv_find_open(limit->writer, &shape, weights) : -1;
 }
 
-// Adds a limit row of a kind, whose points are in limit->writer->points.
+// Adds a limit row of a kind. Its points are in limit->writer->points.
 static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int target)
 {
     int number = sdv_settled_batch(limit, kind, faces);
@@ -4473,12 +4471,12 @@ static void sdv_find_sector(const sdv_level *level, int h, sdv_rule rule, sdv_se
     s->first = h;
     s->faces = s->edges = level->vertex_faces[v];
     if (!level->creased[v] && level->vertex_sharpness[v] < SUBDIV_INFINITE) return;
-    while (level->sharpness[first] < SUBDIV_INFINITE && at != h) {
+    while (level->sharpness[first] < SUBDIV_INFINITE && at != h) {     // clockwise
         at = sdv_next(level, level->across[first]);
         if (at != h) first = at;
     }
     int open = at != h && rule != SDV_DART;
-    if (at == h)                        // begin at a sharp edge, so that more are alike
+    if (at == h)                        // all around: begin at a sharp edge, so more are alike
         for (first = h; level->sharpness[first] <= 0 && sdv_around(level, first) != h; )
             first = sdv_around(level, first);
     s->faces = 1;
@@ -4525,8 +4523,8 @@ static int sdv_last_of_edge(const sdv_level *level, int h)
     return h;
 }
 
-// Finds the rays of a sector and those of other sharp edges at the vertex. limit->seen says of the
-// last face-vertex of each edge in which vertex's sector it was last.
+// Finds the rays of a sector and those of other sharp edges at the vertex. limit->seen marks the
+// edges of the sector, each at the last face-vertex of its ring, with the number of the vertex.
 static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
