@@ -2768,9 +2768,9 @@ static int sdv_grids_of(const sdv_order *order, int f)
                                  : 1;
 }
 
-// Fills in the grid of face f, which has one, from its first face-vertex h on. Its sides are edges:
+// Fills in the grid of a face that has one, from its first face-vertex h on. Its sides are edges:
 // sides 2 and 3 run against the order of the face's vertices.
-static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
+static void sdv_face_grid(const sdv_order *order, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
@@ -2825,7 +2825,7 @@ static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
     int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f);
-    if (!sdv_is_ngon(order, f)) sdv_face_grid(order, f, h, grid);
+    if (!sdv_is_ngon(order, f)) sdv_face_grid(order, h, grid);
     else sdv_ngon_grid(cage->face_vertices[h], sdv_edge_side(order, h, 0),
                        sdv_edge_side(order, sdv_previous(cage, h), 1), sdv_first_inside(order, f),
                        sdv_face_end(cage, f) - start, order->m, h - start, grid);
@@ -4859,12 +4859,12 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
     int loop = fill->rules->loop, *points = limit->writer->points, n = 0;
-    int kind = fill->rules->linear ? SDV_LINEAR : sharp ? SDV_CREASE : SDV_SMOOTH;
+    int kind = sharp ? SDV_CREASE : SDV_SMOOTH;
     points[n++] = p[t];
     points[n++] = p[t + 1];
     points[n++] = left[t];
-    if (kind == SDV_LINEAR) {
-        sdv_settled_row(limit, kind, 0, target);
+    if (fill->rules->linear) {
+        sdv_settled_row(limit, SDV_LINEAR, 0, target);
         return;
     }
     if (loop) points[n++] = left[t - 1];
@@ -4920,9 +4920,8 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
     if (fill->rules->linear) {              // two edges of the quad at vertex 0
         points[2] = points[1];
         points[1] = points[sides];
-    }
-    sdv_settled_row(limit, fill->rules->linear ? SDV_LINEAR : SDV_SMOOTH,
-                    fill->rules->linear ? 0 : sides, centre);
+        sdv_settled_row(limit, SDV_LINEAR, 0, centre);
+    } else sdv_settled_row(limit, SDV_SMOOTH, sides, centre);
 }
 
 // Adds the row that makes point target of the result, or of a limit, a copy of a work point.
