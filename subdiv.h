@@ -1723,31 +1723,21 @@ static int sdv_face_of(const sdv_level *level, int h)
     return level->face_of[h];
 }
 
-// Return the face-vertices before and after h in its face: "_any" for faces of any size.
-static int sdv_previous_any(const sdv_level *level, int h)
-{
-    int face = sdv_face_of(level, h);
-    return h > sdv_face_start(level, face) ? h - 1 : sdv_face_end(level, face) - 1;
-}
-
+// Return the face-vertices before and after h in its face.
 static inline int sdv_previous(const sdv_level *level, int h)
 {
     if (level->face_size == 4) return (h & ~3) | ((h + 3) & 3);
     if (level->face_size == 3) return (unsigned)h % 3 == 0 ? h + 2 : h - 1;
-    return sdv_previous_any(level, h);
-}
-
-static int sdv_next_any(const sdv_level *level, int h)
-{
-    int face = sdv_face_of(level, h);
-    return h + 1 < sdv_face_end(level, face) ? h + 1 : sdv_face_start(level, face);
+    const int *start = level->face_starts + level->face_of[h];
+    return h > start[0] ? h - 1 : start[1] - 1;
 }
 
 static inline int sdv_next(const sdv_level *level, int h)
 {
     if (level->face_size == 4) return (h & ~3) | ((h + 1) & 3);
     if (level->face_size == 3) return (unsigned)h % 3 == 2 ? h - 2 : h + 1;
-    return sdv_next_any(level, h);
+    const int *start = level->face_starts + level->face_of[h];
+    return h + 1 < start[1] ? h + 1 : start[0];
 }
 
 // Returns the first face-vertex of the quad of h.
@@ -2078,6 +2068,8 @@ static void sdv_cage_faces(sdv_context *context, sdv_arena *arena, sdv_level *le
     level->face_starts[level->face_count] = h;
 }
 
+static void sdv_level_fade(sdv_level *level);                   // see >>sharpness
+
 // Level 0 of a valid mesh, whose face_vertices it borrows. keep gets what >>order needs and holes,
 // scratch the rest.
 static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
@@ -2107,6 +2099,7 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     if (mesh->boundary == SUBDIV_BOUNDARY_NONE && mesh->scheme != SUBDIV_BILINEAR)
         sdv_open_boundary(cage);
     sdv_implied_sharpness(cage, mesh->boundary);
+    sdv_level_fade(level);
 }
 
 // ----------------------------------------------------------------------------- >>sharpness
@@ -2202,11 +2195,11 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
-// The sharp edges at a vertex: how many now and on the next level, and of those that fade away
-// until then how many and the sum of their sharpness.
+// The sharp edges at a vertex: how many now, on the next level and forever, and the sum of the
+// sharpness of those that fade away until the next level.
 typedef struct sdv_sharp_edges {
-    int   now, next, ending;
-    float sum;
+    int   now, next, forever;
+    float ending;
 } sdv_sharp_edges;
 
 // half: what is left of an edge one level down.
@@ -2215,9 +2208,8 @@ static void sdv_meet_edge(sdv_sharp_edges *edges, float sharpness, float half)
     if (sharpness <= 0) return;
     edges->now++;
     edges->next += half > 0;
-    if (half > 0) return;
-    edges->ending++;
-    edges->sum += sharpness;
+    edges->forever += sharpness >= SUBDIV_INFINITE;
+    if (half <= 0) edges->ending += sharpness;
 }
 
 static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
@@ -2232,29 +2224,17 @@ static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
     return edges;
 }
 
-// How a vertex fades, of whose sharpness so much is left one level down, with its edges.
-static sdv_fading sdv_fading_of(float sharpness, float left, const sdv_sharp_edges *edges)
+// How a vertex fades, by its own sharpness and its edges.
+static sdv_fading sdv_fading_of(float sharpness, const sdv_sharp_edges *edges)
 {
-    int ends = sharpness > 0 && left <= 0, count = edges->ending + ends;
-    float mean = count ? (ends ? sharpness + edges->sum : edges->sum) / (float)count : 0;
+    float left = sdv_fade(sharpness), sum = edges->ending;
+    int ends = sharpness > 0 && left <= 0, count = edges->now - edges->next + ends;
+    float mean = count ? (ends ? sharpness + sum : sum) / (float)count : 0;
     sdv_fading fading;
     fading.rule = sdv_vertex_rule(sharpness, edges->now);
     fading.next = sdv_vertex_rule(left, edges->next);
     fading.weight = (double)(mean < 1 ? mean : 1);
     return fading;
-}
-
-// Counts the edges at a vertex that stay sharp forever.
-static int sdv_forever_edges(const sdv_level *level, int v)
-{
-    int count = 0;
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++)
-            count += sdv_is_edge_at(level, two[i], i == 0) &&
-                     level->sharpness[two[i]] >= SUBDIV_INFINITE;
-    }
-    return count;
 }
 
 // Is nothing at a vertex semi-sharp?
@@ -2276,22 +2256,15 @@ static float sdv_seam_left(const sdv_level *level, int v)
     return sdv_fade_chaikin(s, sums[0], (int)sums[1]);
 }
 
-// How a vertex fades by its own sharpness and that of its edges.
-static sdv_fading sdv_own_fading(const sdv_level *level, int v)
-{
-    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    float sharpness = level->vertex_sharpness[v];
-    if (!level->creased[v] && sharpness <= 0) return smooth;
-    sdv_sharp_edges edges = sdv_count_sharp_edges(level, v);
-    return sdv_fading_of(sharpness, sdv_fade(sharpness), &edges);
-}
-
-// A vertex of UVs with a partner fades as that does, but, while its seam stays semi-sharp, a level
-// later [OSD].
+// How a vertex fades. One of UVs with a partner fades as that does, but, while its seam stays
+// semi-sharp, a level later [OSD].
 static sdv_fading sdv_vertex_fading(const sdv_level *level, int v)
 {
-    int partner = level->partner ? level->partner[v] : -1;
-    sdv_fading fading = sdv_own_fading(level, partner >= 0 ? partner : v);
+    int partner = level->partner ? level->partner[v] : -1, own = partner >= 0 ? partner : v;
+    sdv_fading fading = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    if (!level->creased[own] && level->vertex_sharpness[own] <= 0) return fading;
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, own);
+    fading = sdv_fading_of(level->vertex_sharpness[own], &edges);
     if (partner >= 0 && sdv_seam_left(level, v) > 0) fading.next = fading.rule;
     return fading;
 }
@@ -2775,16 +2748,14 @@ static int sdv_grids_of(const sdv_order *order, int f)
                                  : 1;
 }
 
-// Fills in the grid of face f, which has one, from its first face-vertex h on. Its sides are edges:
+// Fills in the grid of a face that has one, from its first face-vertex h on. Its sides are edges:
 // sides 2 and 3 run against the order of the face's vertices.
-static void sdv_face_grid(const sdv_order *order, int f, int h, sdv_grid *grid)
+static void sdv_face_grid(const sdv_order *order, int h, sdv_grid *grid)
 {
     const int *v = order->cage.face_vertices + h, *e = order->cage.face_edges + h;
     int last = order->loop ? 2 : 3;
     grid->columns = grid->rows = order->n;
     grid->triangle = order->loop;
-    grid->frame = order->frame;
-    grid->inside = sdv_first_inside(order, f);
     for (int i = 0; i <= last; i++) grid->corner[i] = v[i];
     grid->side[0] = sdv_seen_edge(order, e[0], v[0] > v[1]);
     grid->side[1] = sdv_seen_edge(order, e[1], v[1] > v[2]);
@@ -2834,7 +2805,7 @@ static void sdv_grid_at(const sdv_order *order, int h, sdv_grid *grid)
 {
     const sdv_level *cage = &order->cage;
     int f = sdv_face_of(cage, h), start = sdv_face_start(cage, f);
-    if (!sdv_is_ngon(order, f)) sdv_face_grid(order, f, h, grid);
+    if (!sdv_is_ngon(order, f)) sdv_face_grid(order, h, grid);
     else sdv_ngon_grid(cage->face_vertices[h], sdv_edge_side(order, h, 0),
                        sdv_edge_side(order, sdv_previous(cage, h), 1), sdv_first_inside(order, f),
                        sdv_face_end(cage, f) - start, order->m, h - start, grid);
@@ -2880,25 +2851,15 @@ static int sdv_inside_index(const sdv_grid *grid, int row, int column)
     return sdv_inside_point(grid->inside, grid->columns, grid->triangle, row, column);
 }
 
-static int sdv_quad_index(const sdv_grid *grid, int row, int column)
+// Returns the index of a point. The last row of a triangle is one point, at its right end.
+static int sdv_grid_index(const sdv_grid *grid, int row, int column)
 {
-    int top = row == grid->rows, right = column == grid->columns;
+    int top = row == grid->rows, right = column + grid->triangle * row == grid->columns;
     if ((row == 0 || top) && (column == 0 || right)) return grid->corner[top ? 3 - right : right];
     if (row == 0) return sdv_side_index(grid, 0, column);
     if (right) return sdv_side_index(grid, 1, row);
     if (top) return sdv_side_index(grid, 2, column);
     if (column == 0) return sdv_side_index(grid, 3, row);
-    return sdv_inside_index(grid, row, column);
-}
-
-static int sdv_triangle_index(const sdv_grid *grid, int row, int column)
-{
-    int n = grid->rows;
-    if (row == n) return grid->corner[2];
-    if (row == 0 && (column == 0 || column == n)) return grid->corner[column == n];
-    if (row == 0) return sdv_side_index(grid, 0, column);
-    if (column == 0) return sdv_side_index(grid, 3, row);
-    if (row + column == n) return sdv_side_index(grid, 1, row);
     return sdv_inside_index(grid, row, column);
 }
 
@@ -2909,12 +2870,6 @@ static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
     if (row == 0) return grid->side[0];
     if (!grid->triangle && row == grid->rows) return grid->side[2];
     return line;
-}
-
-static int sdv_grid_index(const sdv_grid *grid, int row, int column)
-{
-    return grid->triangle ? sdv_triangle_index(grid, row, column)
-                          : sdv_quad_index(grid, row, column);
 }
 
 typedef struct sdv_row {                // a part of a row of points
@@ -3416,23 +3371,23 @@ static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
     return fading.rule == SDV_CREASE ? &writer->crease : &writer->corner;
 }
 
-// Writes the points around a smooth vertex: its neighbours, then a point for each of its faces.
-static void sdv_add_ring(const sdv_level *level, int v, int loop, int *point)
+// Appends the neighbours of v, if edges, and a point for each of its faces, if faces.
+SDV_INLINE int *sdv_add_ring(const sdv_level *level, int v, int edges, int faces, int *point)
 {
     const int *vertices = level->face_vertices;
-    int *across = point + level->vertex_faces[v], base = level->first_point;
+    int count = level->vertex_faces[v], base = level->first_point;
+    int *across = edges ? point + count : point;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
         int f = sdv_face_of(level, h), start = sdv_face_start(level, f);
         int next = h + 1 < sdv_face_end(level, f) ? h + 1 : start;
-        if (!level->order) {
-            *point++ = base + vertices[next];
-            if (!loop) *across++ = level->face_point[f];
-            continue;
-        }
-        sdv_side side = sdv_seen_edge(level->order, level->face_edges[h], v > vertices[next]);
-        *point++ = base + side.first + side.step;
-        if (!loop) *across++ = base + sdv_inside_corner(level->order, f, h - start);
+        if (edges && level->order) {
+            sdv_side side = sdv_seen_edge(level->order, level->face_edges[h], v > vertices[next]);
+            *point++ = base + side.first + side.step;
+        } else if (edges) *point++ = base + vertices[next];
+        if (faces) *across++ = level->order ? base + sdv_inside_corner(level->order, f, h - start)
+                                            : level->face_point[f];
     }
+    return faces ? across : point;
 }
 
 // Adds the row that makes point target from vertex v and the points around it. Without a crease
@@ -3446,34 +3401,26 @@ static void sdv_vertex_row(const sdv_level *level, const sdv_rules *rules, int v
     if (known && *known >= 0) {
         int *row = sdv_put_row(writer, *known, target);
         row[0] = level->first_point + v;
-        if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, rules->loop, row + 1);
+        if (fading.rule < SDV_CREASE) sdv_add_ring(level, v, 1, !rules->loop, row + 1);
         if (fading.rule == SDV_CREASE) sdv_add_neighbours(level, v, SDV_CREASE, 1, row + 1);
         return;
     }
     sdv_mask mask = sdv_vertex_mask(rules, fading, faces);
     if (spread) mask = sdv_spread_vertex(mask, faces);
-    int *point = writer->points, *run = point;
+    int *point = writer->points, *ends[SDV_RUNS];
     sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
                         (float)mask.face },
                       { 0, 0, 0, 0 }, fading.rule != fading.next && fading.rule >= SDV_CREASE };
     if (mask.self != 0) *point++ = level->first_point + v;
-    runs.count[0] = (int)(point - run);
-    run = point;
+    ends[0] = point;
     if (mask.crease != 0) point = sdv_add_neighbours(level, v, fading.rule, 1, point);
-    runs.count[1] = (int)(point - run);
-    run = point;
-    if (mask.crease != 0 && mask.edge != 0)
-        point = sdv_add_neighbours(level, v, fading.rule, 0, point);
-    if (mask.crease == 0 && mask.edge != 0)
-        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-            *point++ = sdv_point_ahead(level, h);
-    runs.count[2] = (int)(point - run);
-    run = point;
-    if (mask.face != 0)
-        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
-            *point++ = spread ? sdv_point_across(level, h)
-                              : level->face_point[sdv_face_of(level, h)];
-    runs.count[3] = (int)(point - run);
+    ends[1] = point;
+    if (mask.crease == 0) point = sdv_add_ring(level, v, mask.edge != 0, 0, point);
+    else if (mask.edge != 0) point = sdv_add_neighbours(level, v, fading.rule, 0, point);
+    ends[2] = point;
+    ends[3] = sdv_add_ring(level, v, 0, mask.face != 0, point);
+    for (int i = 0; i < SDV_RUNS; i++)
+        runs.count[i] = (int)(ends[i] - (i > 0 ? ends[i - 1] : writer->points));
     int number = sdv_add_runs(writer, &runs, target);
     if (known && mask.self != 0 && (mask.edge != 0 || fading.rule >= SDV_CREASE)) *known = number;
 }
@@ -3533,7 +3480,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 // points beside the next level's lines. So deep levels keep lines and frames alone.
 
 typedef struct sdv_last_row {           // of a line that is or was sharp: most rows are like it
-    float     key[5];                   // all that the shape depends on
+    float     key[5];                   // all that the shape depends on: see sdv_sharp_rows
     sdv_shape shape;
     int       batch;                    // -1: none yet
 } sdv_last_row;
@@ -3549,8 +3496,7 @@ typedef struct sdv_filler {             // writes the rows from one level to the
     int         *made;                  // [2 n + 1] points of the next level, beside a line of it
     int          odd, even;             // open batches: of edge and vertex points on smooth lines,
     int          face;                  // of face points
-    sdv_last_row sharp[2];              // of edge points, of vertex points
-    int          edges;                 // edges that have rows so far; faces meet them in order
+    sdv_last_row sharp[2];              // of vertex points, of edge points
     struct sdv_pieces *pieces;          // NULL: no edge is semi-sharp
 } sdv_filler;
 
@@ -3679,65 +3625,56 @@ SDV_INLINE void sdv_smooth_rows(sdv_filler *fill, int loop, int n, sdv_side targ
         sdv_points_around(fill, loop, t, sdv_put_row(&fill->writer, fill->even, at));
 }
 
-// Adds a row on a sharp edge that is not like the last one, and keeps it as the last one.
-static void sdv_add_sharp_row(sdv_filler *fill, sdv_last_row *row, const float *key, int target)
+// Return the shapes of rows on a line, from what sharpness says there: of an edge point, from that
+// of its piece and of the two halves one level down; of a vertex point, from that of the pieces
+// before and after it, of their halves at it, and of the point itself. whole: with all points, also
+// those without weight, as sdv_smooth_rows writes them.
+static sdv_shape sdv_odd_shape(const sdv_rules *rules, const float *key, int whole)
 {
-    memcpy(row->key, key, sizeof row->key);
-    row->batch = sdv_find_open(&fill->writer, &row->shape, NULL);
-    sdv_copy_row(&fill->writer, row->batch, &row->shape, target);
+    sdv_mask mask = sdv_edge_mask(rules, key[0], key[1] > 0 && key[2] > 0, 2, 0);
+    if (!rules->loop) mask = sdv_spread_edge(mask, 2);
+    int beside = whole || mask.face != 0;
+    sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face },
+                      { 2, 0, 0, beside ? rules->loop ? 2 : 4 : 0 }, beside && !whole };
+    return sdv_shape_of(&runs);
 }
 
-// Add the rows of odd and of even points of a line that is or was sharp.
-static void sdv_odd_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
+static sdv_shape sdv_even_shape(const sdv_rules *rules, const float *key, int whole)
 {
-    int loop = fill->rules->loop, at = target.first + target.step;
-    sdv_last_row *row = &fill->sharp[0];
-    for (int j = 0; j < line->n; j++, at += 2 * target.step) {
-        float s = line->now ? line->now[j] : line->sharpness;
-        int stays = line->next ? line->next[2 * j] > 0 && line->next[2 * j + 1] > 0 : s > 0;
-        const float key[5] = { s, (float)stays, 0, 0, 0 };
-        sdv_points_at_piece(fill, loop, j, fill->writer.points);
-        if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
-            sdv_copy_row(&fill->writer, row->batch, &row->shape, at);
-            continue;
-        }
-        sdv_mask mask = sdv_edge_mask(fill->rules, s, stays, 2, 0);
-        if (!loop) mask = sdv_spread_edge(mask, 2);
-        int beside = mask.face != 0 ? loop ? 2 : 4 : 0;
-        sdv_runs runs = { { (float)mask.self, 0, 0, (float)mask.face }, { 2, 0, 0, beside },
-                          beside > 0 };
-        row->shape = sdv_shape_of(&runs);
-        sdv_add_sharp_row(fill, row, key, at);
-    }
+    int loop = rules->loop, regular = loop ? 6 : 4;
+    sdv_sharp_edges sharp = { 0, 0, 0, 0 };
+    for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
+    sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], &sharp), regular);
+    if (!loop) mask = sdv_spread_vertex(mask, regular);
+    int around = whole || mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
+    sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
+                        (float)mask.face },
+                      { 1, along ? 2 : 0, around ? regular - 2 : 0, around && !loop ? 4 : 0 },
+                      around && !whole };
+    return sdv_shape_of(&runs);
 }
 
-static void sdv_even_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
+// Adds the rows of a line that is or was sharp.
+static void sdv_sharp_rows(sdv_filler *fill, const sdv_edge_line *line, sdv_side target)
 {
     const sdv_rules *rules = fill->rules;
-    int loop = rules->loop, regular = loop ? 6 : 4, at = target.first + 2 * target.step;
+    float s = line->sharpness;
     int straight = rules->straight && fill->level->across[line->h] == line->h;
-    sdv_last_row *row = &fill->sharp[1];
-    for (int t = 1; t < line->n; t++, at += 2 * target.step) {
-        sdv_sharp_edges sharp = { 0, 0, 0, 0 };
-        float key[5] = { line->sharpness, line->sharpness, line->sharpness, line->sharpness,
-                         straight ? SDV_IMPLIED : 0 };
-        if (line->now) memcpy(key, line->now + t - 1, 2 * sizeof *key);
-        if (line->next) memcpy(key + 2, line->next + 2 * t - 1, 2 * sizeof *key);
-        sdv_points_around(fill, loop, t, fill->writer.points);
-        if (row->batch >= 0 && memcmp(key, row->key, sizeof key) == 0) {
-            sdv_copy_row(&fill->writer, row->batch, &row->shape, at);
-            continue;
+    for (int k = 1; k < 2 * line->n; k++) {
+        int odd = k % 2, at = k / 2;
+        float key[5] = { s, s, s, s, straight && !odd ? SDV_IMPLIED : 0 };
+        if (line->now && odd) key[0] = line->now[at];
+        if (line->now && !odd) memcpy(key, line->now + at - 1, 2 * sizeof *key);
+        if (line->next) memcpy(key + 2 - odd, line->next + k - 1, 2 * sizeof *key);
+        if (odd) sdv_points_at_piece(fill, rules->loop, at, fill->writer.points);
+        else sdv_points_around(fill, rules->loop, at, fill->writer.points);
+        sdv_last_row *row = &fill->sharp[odd];
+        if (row->batch < 0 || memcmp(key, row->key, sizeof key) != 0) {
+            memcpy(row->key, key, sizeof key);
+            row->shape = odd ? sdv_odd_shape(rules, key, 0) : sdv_even_shape(rules, key, 0);
+            row->batch = sdv_find_open(&fill->writer, &row->shape, NULL);
         }
-        for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
-        sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], key[4], &sharp), regular);
-        if (!loop) mask = sdv_spread_vertex(mask, regular);
-        int around = mask.face != 0 || mask.edge != 0, along = mask.crease != 0 || around;
-        sdv_runs runs = { { (float)mask.self, (float)(mask.edge + mask.crease), (float)mask.edge,
-                            (float)mask.face },
-                          { 1, along ? 2 : 0, around ? regular - 2 : 0, around && !loop ? 4 : 0 },
-                          around };
-        row->shape = sdv_shape_of(&runs);
-        sdv_add_sharp_row(fill, row, key, at);
+        sdv_copy_row(&fill->writer, row->batch, &row->shape, target.first + target.step * k);
     }
 }
 
@@ -3752,14 +3689,9 @@ static void sdv_line_rows(sdv_filler *fill, int h)
     if (beside) sdv_points_beside(&fill->from, base, h, 0, fill->left);
     if (beside) sdv_points_beside(&fill->from, base, across, 1, fill->right);
     target.first += fill->target;
-    if (beside && !line.now && fill->rules->loop) {
-        sdv_smooth_rows(fill, 1, line.n, target);
-    } else if (beside && !line.now) {
-        sdv_smooth_rows(fill, 0, line.n, target);
-    } else {
-        sdv_odd_rows(fill, &line, target);
-        sdv_even_rows(fill, &line, target);
-    }
+    if (!beside || line.now) sdv_sharp_rows(fill, &line, target);
+    else if (fill->rules->loop) sdv_smooth_rows(fill, 1, line.n, target);
+    else sdv_smooth_rows(fill, 0, line.n, target);
 }
 
 // Finds the points of spoke i of an n-gon, from the middle of edge i to the centre, and those
@@ -3785,10 +3717,6 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
     const sdv_level *cage = &fill->from.cage;
     int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
     int centre = fill->target + sdv_first_inside(&fill->to, f), *points = fill->writer.points;
-    for (int i = 0; i < sides; i++) {
-        sdv_spoke_points(fill, f, i);
-        sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
-    }
     sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
     sdv_mask mask = sdv_spread_vertex(sdv_vertex_mask(fill->rules, smooth, sides), sides);
     int around = mask.edge != 0 ? sides : 0;
@@ -3796,6 +3724,7 @@ static void sdv_spoke_rows(sdv_filler *fill, int f)
                       { 1, 0, around, around }, 0 };
     for (int i = 0; i < sides; i++) {
         sdv_spoke_points(fill, f, i);
+        sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
         points[0] = fill->line[m];
         points[1 + i] = fill->line[m - 1];
         points[1 + sides + i] = fill->left[m - 1];
@@ -4076,14 +4005,14 @@ static void sdv_seam_sharpness(sdv_seams *seams)
 }
 
 // Chaikin's averages reach across seams: so they take the sums at the vertices of the cage, on each
-// level, sums [levels][2 * vertex_count]. What happens at a vertex depends on nothing else.
+// level, sums [levels + 1][2 * vertex_count]. What happens at a vertex depends on nothing else.
 static void sdv_chaikin_sums(sdv_context *context, sdv_arena *keep, sdv_arena *scratch,
                              sdv_seams *seams, int levels)
 {
     const sdv_level *cage = &seams->cage->level;
     sdv_level *level = &seams->level;
     size_t count = 2 * (size_t)cage->vertex_count;
-    float *sums = level->sums = SDV_NEW(context, keep, float, count * (size_t)levels);
+    float *sums = level->sums = SDV_NEW(context, keep, float, count * ((size_t)levels + 1));
     float *s = SDV_NEW(context, scratch, float, cage->face_vertex_count);
     level->origin = SDV_NEW(context, scratch, int, level->vertex_count);
     level->origin_count = cage->vertex_count;
@@ -4092,7 +4021,7 @@ static void sdv_chaikin_sums(sdv_context *context, sdv_arena *keep, sdv_arena *s
     for (int h = 0; h < level->face_vertex_count; h++)
         level->origin[level->face_vertices[h]] = cage->face_vertices[seams->home[h]];
     sdv_copy(s, cage->sharpness, (size_t)cage->face_vertex_count, sizeof(float));
-    for (int i = 0; i < levels; i++) {
+    for (int i = 0; i <= levels; i++) {
         for (int v = 0; v < cage->vertex_count; v++, sums += 2) {
             sdv_sum_semi_sharp(cage, s, v, sums);
             for (int h = cage->vertex_first[v]; h >= 0; h = cage->vertex_next[h])
@@ -4127,14 +4056,10 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_level_count(level);
     sdv_seam_edges(seams);
     sdv_seam_sharpness(seams);
+    sdv_level_fade(level);
 }
 
 // ------------------------------------------------------------------------------- >>prepare
-
-typedef struct sdv_limit_weights {      // the mask of a limit row: see >>limit-rows
-    int    count;                       // points
-    float *weights;                     // [3][count] for the position, then for either tangent
-} sdv_limit_weights;
 
 // The functions that prepare and evaluate a surface for SUBDIV_EXACT. Only calls that may make such
 // a surface name them, so programs without these calls do not get their code.
@@ -4308,18 +4233,24 @@ static int sdv_edge_is_seen(const subdiv_surface *surface, const sdv_level *cage
 
 // ------------------------------------------------------------------------------ >>limit-rows
 // A limit row makes a point of the limit and its two tangents from points of the last level.
+//
+// The edges at a vertex that are sharp forever part its faces into sectors, each with a limit of
+// its own. A sector is open, from one such edge to the next, or all around the vertex; so is that
+// of a dart, whose first edge is the sharp one. The points of a sector are the vertex, its
+// neighbours counter-clockwise and, under Catmull-Clark, the vertices across its faces. A step of
+// refinement makes the same points of the next level from these alone: it is a matrix.
+//
+// Where nothing fades, the masks of >>masks are the limit. Elsewhere the sharpness is faded level
+// by level until nothing does. The rows of weights there, times the matrices of all the steps that
+// led there, the last one first, are the rows for the points of the last level.
 
-// The faces around a vertex up to infinitely sharp edges are a sector: a closed ring, or open from
-// one such edge to another. A dart is a ring, whose first edge is the sharp one. The points of a
-// sector are the vertex, its neighbours counter-clockwise and, under Catmull-Clark, the vertices
-// across its faces. One step of refinement makes the same points of the next level from these.
 typedef struct sdv_ray {                // an edge at the vertex: its sharpness and, one level down,
     float now, half, behind;            // that of its half there and of the half behind that
 } sdv_ray;
 
 typedef struct sdv_sector {
-    int      faces, edges;              // a ring has as many edges as faces, else one more
-    int      first, ring;               // its first face-vertex; no edge of it is infinitely sharp
+    int      first;                     // its first face-vertex
+    int      faces, edges;              // an open sector has one edge more than faces
     int      count;
     sdv_ray *rays;                      // [count] the edges, then sharp ones of other sectors
     float    corner;                    // the sharpness of the vertex
@@ -4333,7 +4264,7 @@ static int sdv_sector_points(const sdv_rules *rules, const sdv_sector *s)
     return 1 + s->edges + (rules->loop ? 0 : s->faces);
 }
 
-// Makes a sector where nothing fades, of a rule.
+// Makes a sector of a rule, where nothing fades.
 static void sdv_settle(sdv_sector *s, sdv_rule rule, int faces, int open)
 {
     const float forever = SUBDIV_INFINITE;
@@ -4357,33 +4288,33 @@ static int sdv_sector_fades(const sdv_sector *s)
 static void sdv_fade_sector(const sdv_rules *rules, const sdv_sector *from, sdv_sector *to)
 {
     sdv_ray *rays = to->rays;
-    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN, semi = 0;
+    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN, semi = 0;     // uniform: no others
     float sum = 0;
     *to = *from;
     to->rays = rays;
     to->corner = sdv_fade(from->corner);
     for (int i = 0; i < from->count; i++) {
         rays[i].now = from->rays[i].half;
-        if (!sdv_is_semi_sharp(rays[i].now)) continue;
+        if (!chaikin || !sdv_is_semi_sharp(rays[i].now)) continue;
         sum += rays[i].now;
         semi++;
     }
     for (int i = 0; i < from->count; i++) {
         float s = rays[i].now, other = from->rays[i].behind;
-        rays[i].half = chaikin ? sdv_fade_chaikin(s, sum, semi) : sdv_fade(s);
-        rays[i].behind = chaikin ? sdv_fade_chaikin(s, s + other, 1 + (other > 0)) : sdv_fade(s);
+        rays[i].half = sdv_fade_chaikin(s, sum, semi);
+        rays[i].behind = sdv_fade_chaikin(s, s + other, 1 + (chaikin && other > 0));
     }
 }
 
-// Goes back one step, from weights w of a sector's points on the next level to weights of those on
-// this level: a row of weights times the matrix of the step.
+// Multiplies a row of weights by the matrix of a step: w weighs a sector's points on the next
+// level, out those on this level.
 static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const double *w, double *out)
 {
     int n = s->faces, edges = s->edges, loop = rules->loop;
     double *edge = out + 1, *across = edge + edges;
     sdv_sharp_edges sharp = { 0, 0, 0, 0 };
     for (int i = 0; i < s->count; i++) sdv_meet_edge(&sharp, s->rays[i].now, s->rays[i].half);
-    sdv_fading fading = sdv_fading_of(s->corner, sdv_fade(s->corner), &sharp);
+    sdv_fading fading = sdv_fading_of(s->corner, &sharp);
     sdv_mask vertex = sdv_vertex_mask(rules, fading, n);
     out[0] = w[0] * vertex.self;
     for (int i = 0; i < edges; i++) edge[i] = w[0] * vertex.edge;
@@ -4406,7 +4337,7 @@ static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const dou
     }
 }
 
-// Goes back one step with the rows of a limit: the point's, and two tangents', which may have any
+// Does so with the rows of a limit: the point's and those of two tangents, which may have any
 // length. room [points].
 static void sdv_rows_back(const sdv_rules *rules, const sdv_sector *s, double *rows, double *room)
 {
@@ -4439,7 +4370,7 @@ static void sdv_settled_rows(const sdv_rules *rules, const sdv_sector *s, double
     for (int i = 1 + s->edges; i < points; i++) rows[i] = mask.face;
     sdv_mask vertex = rule == SDV_CREASE ? sdv_crease_vertex() : sdv_corner_vertex();
     if (open) sdv_crease_tangents(rules, vertex, n, t0, t1);
-    else if (rule != SDV_CORNER || s->rays[0].now <= 0) sdv_smooth_tangents(rules, n, t0, t1);
+    else sdv_smooth_tangents(rules, n, t0, t1);
     // A dart has no closed form. The more faces, the more alike are the waves, and the longer it
     // takes until the slowest is left.
     int steps = n < 44 ? 64 + n * n : SDV_DART_STEPS;
@@ -4447,7 +4378,7 @@ static void sdv_settled_rows(const sdv_rules *rules, const sdv_sector *s, double
 }
 
 // Makes the rows of the limit of sector states[0]: goes on to the level where nothing fades, and
-// back. states [SDV_FADE_LEVELS + 1] have room for rays. room [points].
+// back. states [SDV_FADE_LEVELS + 1] have room for rays, room for points.
 static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *rows, double *room)
 {
     int level = 0;
@@ -4457,12 +4388,9 @@ static void sdv_sector_rows(const sdv_rules *rules, sdv_sector *states, double *
     while (level-- > 0) sdv_rows_back(rules, &states[level], rows, room);
 }
 
-// Kinds of limit rows whose weights depend on the number of faces alone: of sectors where nothing
-// fades, with a smooth vertex, a dart, a crease and corners, in a ring or between creases; and of
-// linear surfaces, with two edges for tangents.
-typedef enum sdv_limit_kind {
-    SDV_RING, SDV_SLIT, SDV_SPAN, SDV_SPIKE, SDV_WEDGE, SDV_TIP, SDV_LIMIT_KINDS
-} sdv_limit_kind;
+// Kinds of limit rows whose weights depend on the number of faces alone, as nothing fades. Those of
+// an open sector are SDV_CREASE and SDV_WEDGE. The tangents of a linear surface are two edges.
+enum { SDV_WEDGE = SDV_CORNER + 1, SDV_LINEAR, SDV_LIMIT_KINDS };
 
 enum { SDV_FADED = 16 };
 
@@ -4476,86 +4404,81 @@ typedef struct sdv_limit_writer {       // writes limit rows
     const sdv_level *level;             // the last
     const sdv_rules *rules;
     const sdv_filler *fill;
-    sdv_array   masks;                  // sdv_limit_weights, one for each kind and number of faces
-    int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] numbers of masks, or -1
+    int        *known;                  // [SDV_LIMIT_KINDS * (most + 1)] open batches, or -1
     double     *rows, *room;            // of a sector: [3][points], [points]
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
-    int        *edge, *place;           // see sdv_find_rays
+    int        *seen;                   // see sdv_find_rays
 } sdv_limit_writer;
 
-// Makes the mask of a kind. Its points are in the order of sdv_limit_row.
-static sdv_limit_weights sdv_new_limit_mask(sdv_limit_writer *limit, sdv_arena *arena,
-                                            sdv_limit_kind kind, int faces)
+// Returns the open batch for rows of a kind; -1: out of memory. It has the weights [3][points] for
+// the position and either tangent. They are made the first time, under SUBDIV_PLAIN each time.
+static int sdv_settled_batch(sdv_limit_writer *limit, int kind, int faces)
 {
-    static const sdv_rule rules[SDV_TIP] = { SDV_SMOOTH, SDV_DART, SDV_CREASE, SDV_CORNER,
-                                             SDV_CORNER };
-    static const double tip[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    const double *rows = kind == SDV_TIP ? tip : limit->rows;
-    sdv_limit_weights made = { 3, NULL };
-    if (kind != SDV_TIP) {
-        sdv_settle(&limit->states[0], rules[kind], faces, kind == SDV_SPAN || kind == SDV_WEDGE);
-        sdv_settled_rows(limit->rules, &limit->states[0], limit->rows, limit->room);
-        made.count = sdv_sector_points(limit->rules, &limit->states[0]);
-    }
-    made.weights = SDV_NEW(limit->writer->context, arena, float, 3 * (size_t)made.count);
-    for (int i = 0; i < 3 * made.count && made.weights; i++) made.weights[i] = (float)rows[i];
-    return made;
-}
-
-// Returns the number of the mask of a kind, and makes it the first time; SUBDIV_PLAIN: each time.
-static int sdv_find_limit_mask(sdv_limit_writer *limit, sdv_limit_kind kind, int faces)
-{
-    int *known = &limit->known[(int)kind * (limit->writer->most + 1) + faces];
+    static const double linear[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    const double *rows = kind == SDV_LINEAR ? linear : limit->rows;
+    sdv_sector *s = &limit->states[0];
+    int *known = &limit->known[kind * (limit->writer->most + 1) + faces], points = 3;
+    sdv_shape shape;
     if (*known >= 0 && !SDV_IS_PLAIN) return *known;
-    sdv_arena *arena = *known < 0 ? limit->writer->arena : &limit->writer->scratch;
-    sdv_limit_weights made = sdv_new_limit_mask(limit, arena, kind, faces);
+    if (kind != SDV_LINEAR) {
+        sdv_settle(s, kind == SDV_WEDGE ? SDV_CORNER : (sdv_rule)kind, faces,
+                   kind == SDV_CREASE || kind == SDV_WEDGE);
+        sdv_settled_rows(limit->rules, s, limit->rows, limit->room);
+        points = sdv_sector_points(limit->rules, s);
+    }
     if (*known >= 0) return *known;
-    sdv_limit_weights *mask = (sdv_limit_weights *)sdv_array_room(limit->writer->context,
-                                                            &limit->masks, 1, sizeof made);
-    if (!mask) return 0;
-    *mask = made;
-    return *known = (int)limit->masks.count++;
+    float *weights = SDV_NEW(limit->writer->context, limit->writer->arena, float, 3 * points);
+    for (int i = 0; i < 3 * points && weights; i++) weights[i] = (float)rows[i];
+    memset(&shape, 0, sizeof shape);
+    shape.count[0] = points - 1;
+    shape.regular = kind == SDV_SMOOTH && faces == (limit->rules->loop ? 6 : 4);
+    return *known = weights ? sdv_find_open(limit->writer, &shape, weights) : -1;
 }
 
-// Appends the points of count faces from h on, counter-clockwise: the neighbours (at a crease also
-// the one behind the last face), then the vertices across the faces.
-static void sdv_add_fan(const sdv_level *level, int h, int count, int crease, int loop, int *point)
+// Adds a limit row of a kind. Its points are in limit->writer->points.
+static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int target)
 {
-    int *across = point + count + crease;
-    for (int i = 0; i < count; i++) {
-        *point++ = sdv_point_ahead(level, h);
-        if (!loop) *across++ = sdv_point_across(level, h);
-        if (crease && i + 1 == count) *point = sdv_point_behind(level, h);
-        h = sdv_around(level, h);
-    }
+    int number = sdv_settled_batch(limit, kind, faces);
+    const sdv_open_batch *open = (const sdv_open_batch *)sdv_items(&limit->writer->open);
+    if (number >= 0) sdv_copy_row(limit->writer, number, &open[number].shape, target);
 }
 
-// Finds the faces of the sector that has the face of h: all in a ring, where nothing is sharp.
-static void sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
+// Finds the sector, of a vertex of this rule, that has the face of h.
+static void sdv_find_sector(const sdv_level *level, int h, sdv_rule rule, sdv_sector *s)
 {
-    int v = level->face_vertices[h], first = h, ring = 0, at, q;
+    int v = level->face_vertices[h], first = h, at = -1, q;
     s->first = h;
-    s->faces = level->vertex_faces[v];
-    s->ring = 1;
+    s->faces = s->edges = level->vertex_faces[v];
     if (!level->creased[v] && level->vertex_sharpness[v] < SUBDIV_INFINITE) return;
-    while (!ring && level->sharpness[first] < SUBDIV_INFINITE && level->across[first] != first) {
+    while (level->sharpness[first] < SUBDIV_INFINITE && at != h) {     // clockwise
         at = sdv_next(level, level->across[first]);
-        ring = at == h;
-        if (!ring) first = at;
+        if (at != h) first = at;
     }
-    if (ring)                           // begin at a sharp edge, so that more are alike
+    int open = at != h && rule != SDV_DART;
+    if (at == h)                        // all around: begin at a sharp edge, so more are alike
         for (first = h; level->sharpness[first] <= 0 && sdv_around(level, first) != h; )
             first = sdv_around(level, first);
     s->faces = 1;
     for (at = first; ; at = q, s->faces++) {
         int before = sdv_previous(level, at);
         q = level->across[before];
-        if (q == before || q == first) break;
-        if (sdv_sharpness_before(level, before) >= SUBDIV_INFINITE) break;
+        if (q == first || sdv_sharpness_before(level, before) >= SUBDIV_INFINITE) break;
     }
     s->first = first;
-    s->ring = ring;
+    s->edges = s->faces + open;
+}
+
+// Writes the points of a sector, without the vertex.
+static void sdv_add_sector(const sdv_level *level, const sdv_sector *s, int loop, int *point)
+{
+    int *across = point + s->edges;
+    for (int i = 0, h = s->first; i < s->faces; i++) {
+        *point++ = sdv_point_ahead(level, h);
+        if (!loop) *across++ = sdv_point_across(level, h);
+        if (i + 1 == s->edges - 1) *point = sdv_point_behind(level, h);
+        h = sdv_around(level, h);
+    }
 }
 
 // Finds how the edge of h fades at the vertex of h or, with end 1, where it ends.
@@ -4573,46 +4496,42 @@ static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
     return ray;
 }
 
-// Finds the rays of a sector, and those of other sharp edges at the vertex. An edge is meant by its
-// last face-vertex. Which ones the sector has tell limit->edge, by place, and limit->place, by
-// edge.
+// Returns the last face-vertex of the ring of h's edge.
+static int sdv_last_of_edge(const sdv_level *level, int h)
+{
+    while (level->across[h] > h) h = level->across[h];
+    return h;
+}
+
+// Finds the rays of a sector and those of other sharp edges at the vertex. limit->seen marks the
+// edges of the sector, each at the last face-vertex of its ring, with the number of the vertex.
 static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
     int v = level->face_vertices[s->first];
     s->corner = level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
-        int end = i == s->faces, h = end ? sdv_previous(level, at) : at, edge = h;
-        while (level->across[edge] > edge) edge = level->across[edge];
+        int before = sdv_previous(level, at), end = i == s->faces, h = end ? before : at;
         s->rays[i] = sdv_ray_of(limit, h, end);
-        limit->edge[i] = edge;
-        limit->place[edge] = i;
-        if (i + 1 < s->faces) at = level->across[sdv_previous(level, at)];
+        limit->seen[sdv_last_of_edge(level, h)] = v;
+        if (i + 1 < s->faces) at = level->across[before];
     }
     s->count = s->edges;
     for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k])
         for (int end = 0; end < 2; end++) {
-            int h = end ? sdv_previous(level, k) : k, edge = h;
+            int h = end ? sdv_previous(level, k) : k;
             if (!sdv_is_edge_at(level, h, !end)) continue;
-            while (level->across[edge] > edge) edge = level->across[edge];
-            int at = limit->place[edge];
-            if (at < s->edges && limit->edge[at] == edge) continue;
+            if (limit->seen[sdv_last_of_edge(level, h)] == v) continue;
             sdv_ray ray = sdv_ray_of(limit, h, end);
             if (ray.now > 0) s->rays[s->count++] = ray;
         }
 }
 
-// Adds a limit row whose points are in limit->writer->points.
-static void sdv_limit_batch_row(sdv_limit_writer *limit, sdv_limit_kind kind, int faces, int target)
+static int sdv_same_sector(const sdv_sector *a, const sdv_sector *b)
 {
-    int number = sdv_find_limit_mask(limit, kind, faces);
-    sdv_shape shape;
-    if (limit->writer->context->result) return;
-    const sdv_limit_weights *mask = (const sdv_limit_weights *)sdv_items(&limit->masks) + number;
-    memset(&shape, 0, sizeof shape);
-    shape.count[0] = mask->count - 1;
-    shape.regular = kind == SDV_RING && faces == (limit->rules->loop ? 6 : 4);
-    sdv_add_shape(limit->writer, &shape, mask->weights, target);
+    return a->count == b->count && a->edges == b->edges && a->faces == b->faces &&
+           memcmp(&a->corner, &b->corner, sizeof a->corner) == 0 &&
+           memcmp(a->rays, b->rays, (size_t)a->count * sizeof *a->rays) == 0;
 }
 
 // Returns the rows of sector states[0], which fades. Makes them unless a sector like it was there.
@@ -4628,15 +4547,12 @@ static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
     }
     sdv_faded *known = &limit->faded[(hash * 2654435761u) >> 28];
     sdv_sector *of = &known->sector;
-    int same = known->rows && !SDV_IS_PLAIN && of->count == s->count && of->edges == s->edges &&
-               of->faces == s->faces && memcmp(&of->corner, &s->corner, sizeof s->corner) == 0 &&
-               memcmp(of->rays, s->rays, (size_t)s->count * sizeof *s->rays) == 0;
-    if (same) return known->rows;
-    if (!known->rows) {
-        size_t most = (size_t)limit->writer->most;
-        of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
-        known->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
-    }
+    if (known->rows && !SDV_IS_PLAIN && sdv_same_sector(of, s)) return known->rows;
+    size_t most = (size_t)limit->writer->most;
+    for (int i = 1; i <= SDV_FADE_LEVELS && !limit->states[i].rays; i++)
+        limit->states[i].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    if (!known->rows) of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    if (!known->rows) known->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
     if (context->result) return NULL;
     sdv_ray *rays = of->rays;
     *of = *s;
@@ -4685,61 +4601,52 @@ static int sdv_first_seen(const subdiv_surface *surface, const sdv_level *level,
     return best;
 }
 
-// Adds the limit row of the vertex of h: from the vertex, its neighbours and, under Catmull-Clark,
-// the vertices across its faces. Where sharp edges part the faces, it is the limit of the sector
-// that has the face of h.
+// Adds the limit row of the vertex of h: that of the sector that has the face of h.
 static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
 {
     const sdv_level *level = limit->level;
-    const sdv_rules *rules = limit->rules;
-    int v = level->face_vertices[h], faces = 0, open = 0, *point = limit->writer->points;
-    sdv_sector *s = &limit->states[0];
-    sdv_limit_kind kind = SDV_TIP;
-    *point++ = level->first_point + v;
-    if (rules->linear) {
-        point[0] = sdv_point_ahead(level, h);
-        point[1] = sdv_point_behind(level, h);
-    } else {
-        static const sdv_limit_kind rings[4] = { SDV_RING, SDV_SLIT, SDV_RING, SDV_SPIKE };
-        float corner = level->vertex_sharpness[v];
-        sdv_find_sector(level, h, s);
-        sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
-                                        sdv_forever_edges(level, v));
-        faces = s->faces;
-        open = !s->ring && rule != SDV_DART;
-        s->edges = faces + open;
-        kind = !open ? rings[rule] : rule == SDV_CREASE ? SDV_SPAN : SDV_WEDGE;
-        sdv_add_fan(level, s->first, faces, open, rules->loop, point);
-        if (!sdv_vertex_settled(level, v)) {
-            sdv_find_rays(limit, s);
-            sdv_fading_row(limit, target);
-            return;
-        }
+    int v = level->face_vertices[h], *points = limit->writer->points;
+    points[0] = level->first_point + v;
+    if (limit->rules->linear) {
+        points[1] = sdv_point_ahead(level, h);
+        points[2] = sdv_point_behind(level, h);
+        sdv_settled_row(limit, SDV_LINEAR, 0, target);
+        return;
     }
-    sdv_limit_batch_row(limit, kind, faces, target);
+    sdv_sector *s = &limit->states[0];
+    float corner = level->vertex_sharpness[v];
+    sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
+                                    sdv_count_sharp_edges(level, v).forever);
+    sdv_find_sector(level, h, rule, s);
+    sdv_add_sector(level, s, limit->rules->loop, points + 1);
+    if (sdv_vertex_settled(level, v)) {
+        int wedge = rule == SDV_CORNER && s->edges > s->faces;
+        sdv_settled_row(limit, wedge ? SDV_WEDGE : (int)rule, s->faces, target);
+    } else {
+        sdv_find_rays(limit, s);
+        sdv_fading_row(limit, target);
+    }
 }
 
-// fill: of the level, if its points stand on lines; else NULL. semi: something is semi-sharp.
+// fill: of the level, if its points stand on lines; else NULL.
 static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sdv_level *level,
-                            const sdv_filler *fill, int semi, sdv_limit_writer *limit)
+                            const sdv_filler *fill, sdv_limit_writer *limit)
 {
     sdv_context *context = writer->context;
+    sdv_arena *scratch = &writer->scratch;
     size_t most = (size_t)writer->most, known = SDV_LIMIT_KINDS * (most + 1);
-    size_t places = semi ? (size_t)level->face_vertex_count : 0;
     memset(limit, 0, sizeof *limit);
     limit->writer = writer;
     limit->level = level;
     limit->rules = rules;
     limit->fill = fill;
-    limit->known = SDV_NEW(context, &writer->scratch, int, known);
-    limit->rows = SDV_NEW(context, &writer->scratch, double, 3 * (2 * most + 2));
-    limit->room = SDV_NEW(context, &writer->scratch, double, 2 * most + 2);
-    for (int i = 0; i <= (semi ? SDV_FADE_LEVELS : 0); i++)
-        limit->states[i].rays = SDV_NEW(context, &writer->scratch, sdv_ray, 3 * most + 1);
-    limit->edge = SDV_NEW(context, &writer->scratch, int, most + 1);
-    limit->place = SDV_NEW(context, &writer->scratch, int, places);
-    for (size_t i = 0; i < places && !context->result; i++) limit->place[i] = 0;
+    limit->known = SDV_NEW(context, scratch, int, known);
+    limit->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
+    limit->room = SDV_NEW(context, scratch, double, 2 * most + 2);
+    limit->states[0].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    limit->seen = SDV_NEW(context, scratch, int, level->face_vertex_count);
     for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) limit->seen[h] = -1;
 }
 
 // ------------------------------------------------------------------------------------ >>fill
@@ -4808,34 +4715,31 @@ static void sdv_new_pieces(sdv_context *context, sdv_arena *arena, const sdv_lev
     }
 }
 
-// Adds the creases of the result on edge e, piece by piece. Without room in fine only counts them.
-static void sdv_add_creases(subdiv_mesh *fine, const sdv_order *order, const sdv_level *cage, int e,
-                            const sdv_pieces *pieces, size_t *count)
-{
-    int n = order->n, h = cage->edge_first[e], number = pieces->count ? pieces->number[e] : -1;
-    int from = cage->face_vertices[h], end = cage->face_vertices[sdv_next(cage, h)];
-    const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
-    sdv_side side = sdv_seen_edge(order, e, from > end);
-    for (int j = 0; j < n; j++) {
-        int to = j + 1 == n ? end : side.first + side.step * (j + 1);
-        float s = number < 0 ? cage->sharpness[h] : of_edge[j];
-        if (sdv_survives(s) && fine->crease_vertices) {
-            fine->crease_vertices[2 * *count] = from;
-            fine->crease_vertices[2 * *count + 1] = to;
-            fine->crease_sharpness[*count] = s;
-        }
-        *count += (size_t)sdv_survives(s);
-        from = to;
-    }
-}
-
+// Counts the creases of the result, piece by piece, and lists them once it has room.
 static size_t sdv_surviving_creases(subdiv_surface *surface, const sdv_level *cage,
                                     const sdv_pieces *pieces)
 {
+    subdiv_mesh *fine = &surface->fine;
     size_t count = 0;
-    for (int e = 0; e < cage->edge_count; e++)
-        if (sdv_edge_is_seen(surface, cage, e))
-            sdv_add_creases(&surface->fine, &surface->order, cage, e, pieces, &count);
+    for (int e = 0; e < cage->edge_count; e++) {
+        int n = surface->order.n, number = pieces->count ? pieces->number[e] : -1;
+        int h = cage->edge_first[e], from = cage->face_vertices[h];
+        int end = cage->face_vertices[sdv_next(cage, h)];
+        const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
+        sdv_side side = sdv_seen_edge(&surface->order, e, from > end);
+        if (!sdv_edge_is_seen(surface, cage, e)) continue;
+        for (int j = 0, to; j < n; j++, from = to) {
+            float s = of_edge ? of_edge[j] : cage->sharpness[h];
+            to = j + 1 == n ? end : side.first + side.step * (j + 1);
+            if (!sdv_survives(s)) continue;
+            if (fine->crease_vertices) {
+                fine->crease_vertices[2 * count] = from;
+                fine->crease_vertices[2 * count + 1] = to;
+                fine->crease_sharpness[count] = s;
+            }
+            count++;
+        }
+    }
     return count;
 }
 
@@ -4889,68 +4793,33 @@ static void sdv_fade_lines(const sdv_level *level, int n, sdv_pieces *pieces)
 static void sdv_fade_cage(sdv_level *level)
 {
     for (int v = 0; v < level->vertex_count; v++) {
+        if (!level->creased[v] && level->vertex_sharpness[v] <= 0) continue;
         if (level->partner && level->partner[v] >= 0) level->seam[v] = sdv_seam_left(level, v);
         level->vertex_sharpness[v] = sdv_fade(level->vertex_sharpness[v]);
-        for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h])
+        for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h])
             level->sharpness[h] = sdv_half(level, h);
     }
     if (level->sums) level->sums += 2 * (size_t)level->origin_count;
+    sdv_level_fade(level);
 }
 
 // Begins the rows from one level to the next: finds the open batches of smooth points.
 static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int level, int last)
 {
-    int loop = surface->rules.loop;
-    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    sdv_mask edge = sdv_edge_mask(fill->rules, 0, 0, 2, 0);
-    sdv_mask vertex = sdv_vertex_mask(fill->rules, smooth, loop ? 6 : 4);
-    if (!loop) edge = sdv_spread_edge(edge, 2);
-    if (!loop) vertex = sdv_spread_vertex(vertex, 4);
-    sdv_runs odd = { { (float)edge.self, 0, 0, (float)edge.face }, { 2, 0, 0, loop ? 2 : 4 }, 0 };
-    sdv_runs even = { { (float)vertex.self, 0, (float)vertex.edge, (float)vertex.face },
-                      { 1, 0, loop ? 6 : 4, loop ? 0 : 4 }, 0 };
-    sdv_runs face = { { (float)sdv_face_weight(4), 0, 0, 0 }, { 4, 0, 0, 0 }, 0 };
-    sdv_shape shapes[3] = { sdv_shape_of(&odd), sdv_shape_of(&even), sdv_shape_of(&face) };
-    fill->odd = sdv_find_open(&fill->writer, &shapes[0], NULL);
-    fill->even = sdv_find_open(&fill->writer, &shapes[1], NULL);
-    fill->face = sdv_find_open(&fill->writer, &shapes[2], NULL);
+    static const float smooth[5] = { 0, 0, 0, 0, 0 };
+    const sdv_runs runs = { { (float)sdv_face_weight(4), 0, 0, 0 }, { 4, 0, 0, 0 }, 0 };
+    sdv_shape odd = sdv_odd_shape(fill->rules, smooth, 1), face = sdv_shape_of(&runs);
+    sdv_shape even = sdv_even_shape(fill->rules, smooth, 1);
+    fill->odd = sdv_find_open(&fill->writer, &odd, NULL);
+    fill->even = sdv_find_open(&fill->writer, &even, NULL);
+    fill->face = sdv_find_open(&fill->writer, &face, NULL);
     fill->from = surface->orders[level];
     fill->to = last ? surface->order : surface->orders[level + 1];
     fill->base = fill->level->first_point = surface->bases[level];
     fill->target = last ? 0 : surface->bases[level + 1];
     fill->level->order = level ? &fill->from : NULL;
     fill->sharp[0].batch = fill->sharp[1].batch = -1;
-    fill->edges = 0;
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
-}
-
-// Adds the rows that make level + 1, face by face: those of the vertices and edges that no earlier
-// face has, and those of points inside the face that no grid makes.
-static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level)
-{
-    sdv_writer *writer = &fill->writer;
-    const sdv_level *cage = fill->level;
-    sdv_begin_fill(fill, surface, level, level + 1 == surface->levels && !surface->rules.limit);
-    for (int v = 0; v < cage->vertex_count; v++)
-        if (cage->vertex_first[v] < 0)
-            sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
-    for (int f = 0; f < cage->face_count && !writer->context->result; f++) {
-        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
-        sdv_batch_face(writer, f);
-        for (int h = start; h < end; h++) {
-            int v = cage->face_vertices[h], e = cage->face_edges[h];
-            if (cage->vertex_first[v] == h)
-                sdv_vertex_row(cage, fill->rules, v, fill->target + v, writer);
-            if (e != fill->edges) continue;
-            fill->edges++;
-            if (level > 0) sdv_line_rows(fill, h);
-            else sdv_edge_row(cage, fill->rules, h, fill->target + fill->to.first_edge_point + e,
-                              writer);
-        }
-        if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
-        if (fill->to.frame) sdv_frame_rows(fill, f);
-    }
-    sdv_end_batches(writer, &surface->refine[level]);
 }
 
 // Finds the sector of point t of a semi-sharp line.
@@ -4970,34 +4839,36 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
 {
     const int *p = fill->line, *left = fill->left, *right = fill->right;
     int loop = fill->rules->loop, *points = limit->writer->points, n = 0;
-    sdv_limit_kind kind = fill->rules->linear ? SDV_TIP : sharp ? SDV_SPAN : SDV_RING;
+    int kind = sharp ? SDV_CREASE : SDV_SMOOTH;
     points[n++] = p[t];
     points[n++] = p[t + 1];
-    if (kind == SDV_TIP) {
-        points[n++] = left[t];
-        sdv_limit_batch_row(limit, kind, 0, target);
+    points[n++] = left[t];
+    if (fill->rules->linear) {
+        sdv_settled_row(limit, SDV_LINEAR, 0, target);
         return;
     }
-    points[n++] = left[t];
     if (loop) points[n++] = left[t - 1];
     points[n++] = p[t - 1];
-    if (kind == SDV_RING) points[n++] = right[loop ? t - 1 : t];
-    if (kind == SDV_RING && loop) points[n++] = right[t];
+    if (!sharp) points[n++] = right[loop ? t - 1 : t];
+    if (!sharp && loop) points[n++] = right[t];
     if (!loop) points[n++] = left[t + 1];
     if (!loop) points[n++] = left[t - 1];
-    if (!loop && kind == SDV_RING) points[n++] = right[t - 1];
-    if (!loop && kind == SDV_RING) points[n++] = right[t + 1];
+    if (!loop && !sharp) points[n++] = right[t - 1];
+    if (!loop && !sharp) points[n++] = right[t + 1];
     int fades = line && (line->now[t - 1] > 0 || line->now[t] > 0);
     if (fades) sdv_line_sector(line, loop, t, &limit->states[0]);
     if (fades) sdv_fading_row(limit, target);
-    else sdv_limit_batch_row(limit, kind, kind == SDV_RING ? (loop ? 6 : 4) : loop ? 3 : 2, target);
+    else sdv_settled_row(limit, kind, (loop ? 3 : 2) << !sharp, target);
 }
 
 // Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
 // centre.
-static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h)
+static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill,
+                           const subdiv_surface *surface, int h)
 {
     const sdv_level *level = fill->level;
+    if (fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE)
+        h = sdv_first_seen(surface, level, level->across, h);
     sdv_edge_line line = sdv_line_at(fill, h);
     sdv_side target = sdv_edge_side(&fill->to, h, 0);
     sdv_points_on_edge(&fill->from, fill->base, h, fill->line);
@@ -5029,9 +4900,8 @@ static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
     if (fill->rules->linear) {              // two edges of the quad at vertex 0
         points[2] = points[1];
         points[1] = points[sides];
-    }
-    if (fill->rules->linear) sdv_limit_batch_row(limit, SDV_TIP, 0, centre);
-    else sdv_limit_batch_row(limit, SDV_RING, sides, centre);
+        sdv_settled_row(limit, SDV_LINEAR, 0, centre);
+    } else sdv_settled_row(limit, SDV_SMOOTH, sides, centre);
 }
 
 // Adds the row that makes point target of the result, or of a limit, a copy of a work point.
@@ -5044,48 +4914,40 @@ static void sdv_stay_row(sdv_writer *writer, int limit, int point, int target)
     sdv_add_shape(writer, &alone, limit ? stay : NULL, target);
 }
 
-// Adds all limit rows. Vertices without faces stay where they are.
-static void sdv_fill_limit(sdv_filler *fill, subdiv_surface *surface, int semi)
+// Adds the rows that make level + 1, face by face: those of the vertices and edges that no earlier
+// face has, and those of points inside the face that no grid makes. limit: rows from the last level
+// to the limit instead; NULL: no.
+static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
+                           sdv_limit_writer *limit)
 {
-    sdv_context *context = fill->writer.context;
-    sdv_level *level = fill->level;
-    sdv_limit_writer limit;
-    sdv_begin_limit(&fill->writer, &surface->rules, level, fill, semi, &limit);
-    fill->from = surface->orders[surface->levels];
-    fill->to = surface->order;
-    fill->base = level->first_point = surface->bases[surface->levels];
-    fill->target = 0;
-    level->order = &fill->from;
-    for (int v = 0; v < level->vertex_count; v++)
-        if (level->vertex_first[v] < 0) sdv_stay_row(&fill->writer, 1, fill->base + v, v);
-    for (int f = 0; f < level->face_count && !context->result; f++) {
-        int end = sdv_face_end(level, f);
-        sdv_batch_face(&fill->writer, f);
-        for (int h = sdv_face_start(level, f); h < end && !context->result; h++) {
-            int v = level->face_vertices[h];
-            if (level->vertex_first[v] == h)
-                sdv_limit_row(&limit, sdv_first_seen(surface, level, level->vertex_next, h), v);
-            if (level->edge_first[level->face_edges[h]] != h) continue;
-            int forever = fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE;
-            sdv_limit_line(&limit, fill,
-                           forever ? sdv_first_seen(surface, level, level->across, h) : h);
-        }
-        if (sdv_is_ngon(&fill->from, f)) sdv_limit_spokes(&limit, fill, f);
-    }
-    sdv_end_batches(&fill->writer, &surface->limit_rows);
-    sdv_array_free(&limit.masks);
-}
-
-// Whether any sharpness of the cage is semi-sharp.
-static int sdv_has_semi_sharp(const sdv_level *cage)
-{
-    int semi = 0;
+    sdv_writer *writer = &fill->writer;
+    const sdv_level *cage = fill->level;
+    const sdv_rules *rules = fill->rules;
+    sdv_begin_fill(fill, surface, level, level + 1 >= surface->levels + rules->limit);
     for (int v = 0; v < cage->vertex_count; v++) {
-        semi |= sdv_is_semi_sharp(cage->vertex_sharpness[v]);
-        for (int h = cage->vertex_first[v]; h >= 0 && cage->creased[v]; h = cage->vertex_next[h])
-            semi |= sdv_is_semi_sharp(cage->sharpness[h]);
+        if (cage->vertex_first[v] >= 0) continue;
+        if (limit) sdv_stay_row(writer, 1, fill->base + v, v);
+        else sdv_vertex_row(cage, rules, v, fill->target + v, writer);
     }
-    return semi;
+    for (int f = 0; f < cage->face_count && !writer->context->result; f++) {
+        int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
+        sdv_batch_face(writer, f);
+        for (int h = start; h < end; h++) {
+            int v = cage->face_vertices[h], e = cage->face_edges[h];
+            if (cage->vertex_first[v] == h && limit)
+                sdv_limit_row(limit, sdv_first_seen(surface, cage, cage->vertex_next, h), v);
+            else if (cage->vertex_first[v] == h)
+                sdv_vertex_row(cage, rules, v, fill->target + v, writer);
+            if (cage->edge_first[e] != h) continue;
+            if (limit) sdv_limit_line(limit, fill, surface, h);
+            else if (level > 0) sdv_line_rows(fill, h);
+            else sdv_edge_row(cage, rules, h, fill->target + fill->to.first_edge_point + e, writer);
+        }
+        if (level > 0 && sdv_is_ngon(&fill->from, f) && limit) sdv_limit_spokes(limit, fill, f);
+        else if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
+        if (fill->to.frame) sdv_frame_rows(fill, f);
+    }
+    sdv_end_batches(writer, limit ? &surface->limit_rows : &surface->refine[level]);
 }
 
 // Finds the first work point of each level. The last level has work points for a limit alone.
@@ -5146,19 +5008,20 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
     fill.level = cage;
     fill.rules = &surface->rules;
     fill.pieces = pieces.count ? &pieces : NULL;
-    int semi = sdv_has_semi_sharp(cage);
     if (SDV_IS_PLAIN) sdv_plain_rows(context, surface, cage, &fill.writer, scratch);
     else sdv_find_orders(context, surface, cage);
     for (int i = 0; i < levels && !context->result; i++) {
-        if (semi) sdv_level_fade(cage);
         if (fill.pieces) sdv_fade_lines(cage, 1 << i, &pieces);
-        if (!SDV_IS_PLAIN) sdv_fill_level(&fill, surface, i);
-        if (semi) sdv_fade_cage(cage);
+        if (!SDV_IS_PLAIN) sdv_fill_level(&fill, surface, i, NULL);
+        sdv_fade_cage(cage);
     }
     if (!context->result && sharpness) sdv_surviving_sharpness(context, surface, cage, &pieces);
-    if (limit && semi) sdv_level_fade(cage);
     if (limit && fill.pieces && !context->result) sdv_fade_lines(cage, (int)n, &pieces);
-    if (limit && !SDV_IS_PLAIN && !context->result) sdv_fill_limit(&fill, surface, semi);
+    if (limit && !SDV_IS_PLAIN && !context->result) {
+        sdv_limit_writer of_limit;
+        sdv_begin_limit(&fill.writer, &surface->rules, cage, &fill, &of_limit);
+        sdv_fill_level(&fill, surface, levels, &of_limit);
+    }
     sdv_writer_free(&fill.writer);
 }
 
@@ -5332,9 +5195,8 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     seams.value_count = values->count;
     seams.rule = values->rule;
     sdv_share_rules(context, made, surface);
-    if (!context->result)                   // plain: the last level fades, too
-        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face,
-                        made->levels + SDV_IS_PLAIN);
+    if (!context->result)
+        sdv_seams_build(context, &made->arena, &scratch, &seams, made->own_face, made->levels);
     shape.vertex_count = seams.level.vertex_count;
     sdv_check_size(context, &shape, made->exact ? 0 : made->levels, seams.level.edge_count);
     if (context->result) {
@@ -5443,7 +5305,8 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
 // May a vertex be smooth, or the end of a single crease, on this level or a later one?
 static int sdv_may_be_smooth(const sdv_level *level, int v)
 {
-    return level->vertex_sharpness[v] < SUBDIV_INFINITE && sdv_forever_edges(level, v) < 2;
+    return level->vertex_sharpness[v] < SUBDIV_INFINITE &&
+           sdv_count_sharp_edges(level, v).forever < 2;
 }
 
 // Asks the callback of a mesh for the mask of a valence, unless it is known. limit: such a vertex
@@ -6872,6 +6735,16 @@ static void sdv_make_work(sdv_evaluation *e, const subdiv_options *opt)
     }
 }
 
+// Where four channels of the result go, from c on.
+static sdv_window sdv_result_window(const sdv_evaluation *e, int c)
+{
+    int lanes = e->channels - c < 4 ? e->channels - c : 4, count = e->end_point - e->first_point;
+    sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count,
+                                   count < e->surface->fine.vertex_count);
+    sdv_see_from(&out, sdv_work_of(e, c) + 4 * (size_t)e->surface->work_count);
+    return out;
+}
+
 // Makes the points of the result that belong to a share of the cage's faces.
 static void sdv_face_job(void *context, int job)
 {
@@ -6885,13 +6758,8 @@ static void sdv_face_job(void *context, int job)
         return;
     }
     for (int c = 0; c < e->channels; c += 4) {
-        int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        int count = e->end_point - e->first_point;
-        sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count,
-                                       count < surface->fine.vertex_count);
-        const float *work = sdv_work_of(e, c);
-        sdv_see_from(&out, work + 4 * (size_t)surface->work_count);
-        sdv_make_faces(surface, work, face, end, &out);
+        sdv_window out = sdv_result_window(e, c);
+        sdv_make_faces(surface, sdv_work_of(e, c), face, end, &out);
     }
 }
 
@@ -6899,13 +6767,9 @@ static void sdv_face_job(void *context, int job)
 static void sdv_copy_work(const sdv_evaluation *e)
 {
     for (int c = 0; c < e->channels; c += 4) {
-        int lanes = e->channels - c < 4 ? e->channels - c : 4;
-        int count = e->end_point - e->first_point;
-        const float *work = sdv_work_of(e, c);
-        sdv_window out = sdv_window_of(e->out + c, e->out_stride, lanes, e->first_point, count, 0);
-        sdv_see_from(&out, work + 4 * (size_t)e->surface->work_count);
+        sdv_window out = sdv_result_window(e, c);
         for (int v = e->first_point; v < e->end_point; v++)
-            sdv_put_point(&out, v, sdv_load(work + 4 * (size_t)v));
+            sdv_put_point(&out, v, sdv_load(sdv_work_of(e, c) + 4 * (size_t)v));
     }
 }
 
@@ -7821,7 +7685,6 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
     sdv_level level = *cage, next = level;
     sdv_limit_writer limit;
     sdv_split split;
-    sdv_level_fade(&level);
     for (int i = 0; i < surface->levels && !context->result; i++, level = next) {
         double points = level.first_point + 2.0 * level.vertex_count + level.face_count;
         memset(level.rough, 1, (size_t)level.face_count);      // so that all of it is split
@@ -7832,10 +7695,9 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
     }
     if (context->result) return;
     surface->work_count = level.first_point + level.vertex_count;
-    sdv_begin_limit(writer, &surface->rules, &level, NULL, 1, &limit);
+    sdv_begin_limit(writer, &surface->rules, &level, NULL, &limit);
     sdv_plain_result(surface, cage, &limit);
     sdv_end_batches(writer, &surface->limit_rows);
-    sdv_array_free(&limit.masks);
 }
 
 #ifndef SUBDIV_NO_EXACT
@@ -9567,7 +9429,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
     maker.surface = surface;
     if (!context->result) {
         memset(level.core, 1, (size_t)level.face_count);
-        sdv_level_fade(&level);
         surface->work_count = level.vertex_count;
     }
     for (int i = 0; level.face_count && !context->result; i++) {
@@ -15404,7 +15265,6 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
     if (!context.result)
         sdv_set_vertex_rule(&context, &x.arena, cage, &x.cage.level, 0, &x.rules);
     if (!context.result) sdv_find_point(&x, point);
-    if (!context.result) sdv_level_fade(&x.cage.level);
     if (!context.result) sdv_find_mask(&x);
     if (!context.result) sdv_find_groups(&x);
     if (!context.result) sdv_explain_point(&x, point);
