@@ -88,6 +88,7 @@
    sharpness       for how many levels an edge or vertex stays sharp; 0 smooth, >= 10 forever
    crease          a sharp edge                       corner     a sharp vertex
    dart            a vertex where one crease ends     semi-sharp 0 < sharpness < 10
+   sector          the faces around a vertex from one infinitely sharp edge to the next
    limit           the smooth surface that refinement tends to
 
    THE ORDER OF THE RESULT, a promise
