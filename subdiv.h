@@ -172,9 +172,9 @@
 // Define these to leave whole sections out, declarations included. The percentages say how much of
 // the full compile time and code size each saves (gcc -O2):
 //
-//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (36 %)
-//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
-//     SUBDIV_NO_OBJ                  >>obj                                          (10 %)
+//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (32 %)
+//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain            (8 %)
+//     SUBDIV_NO_OBJ                  >>obj                                          (11 %)
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
 
@@ -7907,17 +7907,9 @@ static int sdv_is_lined(const sdv_level *level, const sdv_rules *rules, int v)
 // end where a crease that stays sharp runs across. Anything else is rough.
 static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, int v, int dependent)
 {
-    int sharp = 0, stay = 0;
+    sdv_sharp_edges edges = sdv_count_sharp_edges(level, v);
+    int sharp = edges.now, stay = edges.forever;
     float s = level->vertex_sharpness[v];
-    for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++) {
-            float t = level->sharpness[two[i]];
-            if (t <= 0 || !sdv_is_edge_at(level, two[i], i == 0)) continue;
-            sharp++;
-            stay += t >= SUBDIV_INFINITE;
-        }
-    }
     if (stay > 2 || s >= SUBDIV_INFINITE) return SDV_PINNED;
     int others = level->origin && level->origin[v] >= 0 &&      // across a seam
                  level->sums[2 * (size_t)level->origin[v] + 1] > (float)(sharp - stay);
