@@ -251,8 +251,8 @@ typedef enum subdiv_uv_rule {
 
 // How smooth vertices move: rules to play with, as lectures do. n is the valence, v the vertex, R
 // the mean of the midpoints of its edges (Loop: of its neighbours), Q the mean of the face points
-// around it. All follow but UVs, which stay standard; SUBDIV_EXACT and tessellation refuse a rule,
-// such as DOO_SABIN, that is not the standard one at regular vertices.
+// around it. All results follow the rule but UVs, which keep the standard one. SUBDIV_EXACT and
+// tessellation refuse a rule that is not the standard one at regular vertices, such as DOO_SABIN.
 typedef enum subdiv_vertex_rule {
     SUBDIV_VERTEX_STANDARD,           // Q/n + 2 R/n + (n-3)/n v [CC78]; Loop: [Loop87]
     SUBDIV_VERTEX_AVERAGED,           // Catmull-Clark: Q/4 + R/2 + v/4, the older rule [CC78]
@@ -262,10 +262,10 @@ typedef enum subdiv_vertex_rule {
 } subdiv_vertex_rule;
 
 // A rule of your own: sets the weights of v, R and Q (Loop: of v and R), which are 0 to begin with,
-// for a valence from 1 on. They are finite and sum to 1, or a call fails and names the valence. The
-// library calls it while it prepares 1 level or more, or SUBDIV_EXACT, or explains, and not later:
-// for the regular valence, those of all vertices that may be smooth on some level and, under
-// Catmull-Clark, the sizes of faces.
+// for a valence from 1 on. Weights that are not finite, or do not sum to 1, are an error that names
+// the valence. The library asks while it prepares 1 level or more, or SUBDIV_EXACT, or explains,
+// and not later. It asks for the regular valence, for those of all vertices that may be smooth on
+// some level and, under Catmull-Clark, for the sizes of faces.
 typedef void (*subdiv_vertex_weights)(void *user, int valence, double weights[3]);
 
 // A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
