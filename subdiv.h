@@ -446,8 +446,8 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // meshes, and every evaluation of it gives limit values, of any channels. UVs of such a mesh stay
 // those of the refined mesh. Do not use it as a cage: its points belong to an endlessly fine mesh.
 //
-// It is the surface that >>exact and >>tessellation give, with the same points and normals on every
-// level: sharpness that is left on the last level fades on the way to the limit.
+// Every level, >>exact and >>tessellation give the same points and normals, as there is one limit
+// surface: sharpness that is left on the last level fades on the way to it.
 //
 // A point has one normal and two tangents. On a crease they belong to the side of the first face
 // there that is no hole. A corner with more than 2 faces (Loop: 3) between its creases, or without
@@ -2599,7 +2599,7 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 // At a regular vertex k = 2, so t1 = 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face
 // fills a straight angle: t1 = e_0 + e_1 - 2v, the way the curve bends.
 //
-// The same goes for a corner between two creases, with the mask of its vertex point. Where the wave
+// A corner between two creases has such tangents, by the mask of its vertex point. Where the wave
 // shrinks faster than the creases, their plane is left: t1 = e_0 + e_k - 2v. Where it shrinks as
 // fast, L = c, it turns to that plane by the same bit on each level; then t1 is what is there after
 // three thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent
@@ -4338,8 +4338,8 @@ static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const dou
     }
 }
 
-// Does so with the rows of a limit: the point's and those of two tangents, which may have any
-// length. room [points].
+// Multiplies the rows of a limit by the matrix of a step: the point's and those of two tangents,
+// which may have any length. room [points].
 static void sdv_rows_back(const sdv_rules *rules, const sdv_sector *s, double *rows, double *room)
 {
     int points = sdv_sector_points(rules, s);
@@ -6859,7 +6859,7 @@ static void *sdv_carve_copy(char *base, size_t *size, const void *from, size_t c
     return array;
 }
 
-// The same for an array of so many numbers an item.
+// Carves and copies an array of so many numbers an item.
 #define SDV_CARVE(type, from, count, numbers) \
     ((type *)sdv_carve_copy(base, &size, from, count, numbers * sizeof(type)))
 

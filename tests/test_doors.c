@@ -21,20 +21,6 @@ static const double normal_tolerance = 0.04;      // degrees; hardly any is turn
 
 static char context[96];
 
-static double extent(const subdiv_mesh *mesh)
-{
-    double largest = 0;
-    for (int k = 0; k < 3; k++) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (int v = 0; v < mesh->vertex_count; v++) {
-            low = fmin(low, (double)mesh->positions[3 * v + k]);
-            high = fmax(high, (double)mesh->positions[3 * v + k]);
-        }
-        largest = fmax(largest, high - low);
-    }
-    return largest;
-}
-
 static double distance(const float *a, const float *b)
 {
     double sum = 0;
@@ -70,7 +56,7 @@ static int open_doors(doors *d, const subdiv_mesh *cage, int levels)
     memset(d, 0, sizeof *d);
     d->cage = cage;
     d->levels = levels;
-    d->size = extent(cage);
+    d->size = mesh_extent(cage);
     d->tolerance = point_tolerance + 1.2e-7 * fabs((double)cage->positions[0]) / d->size;
     opt.limit = 1;
     how.rate = 1 << levels;

@@ -63,13 +63,6 @@ static double distance(const float *a, const float *b)
     return length(d);
 }
 
-static double extent(const subdiv_mesh *m)
-{
-    double size = 0;
-    for (int i = 0; i < 3 * m->vertex_count; i++) size = fmax(size, fabs((double)m->positions[i]));
-    return size;
-}
-
 // -------------------------------------------------------------------------------- regular faces
 
 // The cubic B-spline at t of p[0..3] and its derivatives: the basis functions of the textbooks.
@@ -159,7 +152,7 @@ static void compare_with_limit(const subdiv_mesh *m, int level, subdiv_options o
     ready r = get_ready(m, &opt);
     order grid, *o = &grid;
     CHECK(order_make(o, m, level, NULL));
-    double size = extent(m);
+    double size = mesh_reach(m);
     for (int f = 0; f < m->face_count; f++) {
         if (r.surface->hole[f] == DROPPED) continue;
         order_place p = { f, 0, 0, 0, 0 };
@@ -244,8 +237,8 @@ static void check_derivatives(random_cage *c, int level)
                 // A row through the middle of cells; under Loop along edges inside the grid.
                 if (loop ? row == 0 || row + column + 1 >= n || column == 0 : !middle) continue;
                 if (loop) v = row * h;
-                check_cell(&r, f, quad, u, v, h, 1, 4 * extent(m));
-                check_cell(&r, f, quad, v, u, h, 0, 4 * extent(m));
+                check_cell(&r, f, quad, u, v, h, 1, 4 * mesh_reach(m));
+                check_cell(&r, f, quad, v, u, h, 0, 4 * mesh_reach(m));
             }
         }
     order_free(o);
@@ -405,7 +398,7 @@ static void check_continuous(random_cage *c, const subdiv_options *opt)
     CHECK(order_make(o, m, 3, NULL));
     sample *seen = (sample *)calloc((size_t)o->point_count, sizeof *seen);
     unsigned char *known = (unsigned char *)calloc((size_t)o->point_count, 1);
-    double size = extent(m);
+    double size = mesh_reach(m);
     for (int f = 0; f < m->face_count; f++) {
         if (r.surface->hole[f] == DROPPED) continue;
         order_place p = { f, 0, 0, 0, 0 };

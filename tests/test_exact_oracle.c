@@ -22,20 +22,6 @@ static const double derivative_tolerance = 1e-4;  // of the larger of the two
 
 static char context[96];
 
-static double extent(const subdiv_mesh *mesh)
-{
-    double largest = 0;
-    for (int k = 0; k < 3; k++) {
-        double low = HUGE_VAL, high = -HUGE_VAL;
-        for (int v = 0; v < mesh->vertex_count; v++) {
-            low = fmin(low, (double)mesh->positions[3 * v + k]);
-            high = fmax(high, (double)mesh->positions[3 * v + k]);
-        }
-        largest = fmax(largest, high - low);
-    }
-    return largest;
-}
-
 typedef struct vec { double x[3]; } vec;
 
 static vec of_floats(const float *p)
@@ -85,7 +71,7 @@ static int open_sampler(sampler *s, const subdiv_mesh *cage)
 {
     memset(s, 0, sizeof *s);
     s->cage = cage;
-    s->extent = extent(cage);
+    s->extent = mesh_extent(cage);
     CHECK_EQUAL(subdiv_prepare(&s->surface, cage, SUBDIV_EXACT, NULL), SUBDIV_OK);
     if (!s->surface) return 0;
     s->scratch = malloc(subdiv_scratch_size(s->surface, 3));
@@ -169,7 +155,7 @@ static void check_dyadic_points(random_cage *random, int levels)
         CHECK(oracle_evaluate(o, f, quad, (double)column / n, (double)row / n, ORACLE_DEPTH, out));
         for (int k = 0; k < 3; k++)
             CHECK_NEAR(fine.positions[3 * point + k], out[0][k],
-                       position_tolerance * extent(cage));
+                       position_tolerance * mesh_extent(cage));
     }
     oracle_close(o);
     order_free(&grid);

@@ -10,6 +10,7 @@
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
 
+#include "lib/cages.h"
 #include "lib/order.h"
 #include "lib/test.h"
 
@@ -24,20 +25,6 @@ static int read_count(FILE *file, const char *name)
     int count = -1;
     if (fscanf(file, "%15s %d", word, &count) != 2 || strcmp(word, name) != 0) return -1;
     return count;
-}
-
-static double largest_extent(const subdiv_mesh *mesh)
-{
-    double largest = 0;
-    for (int k = 0; k < 3; k++) {
-        double low = (double)mesh->positions[k], high = low;
-        for (int v = 1; v < mesh->vertex_count; v++) {
-            low = fmin(low, (double)mesh->positions[3 * v + k]);
-            high = fmax(high, (double)mesh->positions[3 * v + k]);
-        }
-        largest = fmax(largest, high - low);
-    }
-    return largest;
 }
 
 static void check_positions(FILE *file, const char *name, const subdiv_mesh *fine, double extent)
@@ -160,14 +147,14 @@ static void check_cage(const char *directory, const char *name)
     snprintf(path, sizeof path, "%s/%s.txt", directory, name);
     FILE *file = fopen(path, "r");
     CHECK(file != NULL);
-    if (!test_bad) check_positions(file, "vertices", &fine, largest_extent(&cage));
+    if (!test_bad) check_positions(file, "vertices", &fine, mesh_extent(&cage));
     if (!test_bad) check_creases(file, &fine);
     if (!test_bad) check_corners(file, &fine);
     if (!test_bad) check_faces(file, &fine, &cage);
     subdiv_mesh_free(&fine);
     opt.limit = 1;
     CHECK_EQUAL(subdiv_refine(&fine, &cage, LEVELS, &opt), SUBDIV_OK);
-    if (!test_bad) check_positions(file, "limit", &fine, largest_extent(&cage));
+    if (!test_bad) check_positions(file, "limit", &fine, mesh_extent(&cage));
     if (file) fclose(file);
     subdiv_mesh_free(&fine);
     subdiv_mesh_free(&cage);

@@ -119,13 +119,6 @@ static void test_random_cages(void)
 
 // ------------------------------------------------------------------------------ beside refinement
 
-static double extent(const subdiv_mesh *m)
-{
-    double size = 0;
-    for (int i = 0; i < 3 * m->vertex_count; i++) size = fmax(size, fabs((double)m->positions[i]));
-    return size;
-}
-
 static double furthest(const float *a, const float *b, int count)
 {
     double most = 0;
@@ -159,7 +152,7 @@ static void check_power(const subdiv_mesh *cage, int levels, int keep_holes, int
             CHECK(same_bytes(fine.face_uvs, refined.face_uvs, count, sizeof(int)));
     }
     if (same) CHECK_NEAR(furthest(fine.positions, refined.positions, 3 * fine.vertex_count), 0,
-                         1e-6 * extent(cage));
+                         1e-6 * mesh_reach(cage));
     if (same && normals)
         CHECK_NEAR(furthest(fine.normals, refined.normals, 3 * fine.vertex_count), 0, 1e-4);
     subdiv_mesh_free(&fine);

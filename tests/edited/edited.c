@@ -23,35 +23,7 @@ static int edited(const char *name)
 #include "lib/random_cage.h"
 #include "lib/same.h"
 #include "lib/test.h"
-
-static double size_of(const subdiv_mesh *m)
-{
-    double size = 0;
-    for (int i = 0; i < 3 * m->vertex_count; i++) size = fmax(size, fabs((double)m->positions[i]));
-    return size;
-}
-
-// ------------------------------------------------------------------------- three times one level
-
-static void check_three_times_one(const subdiv_mesh *cage)
-{
-    subdiv_mesh whole = {0}, half = {0}, next = {0};
-    subdiv_options opt = {0};
-    opt.triangulate = opt.keep_holes = 1;
-    CHECK_EQUAL(subdiv_refine(&whole, cage, 3, &opt), SUBDIV_OK);
-    CHECK_EQUAL(subdiv_refine(&half, cage, 1, &opt), SUBDIV_OK);
-    for (int i = 0; i < 2; i++) {
-        CHECK_EQUAL(subdiv_refine(&next, &half, 1, &opt), SUBDIV_OK);
-        subdiv_mesh_free(&half);
-        half = next;
-    }
-    // Where faces have more than one edge in common, the first level takes them apart.
-    if (whole.vertex_count == half.vertex_count)
-        CHECK(points_apart(whole.positions, half.positions, whole.vertex_count, 3) <=
-              2e-6 * size_of(cage));
-    subdiv_mesh_free(&whole);
-    subdiv_mesh_free(&half);
-}
+#include "lib/three.h"
 
 // ------------------------------------------------------------------------------------ the limit
 
@@ -73,7 +45,7 @@ static void check_limit(const subdiv_mesh *cage)
     CHECK_EQUAL(subdiv_refine(&limit, cage, 1, &opt), SUBDIV_OK);
     for (int i = 0; i < 3 * cage->vertex_count; i++)
         CHECK_NEAR(far((double)fine[0].positions[i], (double)fine[1].positions[i],
-                       (double)fine[2].positions[i]), limit.positions[i], 1e-4 * size_of(cage));
+                       (double)fine[2].positions[i]), limit.positions[i], 1e-4 * mesh_reach(cage));
     for (int i = 0; i < 3; i++) subdiv_mesh_free(&fine[i]);
     subdiv_mesh_free(&limit);
 }
@@ -103,7 +75,7 @@ static void check_exact(const subdiv_mesh *cage)
         out.points = p;
         CHECK_EQUAL(subdiv_evaluate_at(surface, 3, scratch, 1, &corner, &out, NULL), SUBDIV_OK);
         for (int k = 0; k < 3; k++)
-            CHECK_NEAR(p[k], limit.positions[3 * cage->face_vertices[h] + k], 1e-5 * size_of(cage));
+            CHECK_NEAR(p[k], limit.positions[3 * cage->face_vertices[h] + k], 1e-5 * mesh_reach(cage));
         h += cage->face_size ? cage->face_size : cage->face_sizes[f];
     }
     free(scratch);
@@ -155,7 +127,7 @@ static void check_explain(const subdiv_mesh *cage)
         CHECK(!*never || !strstr(text, never));
         CHECK_NEAR(weights, 1, 1e-5);
         for (int k = 0; k < 3; k++)
-            CHECK_NEAR(sum[k], fine.positions[3 * i + k], 1e-5 * size_of(cage));
+            CHECK_NEAR(sum[k], fine.positions[3 * i + k], 1e-5 * mesh_reach(cage));
     }
     subdiv_mesh_free(&fine);
 }

@@ -31,6 +31,29 @@ typedef struct test_cage {
 
 // ------------------------------------------------------------------------------ meshes at large
 
+// The length of the longest side of a box around a mesh.
+static inline double mesh_extent(const subdiv_mesh *m)
+{
+    double largest = 0;
+    for (int k = 0; k < 3; k++) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int v = 0; v < m->vertex_count; v++) {
+            low = fmin(low, (double)m->positions[3 * v + k]);
+            high = fmax(high, (double)m->positions[3 * v + k]);
+        }
+        largest = fmax(largest, high - low);
+    }
+    return largest;
+}
+
+// The largest coordinate of a mesh in size.
+static inline double mesh_reach(const subdiv_mesh *m)
+{
+    double size = 0;
+    for (int i = 0; i < 3 * m->vertex_count; i++) size = fmax(size, fabs((double)m->positions[i]));
+    return size;
+}
+
 static inline int face_size(const subdiv_mesh *m, int f)
 {
     return m->face_size ? m->face_size : m->face_sizes[f];
