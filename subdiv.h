@@ -292,7 +292,10 @@ typedef struct subdiv_mesh {
     float *uvs;                       // [2 * uv_count]       u v
     int   *face_uvs;                  // [sum of sizes]       the UV of each face-vertex; -1: none
     float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
-    float *normals;                   // [3 * vertex_count]   of length 1 (or 0), or NULL
+    int    normal_count;              // counts only with face_normals
+    float *normals;                   // [3 * normal_count]   of length 1 (or 0), or NULL
+    int   *face_normals;              // [sum of sizes]       the normal of each face-vertex; NULL:
+                                      //                      vertex i has normal i
     int    statement_count;           // OBJ's g, o, s, usemtl and mtllib, as they stand in the file
     int   *statement_faces;           // [statement_count]    the face that each precedes, rising;
                                       //                      face_count: after all faces
@@ -333,6 +336,7 @@ typedef struct subdiv_options {
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
     int           linear;             // split only: points stay on the cage's faces and edges
     int           limit;              // points on the limit surface, with normals (see >>limit)
+    int           one_normal;         // limit, tessellation: one normal a point, also on creases
     int           no_tags;            // OBJ: write no tags for creases, corners, holes and rules
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
@@ -450,12 +454,16 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // surface: sharpness that is left on the last level fades on the way to it.
 //
 // A point has one normal and two tangents. On a crease they belong to the side of the first face
-// there that is no hole. A corner with more than 2 faces (Loop: 3) between its creases, or without
-// creases, is a spike: it has no tangent plane, and its normal is a mean of those around. The
-// normal is 0 where there is none: without faces, between two triangles back to back, where a
-// tangent is 0 and where both are parallel, to within rounding; and where the vertex rule makes a
-// spike, as "five-eighths" does at valence 3. Error ARGUMENT: the weights of a valence lead to no
-// limit at all (vertex_weights).
+// there that is no hole. Each other side of an infinitely sharp crease has a normal of its own, for
+// shading that shows the edge, unless opt->one_normal says no. Where there are such sides, fine has
+// face_normals: normals 0 to vertex_count - 1 are those of the points, the others follow. (On a
+// linear surface each edge of the cage is a crease.)
+//
+// A corner with more than 2 faces (Loop: 3) between its creases, or without creases, is a spike: it
+// has no tangent plane, and its normal is a mean of those around. The normal is 0 where there is
+// none: without faces, between two triangles back to back, where a tangent is 0 and where both are
+// parallel, to within rounding; and where the vertex rule makes a spike, as "five-eighths" does at
+// valence 3. Error ARGUMENT: the weights of a valence lead to no limit at all (vertex_weights).
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -463,8 +471,18 @@ typedef struct subdiv_limit {
     float *normals;                   // [3]  of length 1, or 0
     float *tangents;                  // [6]  two, of any direction and length in the tangent plane;
                                       //      the first x the second is along the normal
-    int    stride;                    // floats from point to point in all three; 0: they are dense
+    int    stride;                    // floats from point to point in all four; 0: they are dense
+    float *sides;                     // [3]  normals from number vertex_count on: of other sides of
+                                      //      creases, whatever the range of points
 } subdiv_limit;
+
+// Returns the number of normals: one for each point, and those of the other sides of creases. 0:
+// the surface was prepared without opt->limit.
+SUBDIV_DEF int subdiv_surface_normal_count(const subdiv_surface *surface);
+
+// Writes the normal of each face-vertex of the result: face_normals [sum of face sizes].
+SUBDIV_DEF subdiv_result subdiv_surface_face_normals(const subdiv_surface *surface,
+                                                     int *face_normals, const subdiv_options *opt);
 
 // Evaluate limit positions, normals and tangents from positions in [in_stride * cage vertex_count]:
 // as subdiv_evaluate does and, in pieces, as subdiv_evaluate_begin and _faces do, with 3 channels.
@@ -787,7 +805,7 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
                                                   const subdiv_options *opt);
 
 // Writes v (with colours), vt and vn, then f with the statements between, then tags unless there is
-// nothing but defaults. Faces without UVs have no vt; normals are numbered as the vertices. Numbers
+// nothing but defaults. Faces without UVs have no vt. Numbers
 // have the fewest digits that read back as the same float, in any locale. Error IO.
 //
 // To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
@@ -1511,6 +1529,9 @@ static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
     if (mesh->uv_count)
         sdv_check_indices(context, mesh, mesh->face_uvs, -1, mesh->uv_count,
                           "face %d: UV %d does not exist (the mesh has %d)");
+    if (mesh->normals && mesh->face_normals)
+        sdv_check_indices(context, mesh, mesh->face_normals, 0, mesh->normal_count,
+                          "face %d: normal %d does not exist (the mesh has %d)");
 }
 
 // Checks a list of creases, corners or, without sharpness, of holes. A sharpness may be infinite.
@@ -1560,6 +1581,12 @@ static void sdv_check_statements(sdv_context *context, const subdiv_mesh *mesh)
                      "statement %d is not a line with g, o, s, usemtl or mtllib", i);
         last = face;
     }
+}
+
+// Returns how many normals a mesh has.
+static int sdv_normal_count(const subdiv_mesh *mesh)
+{
+    return !mesh->normals ? 0 : mesh->face_normals ? mesh->normal_count : mesh->vertex_count;
 }
 
 // Checks count vectors of so many numbers each: 3 for a vertex, 2 for a UV.
@@ -1613,7 +1640,7 @@ static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
     sdv_check_positions(context, mesh->positions, mesh->vertex_count);
     sdv_check_finite(context, "UV", 2, mesh->uvs, mesh->uv_count);
     sdv_check_finite(context, "color", 3, mesh->colors, mesh->colors ? mesh->vertex_count : 0);
-    sdv_check_finite(context, "normal", 3, mesh->normals, mesh->normals ? mesh->vertex_count : 0);
+    sdv_check_finite(context, "normal", 3, mesh->normals, sdv_normal_count(mesh));
 }
 
 // --------------------------------------------------------------------------------- >>level
@@ -2994,14 +3021,57 @@ static int *sdv_level_1_faces(const sdv_order *order, int f, int *out)
     return out;
 }
 
-// Writes the fine faces of cage face f. Returns the place behind them.
-static int *sdv_fine_faces(const sdv_order *order, int f, int *out)
+// An infinitely sharp crease has a normal on each side. That of its first side is the normal of the
+// point. Those of the others stand behind the points' normals: first those at vertices of the cage,
+// then those inside its edges, as points inside edges stand.
+typedef struct sdv_sides {
+    int  vertices, edges;               // how many other sides vertices and edges have
+    int *vertex, *edge;                 // [face-vertices] the number of such a side that its face
+                                        //      is on, at its vertex and at its edge; or -1
+    int *vertex_home, *edge_home;       // [vertices, edges] the face-vertex that makes each
+} sdv_sides;
+
+// Returns how many normals there are but the points', with n - 1 points inside an edge.
+static int64_t sdv_count_sides(const sdv_sides *sides, int n)
+{
+    return sides->vertices + (int64_t)sides->edges * (n - 1);
+}
+
+// Returns where the normals of the points inside the edge of h stand, as seen from its face, behind
+// those of the points themselves.
+static int sdv_side_shift(const sdv_order *order, const sdv_sides *sides, int h)
+{
+    int along = order->n - 1, edge = order->cage.face_edges[h], side = sides->edge[h];
+    if (side < 0) return 0;
+    return order->count + sides->vertices + side * along - order->first_edge_point - edge * along;
+}
+
+// Replaces the points of the grid at face-vertex h by their normals as seen from its face.
+static void sdv_see_sides(const sdv_order *order, const sdv_sides *sides, int h, sdv_grid *grid)
+{
+    const sdv_level *cage = &order->cage;
+    int ngon = sdv_is_ngon(order, sdv_face_of(cage, h)), corners = ngon ? 1 : order->loop ? 3 : 4;
+    for (int i = 0; i < corners; i++) {
+        int side = order->loop && i == 2 ? 3 : i;
+        grid->side[side].first += sdv_side_shift(order, sides, h + i);
+        if (sides->vertex[h + i] >= 0) grid->corner[i] = order->count + sides->vertex[h + i];
+    }
+    if (!ngon) return;
+    int before = sdv_side_shift(order, sides, sdv_previous(cage, h));
+    grid->side[3].first += before;
+    grid->corner[1] += sdv_side_shift(order, sides, h);         // the middles of two edges
+    grid->corner[3] += before;
+}
+
+// Writes the fine faces of cage face f: points or, with sides, normals. Returns the place behind.
+static int *sdv_fine_faces(const sdv_order *order, const sdv_sides *sides, int f, int *out)
 {
     int start = sdv_face_start(&order->cage, f), grids = sdv_grids_of(order, f);
-    if (order->n == 2) return sdv_level_1_faces(order, f, out);
+    if (order->n == 2 && !sides) return sdv_level_1_faces(order, f, out);
     for (int h = start; h < start + grids; h++) {
         sdv_grid grid;
         sdv_grid_at(order, h, &grid);
+        if (sides) sdv_see_sides(order, sides, h, &grid);
         out = sdv_grid_faces(&grid, 0, grid.rows, 0, grid.columns, out);
     }
     return out;
@@ -4098,6 +4168,8 @@ struct subdiv_surface {
     int      *quads;                    // see sdv_order
     sdv_batches limit_rows;             // from the last level to the limit; SUBDIV_PLAIN: to any
                                         // result
+    sdv_sides   sides;                  // of a limit and of SUBDIV_EXACT: see sdv_sides; and the
+    sdv_batches side_rows;              // rows of a limit's. All 0: there are none
     subdiv_surface *at_level_1;         // makes the limit of level 0; else NULL
     struct sdv_exact *exact;            // of SUBDIV_EXACT, see >>exact-surface; else NULL
     const struct sdv_exact_calls *exact_calls;
@@ -4409,7 +4481,7 @@ typedef struct sdv_limit_writer {       // writes limit rows
     double     *rows, *room;            // of a sector: [3][points], [points]
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
-    int        *seen;                   // see sdv_find_rays
+    int        *seen, marks;            // see sdv_find_rays
 } sdv_limit_writer;
 
 // Returns the open batch for rows of a kind; -1: out of memory. It has the weights [3][points] for
@@ -4445,13 +4517,16 @@ static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int ta
     if (number >= 0) sdv_copy_row(limit->writer, number, &open[number].shape, target);
 }
 
-// Finds the sector, of a vertex of this rule, that has the face of h.
-static void sdv_find_sector(const sdv_level *level, int h, sdv_rule rule, sdv_sector *s)
+// Finds the sector that has the face of h. Returns the rule of its vertex when all has faded.
+static sdv_rule sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
 {
     int v = level->face_vertices[h], first = h, at = -1, q;
+    float corner = level->vertex_sharpness[v];
+    sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
+                                    sdv_count_sharp_edges(level, v).forever);
     s->first = h;
     s->faces = s->edges = level->vertex_faces[v];
-    if (!level->creased[v] && level->vertex_sharpness[v] < SUBDIV_INFINITE) return;
+    if (!level->creased[v] && corner < SUBDIV_INFINITE) return rule;
     while (level->sharpness[first] < SUBDIV_INFINITE && at != h) {     // clockwise
         at = sdv_next(level, level->across[first]);
         if (at != h) first = at;
@@ -4468,6 +4543,7 @@ static void sdv_find_sector(const sdv_level *level, int h, sdv_rule rule, sdv_se
     }
     s->first = first;
     s->edges = s->faces + open;
+    return rule;
 }
 
 // Writes the points of a sector, without the vertex.
@@ -4505,16 +4581,16 @@ static int sdv_last_of_edge(const sdv_level *level, int h)
 }
 
 // Finds the rays of a sector and those of other sharp edges at the vertex. limit->seen marks the
-// edges of the sector, each at the last face-vertex of its ring, with the number of the vertex.
+// edges of the sector, each at the last face-vertex of its ring, with a new mark.
 static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
-    int v = level->face_vertices[s->first];
+    int v = level->face_vertices[s->first], mark = ++limit->marks;
     s->corner = level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
         int before = sdv_previous(level, at), end = i == s->faces, h = end ? before : at;
         s->rays[i] = sdv_ray_of(limit, h, end);
-        limit->seen[sdv_last_of_edge(level, h)] = v;
+        limit->seen[sdv_last_of_edge(level, h)] = mark;
         if (i + 1 < s->faces) at = level->across[before];
     }
     s->count = s->edges;
@@ -4522,7 +4598,7 @@ static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
         for (int end = 0; end < 2; end++) {
             int h = end ? sdv_previous(level, k) : k;
             if (!sdv_is_edge_at(level, h, !end)) continue;
-            if (limit->seen[sdv_last_of_edge(level, h)] == v) continue;
+            if (limit->seen[sdv_last_of_edge(level, h)] == mark) continue;
             sdv_ray ray = sdv_ray_of(limit, h, end);
             if (ray.now > 0) s->rays[s->count++] = ray;
         }
@@ -4615,10 +4691,7 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
         return;
     }
     sdv_sector *s = &limit->states[0];
-    float corner = level->vertex_sharpness[v];
-    sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
-                                    sdv_count_sharp_edges(level, v).forever);
-    sdv_find_sector(level, h, rule, s);
+    sdv_rule rule = sdv_find_sector(level, h, s);
     sdv_add_sector(level, s, limit->rules->loop, points + 1);
     if (sdv_vertex_settled(level, v)) {
         int wedge = rule == SDV_CORNER && s->edges > s->faces;
@@ -4647,7 +4720,7 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
     limit->states[0].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
     limit->seen = SDV_NEW(context, scratch, int, level->face_vertex_count);
     for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
-    for (int h = 0; h < level->face_vertex_count && !context->result; h++) limit->seen[h] = -1;
+    for (int h = 0; h < level->face_vertex_count && !context->result; h++) limit->seen[h] = 0;
 }
 
 // ------------------------------------------------------------------------------------ >>fill
@@ -4862,16 +4935,12 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
     else sdv_settled_row(limit, kind, (loop ? 3 : 2) << !sharp, target);
 }
 
-// Add the limit rows of the points inside the edge of h, or inside the spokes of an n-gon, with its
-// centre.
-static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill,
-                           const subdiv_surface *surface, int h)
+// Adds the limit rows of the points inside the edge of h as seen from its face. target: with where
+// they stand, seen from h.
+static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h, sdv_side target)
 {
     const sdv_level *level = fill->level;
-    if (fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE)
-        h = sdv_first_seen(surface, level, level->across, h);
     sdv_edge_line line = sdv_line_at(fill, h);
-    sdv_side target = sdv_edge_side(&fill->to, h, 0);
     sdv_points_on_edge(&fill->from, fill->base, h, fill->line);
     sdv_points_beside(&fill->from, fill->base, h, 0, fill->left);
     if (line.sharpness <= 0 || line.now)
@@ -4881,6 +4950,17 @@ static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill,
                            target.first + target.step * t);
 }
 
+// Adds the limit rows of the points inside the edge of h, on the side that is seen first.
+static void sdv_limit_edge(sdv_limit_writer *limit, sdv_filler *fill, const subdiv_surface *surface,
+                           int h)
+{
+    const sdv_level *level = fill->level;
+    if (fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE)
+        h = sdv_first_seen(surface, level, level->across, h);
+    sdv_limit_line(limit, fill, h, sdv_edge_side(&fill->to, h, 0));
+}
+
+// Adds the limit rows of the points inside the spokes of an n-gon, and of its centre.
 static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
 {
     const sdv_level *cage = &fill->from.cage;
@@ -4940,7 +5020,7 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
             else if (cage->vertex_first[v] == h)
                 sdv_vertex_row(cage, rules, v, fill->target + v, writer);
             if (cage->edge_first[e] != h) continue;
-            if (limit) sdv_limit_line(limit, fill, surface, h);
+            if (limit) sdv_limit_edge(limit, fill, surface, h);
             else if (level > 0) sdv_line_rows(fill, h);
             else sdv_edge_row(cage, rules, h, fill->target + fill->to.first_edge_point + e, writer);
         }
@@ -4949,6 +5029,24 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
         if (fill->to.frame) sdv_frame_rows(fill, f);
     }
     sdv_end_batches(writer, limit ? &surface->limit_rows : &surface->refine[level]);
+}
+
+// Adds the limit rows of all sides of creases but the first, each at the face that makes it.
+static void sdv_fill_sides(sdv_filler *fill, subdiv_surface *surface, sdv_limit_writer *limit)
+{
+    const sdv_sides *sides = &surface->sides;
+    const sdv_level *cage = fill->level;
+    int count = sides->vertex ? cage->face_vertex_count : 0, points = surface->order.count;
+    int along = surface->order.n - 1;
+    for (int h = 0; h < count && !fill->writer.context->result; h++) {
+        int v = sides->vertex[h], e = sides->edge[h], first = points + sides->vertices + e * along;
+        int back = cage->face_vertices[h] > cage->face_vertices[sdv_next(cage, h)];
+        sdv_batch_face(&fill->writer, sdv_face_of(cage, h));
+        if (v >= 0 && sides->vertex_home[v] == h) sdv_limit_row(limit, h, points + v);
+        if (e >= 0 && sides->edge_home[e] == h)
+            sdv_limit_line(limit, fill, h, sdv_seen_side(first, along + 1, back));
+    }
+    sdv_end_batches(&fill->writer, &surface->side_rows);
 }
 
 // Finds the first work point of each level. The last level has work points for a limit alone.
@@ -5022,6 +5120,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
         sdv_limit_writer of_limit;
         sdv_begin_limit(&fill.writer, &surface->rules, cage, &fill, &of_limit);
         sdv_fill_level(&fill, surface, levels, &of_limit);
+        sdv_fill_sides(&fill, surface, &of_limit);
     }
     sdv_writer_free(&fill.writer);
 }
@@ -5055,6 +5154,82 @@ static void sdv_count_fine_faces(sdv_context *context, subdiv_surface *surface, 
     first_face[surface->face_count] = count;
     fine->face_count = count;
     surface->first_face = first_face;
+}
+
+// Gives all faces of a sector the number of its side.
+static void sdv_mark_side(const sdv_level *cage, const sdv_sector *s, int number, int *side)
+{
+    for (int i = 0, h = s->first; i < s->faces; i++, h = sdv_around(cage, h)) side[h] = number;
+}
+
+// May the face of h be in the result?
+static int sdv_is_seen(const subdiv_surface *surface, const sdv_level *cage, int h)
+{
+    int hole = surface->hole[sdv_face_of(cage, h)];
+    return !hole || (surface->exact ? hole != SDV_DROPPED : surface->fine.hole_count > 0);
+}
+
+// Finds the sector of the face of h. Each edge of a linear surface is a crease.
+static void sdv_find_side(const subdiv_surface *surface, const sdv_level *cage, int h,
+                          sdv_sector *s)
+{
+    sdv_find_sector(cage, h, s);
+    if (!surface->rules.linear) return;
+    s->first = h;
+    s->faces = 1;
+}
+
+// Numbers the sides of the creases at vertex v, but the first and those without a face in the
+// result.
+static void sdv_number_vertex_sides(const subdiv_surface *surface, const sdv_level *cage, int v,
+                                    sdv_sides *sides)
+{
+    int first = cage->vertex_first[v], *side = sides->vertex;
+    sdv_sector s;
+    if (first < 0) return;
+    sdv_find_side(surface, cage, sdv_first_seen(surface, cage, cage->vertex_next, first), &s);
+    if (s.faces == cage->vertex_faces[v]) return;
+    sdv_mark_side(cage, &s, INT_MAX, side);
+    for (int h = first; h >= 0; h = cage->vertex_next[h]) {
+        if (side[h] >= 0 || !sdv_is_seen(surface, cage, h)) continue;
+        sdv_find_side(surface, cage, h, &s);
+        sdv_mark_side(cage, &s, sides->vertices, side);
+        sides->vertex_home[sides->vertices++] = h;
+    }
+    for (int h = first; h >= 0; h = cage->vertex_next[h]) if (side[h] == INT_MAX) side[h] = -1;
+}
+
+// Finds the sides of infinitely sharp creases: those of a limit, or of SUBDIV_EXACT.
+static void sdv_find_sides(sdv_context *context, subdiv_surface *surface, const sdv_level *cage)
+{
+    sdv_sides *sides = &surface->sides;
+    size_t count = (size_t)cage->face_vertex_count;
+    float least = surface->rules.linear ? 0 : SUBDIV_INFINITE;     // of a crease
+    int any = 0;
+    for (int h = 0; h < cage->face_vertex_count; h++)
+        any |= cage->across[h] != h && cage->sharpness[h] >= least;
+    for (int v = 0; v < cage->vertex_count && !any; v++)
+        any |= cage->vertex_first[v] >= 0 && !sdv_is_fan(cage, v);
+    if (!any) return;
+    sides->vertex = SDV_NEW(context, &surface->arena, int, count);
+    sides->edge = SDV_NEW(context, &surface->arena, int, count);
+    sides->vertex_home = SDV_NEW(context, &surface->arena, int, count);
+    sides->edge_home = SDV_NEW(context, &surface->arena, int, count);
+    if (context->result) return;
+    for (size_t i = 0; i < count; i++) sides->vertex[i] = sides->edge[i] = -1;
+    for (int v = 0; v < cage->vertex_count; v++)
+        sdv_number_vertex_sides(surface, cage, v, sides);
+    for (int h = 0; h < cage->face_vertex_count; h++) {
+        if (cage->sharpness[h] < least || !sdv_is_seen(surface, cage, h)) continue;
+        int e = cage->face_edges[h];
+        if (sdv_first_seen(surface, cage, cage->across, cage->edge_first[e]) == h) continue;
+        sides->edge[h] = sides->edges;
+        sides->edge_home[sides->edges++] = h;
+    }
+    int64_t all = sdv_count_sides(sides, surface->order.n) + surface->order.count;
+    if (all > INT_MAX)
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "the sides of creases have too many normals");
+    surface->fine.normal_count = (int)all;
 }
 
 // Empties the result of a surface for SUBDIV_EXACT, which has no points and no faces.
@@ -5298,7 +5473,7 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
     if (context->result) return;
     surface->fine.uv_count = surface->uv ? surface->uv->fine.vertex_count : 0;
     surface->fine.uvs = surface->fine.normals = NULL;
-    surface->fine.face_uvs = NULL;
+    surface->fine.face_uvs = surface->fine.face_normals = NULL;
     surface->fine.colors = surface->colors;
     sdv_keep_statements(context, surface, cage);
 }
@@ -5373,6 +5548,9 @@ static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
                             surface->rules.limit || surface->exact, &surface->rules);
     sdv_set_order(surface);
     sdv_count_fine_faces(context, surface, opt && opt->keep_holes);
+    surface->fine.normal_count = surface->rules.limit ? surface->order.count : 0;
+    if ((surface->rules.limit || surface->exact) && !request->alone && !(opt && opt->one_normal))
+        sdv_find_sides(context, surface, &built->level);
 }
 
 // Makes a surface for the positions and for the values that go with them, or for values alone.
@@ -5414,8 +5592,13 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
     if (!context.result && !request->alone) sdv_keep_data(&context, made, request->cage);
     if (!context.result && levels == 0 && made->rules.limit) {
         sdv_request first = *request;
+        subdiv_options keep = *request->opt;
+        keep.keep_holes = 1;                    // as level 0 does
+        first.opt = &keep;
         first.levels = 1;
         context.result = sdv_prepare(&made->at_level_1, &first);
+        if (!context.result)
+            made->fine.normal_count = work.vertex_count + made->at_level_1->sides.vertices;
     }
     if (context.result) subdiv_surface_free(made);
     else *surface = made;
@@ -6581,6 +6764,20 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
 }
 
+// Makes the normals of the other sides of creases that belong to cage faces face to end - 1.
+static void sdv_make_side_normals(const subdiv_surface *surface, const float *work, int face,
+                                  int end, const subdiv_limit *limit, int count)
+{
+    sdv_tangents tangents;
+    sdv_window out = sdv_window_of(NULL, 3, 3, surface->fine.vertex_count, count, 1);
+    memset(&tangents, 0, sizeof tangents);
+    tangents.normals = limit->sides;
+    tangents.stride = limit->stride ? (size_t)limit->stride : 3;
+    out.tangents = &tangents;
+    if (surface->side_rows.rows) sdv_make_batches(&surface->side_rows, work, face, end, &out);
+    sdv_flush_tangents(&tangents);
+}
+
 // Makes the limit points that belong to cage faces face to end - 1, with normals and tangents.
 static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
                                  int end, const subdiv_limit *limit, int first, int count)
@@ -6617,6 +6814,7 @@ typedef struct sdv_evaluation {         // what the jobs of an evaluation share
     size_t       out_stride;
     int          first_point, end_point;        // of the result: those that are written
     int          first_face, end_face;          // of the cage: those whose points are made
+    int          sides;                 // normals of the other sides of creases
     int          step;                  // makes level step + 1; -1: the cage's face points
     int          jobs;
 } sdv_evaluation;
@@ -6756,6 +6954,8 @@ static void sdv_face_job(void *context, int job)
     if (e->limit) {
         sdv_make_limit_faces(surface, e->work, face, end, e->limit, e->first_point,
                              e->end_point - e->first_point);
+        if (e->limit->sides && e->sides)
+            sdv_make_side_normals(surface, e->work, face, end, e->limit, e->sides);
         return;
     }
     for (int c = 0; c < e->channels; c += 4) {
@@ -6875,7 +7075,9 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     size_t creases = (size_t)model->crease_count, corners = (size_t)model->corner_count;
     size_t face_vertices = sdv_face_vertex_count(model), uvs = (size_t)model->uv_count, text = 0;
     size_t statements = (size_t)model->statement_count, colors = model->colors ? vertices : 0;
-    size_t normals = extras == SDV_LIMIT || model->normals ? vertices : 0;
+    size_t normals = extras == SDV_LIMIT ? (size_t)model->normal_count
+                                         : (size_t)sdv_normal_count(model);
+    int split = extras == SDV_LIMIT && normals > vertices;
     for (size_t i = 0; i < statements; i++) text += strlen(model->statements[i]) + 1;
     mesh->positions = SDV_CARVE(float, NULL, vertices, 3);
     mesh->face_vertices = SDV_CARVE(int, NULL, face_vertices, 1);
@@ -6890,6 +7092,8 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     mesh->face_uvs = SDV_CARVE(int, model->face_uvs, uvs ? face_vertices : 0, 1);
     mesh->colors = SDV_CARVE(float, extras ? NULL : model->colors, colors, 3);
     mesh->normals = SDV_CARVE(float, extras ? NULL : model->normals, normals, 3);
+    mesh->face_normals = SDV_CARVE(int, model->face_normals,
+                                   split || model->face_normals ? face_vertices : 0, 1);
     mesh->statement_faces = SDV_CARVE(int, model->statement_faces, statements, 1);
     mesh->statements = SDV_CARVE(char *, NULL, statements, 1);
     char *texts = SDV_CARVE(char, NULL, text, 1);
@@ -6923,6 +7127,7 @@ static int sdv_user_face(const subdiv_surface *surface, int f)
 
 typedef struct sdv_faces_out {          // what the jobs that write fine faces share
     const subdiv_surface *surface;
+    const sdv_sides *sides;             // writes normals instead of points; NULL: points
     int *face_vertices, *cage_faces;    // cage_faces: or NULL
     int  jobs;
 } sdv_faces_out;
@@ -6938,24 +7143,27 @@ static void sdv_fine_faces_job(void *context, int job)
         size_t size = (size_t)surface->fine.face_size;
         if (first == last) continue;
         int *vertices = out->face_vertices + (size_t)first * size;
-        if (own >= 0) sdv_fine_faces(&surface->order, own, vertices);
+        if (own >= 0) sdv_fine_faces(&surface->order, out->sides, own, vertices);
         for (size_t i = 0; own < 0 && i < (size_t)(last - first) * size; i++) vertices[i] = -1;
         for (int i = first; i < last && out->cage_faces; i++)
             out->cage_faces[i] = sdv_user_face(surface, f);
     }
 }
 
-static void sdv_make_fine_faces(const subdiv_surface *surface, int *face_vertices, int *cage_faces,
-                                const subdiv_options *opt)
+static void sdv_make_fine_faces(const subdiv_surface *surface, const sdv_sides *sides,
+                                int *face_vertices, int *cage_faces, const subdiv_options *opt)
 {
     const subdiv_mesh *fine = &surface->fine;
-    sdv_faces_out out = { surface, face_vertices, cage_faces, 1 };
+    sdv_faces_out out = { surface, sides, face_vertices, cage_faces, 1 };
     if (surface->levels > 0) {
         out.jobs = sdv_jobs(opt, surface->face_count, 1);
         sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
         return;
     }
-    sdv_copy(face_vertices, fine->face_vertices, sdv_face_vertex_count(fine), sizeof(int));
+    size_t count = sdv_face_vertex_count(fine);
+    sdv_copy(face_vertices, fine->face_vertices, count, sizeof(int));
+    for (size_t h = 0; h < count && sides; h++)
+        if (sides->vertex[h] >= 0) face_vertices[h] = fine->vertex_count + sides->vertex[h];
     for (int f = 0; f < fine->face_count && cage_faces; f++)
         cage_faces[f] = sdv_user_face(surface, f);
 }
@@ -7030,7 +7238,8 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     if (!context.result)
         sdv_new_mesh(&context, &made, &surface->fine, limit ? SDV_LIMIT : SDV_RESULT);
     if (!context.result) {
-        subdiv_limit out = { made.positions, made.normals, NULL, 0 };
+        subdiv_limit out = { made.positions, made.normals, NULL, 0, NULL };
+        if (limit) out.sides = made.normals + 3 * (size_t)made.vertex_count;
         context.result = limit ?
             subdiv_evaluate_limit(surface, positions, 3, &out, NULL, opt) :
             subdiv_evaluate(surface, 3, positions, 3, made.positions, 3, NULL, opt);
@@ -7041,8 +7250,10 @@ static subdiv_result sdv_make_mesh(subdiv_mesh *fine, const subdiv_surface *surf
     if (once && once->uv) sdv_arena_free(&once->uv->points);
     if (!context.result) {
         sdv_multiply(made.positions, 3 * (size_t)made.vertex_count, factor);
-        sdv_make_fine_faces(surface, made.face_vertices, made.cage_faces, opt);
-        if (surface->uv) sdv_make_fine_faces(surface->uv, made.face_uvs, NULL, opt);
+        sdv_make_fine_faces(surface, NULL, made.face_vertices, made.cage_faces, opt);
+        if (surface->uv) sdv_make_fine_faces(surface->uv, NULL, made.face_uvs, NULL, opt);
+        if (made.face_normals)
+            sdv_make_fine_faces(surface, &sdv_maker(surface)->sides, made.face_normals, NULL, opt);
         sdv_list_holes(surface, made.holes);
     }
     if (context.result) subdiv_mesh_free(&made);
@@ -7179,8 +7390,27 @@ SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int
     else if (!surface->fine.face_size && surface->fine.face_count)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
     sdv_check_result(&context, surface);
-    if (!context.result) sdv_make_fine_faces(surface, face_vertices, cage_faces, opt);
+    if (!context.result) sdv_make_fine_faces(surface, NULL, face_vertices, cage_faces, opt);
     return context.result;
+}
+
+SUBDIV_DEF int subdiv_surface_normal_count(const subdiv_surface *surface)
+{
+    return surface->fine.normal_count;
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_face_normals(const subdiv_surface *surface,
+                                                     int *face_normals, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    if (!surface || !face_normals)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    else if (!surface->rules.limit)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
+    if (context.result) return context.result;
+    const sdv_sides *sides = &sdv_maker(surface)->sides;
+    sdv_make_fine_faces(surface, sides->vertex ? sides : NULL, face_normals, NULL, opt);
+    return SUBDIV_OK;
 }
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
@@ -7212,6 +7442,7 @@ static subdiv_result sdv_make_range(sdv_context *context, const subdiv_surface *
     evaluation.end_point = first_point + point_count;
     evaluation.first_face = first_face;
     evaluation.end_face = first_face + face_count;
+    evaluation.sides = surface->fine.normal_count - surface->fine.vertex_count;
     evaluation.out = out;
     evaluation.out_stride = (size_t)out_stride;
     evaluation.limit = limit;
@@ -7655,6 +7886,25 @@ static void sdv_split_step(sdv_writer *writer, const sdv_rules *rules, sdv_level
 // mask is asked for every point, even if the same one is known. The last rows bring the points of
 // the last level, or their limit, into THE ORDER OF THE RESULT.
 
+// Adds the rows of the normals of all sides of creases but the first, each at the first face that
+// has it. done [their count]: 0 to begin with.
+static void sdv_plain_sides(const subdiv_surface *surface, const sdv_level *cage,
+                            sdv_limit_writer *limit, unsigned char *done)
+{
+    const sdv_level *level = limit->level;
+    int loop = surface->rules.loop, size = loop ? 3 : 4, points = surface->order.count;
+    for (int h = 0; h < level->face_vertex_count && !limit->writer->context->result; h++) {
+        sdv_place at = level->places[h / size];
+        sdv_grid grid;
+        sdv_grid_at(&surface->order, at.h, &grid);
+        sdv_see_sides(&surface->order, &surface->sides, at.h, &grid);
+        sdv_batch_face(limit->writer, sdv_face_of(cage, at.h));
+        at = sdv_vertex_place(at, loop, h % size);
+        int side = sdv_grid_index(&grid, at.row, at.column) - points;
+        if (side >= 0 && !done[side]++) sdv_limit_row(limit, h, points + side);
+    }
+}
+
 // Adds the rows of the result, each at the first face that has the point.
 static void sdv_plain_result(const subdiv_surface *surface, const sdv_level *cage,
                              sdv_limit_writer *limit)
@@ -7699,6 +7949,11 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
     sdv_begin_limit(writer, &surface->rules, &level, NULL, &limit);
     sdv_plain_result(surface, cage, &limit);
     sdv_end_batches(writer, &surface->limit_rows);
+    size_t sides = (size_t)sdv_count_sides(&surface->sides, surface->order.n);
+    unsigned char *done = SDV_NEW(context, scratch, unsigned char, sides);
+    if (sides && done) memset(done, 0, sides);
+    if (sides && done) sdv_plain_sides(surface, cage, &limit, done);
+    sdv_end_batches(writer, &surface->side_rows);
 }
 
 #ifndef SUBDIV_NO_EXACT
@@ -11452,7 +11707,12 @@ typedef struct sdv_tiling {             // points of a cage, or of the topology 
     sdv_inside *insides;                // [face_count]
     int        *starts;                 // [edge_count + face_count + 1] the first point inside each
     int        *home;                   // [vertex_count + edge_count] the face-vertex whose face
-} sdv_tiling;                           // evaluates it, or -1
+                                        //      evaluates it, or -1
+    int         count;                  // of points
+    const sdv_sides *sides;             // writes normals instead of points; NULL: points
+    int        *side_starts;            // [sides->edges] the first normal of each
+    int         normal_count;
+} sdv_tiling;
 
 typedef struct sdv_tile {               // one face of a tiling
     const sdv_tiling *tiling;
@@ -11482,6 +11742,24 @@ static sdv_tile sdv_tile_at(const sdv_tiling *tiling, int f)
 static int sdv_edge_rate(const sdv_tile *tile, int side)
 {
     return tile->tiling->edge_rates[tile->edges[side]];
+}
+
+// Returns the other side of a crease that the tile is on at its vertex i, or its side i; or -1.
+static int sdv_vertex_side(const sdv_tile *tile, int i)
+{
+    return tile->tiling->sides ? tile->tiling->sides->vertex[tile->first + i] : -1;
+}
+
+static int sdv_edge_side_of(const sdv_tile *tile, int i)
+{
+    return tile->tiling->sides ? tile->tiling->sides->edge[tile->first + i] : -1;
+}
+
+// Returns the point at vertex i, or its normal.
+static int sdv_tile_vertex(const sdv_tile *tile, int i)
+{
+    int side = sdv_vertex_side(tile, i);
+    return side < 0 ? tile->vertices[i] : tile->tiling->count + side;
 }
 
 // Pieces of the grid along a side.
@@ -11542,8 +11820,10 @@ static uint64_t sdv_count_inside(const sdv_tiling *tiling, int f)
 static sdv_side sdv_tile_side(const sdv_tile *tile, int side, int backwards)
 {
     int a = tile->vertices[side], b = tile->vertices[side + 1 < tile->sides ? side + 1 : 0];
-    return sdv_seen_side(tile->tiling->starts[tile->edges[side]], sdv_edge_rate(tile, side),
-                         (a > b) != backwards);
+    int other = sdv_edge_side_of(tile, side);
+    int start = other < 0 ? tile->tiling->starts[tile->edges[side]]
+                          : tile->tiling->side_starts[other];
+    return sdv_seen_side(start, sdv_edge_rate(tile, side), (a > b) != backwards);
 }
 
 // Fills in the grid of a face (of an n-gon: of its quad at vertex i). Its sides are the edges of
@@ -11552,7 +11832,7 @@ static void sdv_tile_grid(const sdv_tile *tile, int i, sdv_grid *grid)
 {
     int last = tile->sides - 1;
     if (tile->ngon) {
-        sdv_ngon_grid(tile->vertices[i], sdv_tile_side(tile, i, 0),
+        sdv_ngon_grid(sdv_tile_vertex(tile, i), sdv_tile_side(tile, i, 0),
                       sdv_tile_side(tile, i > 0 ? i - 1 : last, 1), tile->inside, tile->sides,
                       tile->grid->columns, i, grid);
         return;
@@ -11563,7 +11843,7 @@ static void sdv_tile_grid(const sdv_tile *tile, int i, sdv_grid *grid)
     grid->frame = 0;
     grid->inside = tile->inside;
     for (int k = 0; k <= last; k++) {
-        grid->corner[k] = tile->vertices[k];
+        grid->corner[k] = sdv_tile_vertex(tile, k);
         grid->side[k] = sdv_tile_side(tile, k, k >= 2);
     }
     grid->side[3] = grid->side[last];
@@ -11649,7 +11929,7 @@ static void sdv_put_strip(const sdv_tile *tile, int side, const sdv_grid grids[2
     int rate = (int)sdv_side_rate(tile, side), inset = 2 + tile->loop;
     int more = tile->grid->across == side, ring = rate - inset + more;
     sdv_side edge = sdv_tile_side(tile, side, 0);
-    int a = tile->vertices[side], d = sdv_ring_point(tile, side, grids, -more);
+    int a = sdv_tile_vertex(tile, side), d = sdv_ring_point(tile, side, grids, -more);
     for (int i = 0, j = -more; i < pieces || j < ring;) {
         int64_t here = (2 * (int64_t)i + 1) * rate;
         int64_t there = (2 * (int64_t)j + 1 + inset) * pieces;
@@ -11657,7 +11937,7 @@ static void sdv_put_strip(const sdv_tile *tile, int side, const sdv_grid grids[2
         int up = j < ring && (i == pieces || there <= here);
         i += on;
         j += up;
-        int b = i == pieces ? tile->vertices[next] : edge.first + edge.step * i;
+        int b = i == pieces ? sdv_tile_vertex(tile, next) : edge.first + edge.step * i;
         int c = up ? sdv_ring_point(tile, side, grids, j) : d;
         int quad = on && up && !out->triangles;
         if (on && up) sdv_put_face(out, quad ? 4 : 3, a, b, c, d);
@@ -11687,7 +11967,11 @@ static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena, const s
 {
     size_t edges = (size_t)cage->edge_count, faces = (size_t)cage->face_count;
     size_t homes = (size_t)cage->vertex_count + edges;
-    sdv_tiling tiling = { cage, hole, loop, NULL, NULL, NULL, NULL };
+    sdv_tiling tiling;
+    memset(&tiling, 0, sizeof tiling);
+    tiling.cage = cage;
+    tiling.hole = hole;
+    tiling.loop = loop;
     tiling.edge_rates = SDV_NEW(context, arena, int, edges);
     tiling.insides = SDV_NEW(context, arena, sdv_inside, faces);
     tiling.starts = SDV_NEW(context, arena, int, edges + faces + 1);
@@ -11721,7 +12005,24 @@ static int sdv_place_points(sdv_context *context, sdv_tiling *tiling)
     if (count > INT_MAX)
         sdv_fail(context, SUBDIV_ERROR_TOO_LARGE,
                  "these rates make more than %d vertices", INT_MAX);
-    return tiling->starts[all] = context->result ? 0 : (int)count;
+    return tiling->count = tiling->starts[all] = context->result ? 0 : (int)count;
+}
+
+// Finds where the normals of the other sides of creases stand: behind those of the points, first
+// those at vertices. Returns how many normals there are.
+static int sdv_place_sides(sdv_context *context, sdv_arena *arena, sdv_tiling *tiling,
+                           const sdv_sides *sides)
+{
+    int64_t count = (int64_t)tiling->count + sides->vertices;
+    tiling->sides = sides;
+    tiling->side_starts = SDV_NEW(context, arena, int, sides->edges);
+    for (int i = 0; i < sides->edges && count <= INT_MAX && !context->result; i++) {
+        tiling->side_starts[i] = (int)count;
+        count += tiling->edge_rates[tiling->cage->face_edges[sides->edge_home[i]]] - 1;
+    }
+    if (count > INT_MAX)
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "these rates make more than %d normals", INT_MAX);
+    return tiling->normal_count = context->result ? 0 : (int)count;
 }
 
 // --------------------------------------------------------------------------- >>tile-points
@@ -11762,7 +12063,8 @@ typedef struct sdv_leaf_points {
     void    *user;                      // of the allocator
     int      jobs;
     unsigned char *failed;              // [jobs]
-    sdv_window out;                     // the first points of the tiling
+    int      points;                    // the first points of the tiling, or all of them and the
+    sdv_window out;                     // normals of other sides
     sdv_tangents tangents;              // of these
     // The leaf at hand, or a part of it:
     sdv_tile tile;
@@ -11856,8 +12158,9 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     sdv_make_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
     for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
         sdv_four x = sdv_all((float)(from + (double)k * by));
-        sdv_store_some(out->values + out->stride * (size_t)index,
-                       loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), out->lanes);
+        if (index < l->points)
+            sdv_store_some(out->values + out->stride * (size_t)index,
+                           loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), out->lanes);
         if (!tangents) continue;
         sdv_four along = sdv_horner3(curve.along, x), across = sdv_horner3(curve.across, x);
         sdv_put_tangents(out, index, turned ? across : along, turned ? along : across,
@@ -11943,7 +12246,9 @@ static void sdv_put_area_side(sdv_leaf_points *l, int side)
     int before = l->corner > 0 ? l->corner - 1 : tile->sides - 1;
     int edge = !ngon ? side : side == 3 ? before : l->corner;
     int rate = spoke ? tile->grid->columns : sdv_edge_rate(tile, edge);
-    int home = tiling->home[tiling->cage->vertex_count + tile->edges[edge]];
+    int other = sdv_edge_side_of(tile, edge);
+    int home = other >= 0 ? tiling->sides->edge_home[other]
+                          : tiling->home[tiling->cage->vertex_count + tile->edges[edge]];
     if (ngon && side == 2) return;
     if (!spoke && home != tile->first + edge) return;
     sdv_ticks ticks = a[0] != b[0] ? sdv_find_ticks(area, area->bottom, area->top, 3, rate, half)
@@ -11963,7 +12268,9 @@ static void sdv_put_area_corner(sdv_leaf_points *l, int i)
     const sdv_tile *tile = &l->tile;
     const int *at = sdv_corners[tile->loop][i];
     int h = tile->ngon ? l->corner : i, centre = tile->ngon && i == 2;
-    int here = tile->tiling->home[tile->vertices[h]] == tile->first + h;
+    int other = sdv_vertex_side(tile, h);
+    int here = (other >= 0 ? tile->tiling->sides->vertex_home[other]
+                           : tile->tiling->home[tile->vertices[h]]) == tile->first + h;
     sdv_line_points point = { 0, 0, (double)at[1], (double)at[0], 0, 0, l->grid.corner[i], 0 };
     if (centre ? l->corner == 0 : here && (!tile->ngon || i == 0)) sdv_put_line(l, &point);
 }
@@ -12127,6 +12434,8 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     l.user = context->user;
     l.jobs = sdv_jobs(opt, (int64_t)exact->patch_count + exact->nest_count, 64);
     l.failed = failed;
+    l.points = count;
+    if (tiling->sides && normals) count = tiling->normal_count;
     l.out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     l.tangents.normals = normals;
     l.tangents.stride = 3;
@@ -12150,7 +12459,7 @@ typedef struct sdv_tessellator {
     const subdiv_tessellation *how;
     const subdiv_options *opt;
     sdv_arena  arena;
-    sdv_tiling points, uvs;
+    sdv_tiling points, normals, uvs;
     sdv_exact_work positions;
     int        triangles;
     sdv_faces_at *first;                // [face_count + 1] where the faces of each begin
@@ -12286,10 +12595,12 @@ static void sdv_tile_job(void *context, int job)
     const subdiv_surface *uv = t->surface->uv;
     int faces = t->points.cage->face_count, end = sdv_share(faces, job + 1, t->jobs);
     for (int f = sdv_share(faces, job, t->jobs); f < end; f++) {
-        sdv_faces_at out = t->first[f], uvs = out;
+        sdv_faces_at out = t->first[f], normals = out, uvs = out;
         if (t->first[f + 1].faces == out.faces) continue;
         out.vertices = t->mesh.face_vertices;
         sdv_put_tile(&t->points, f, &out);
+        normals.vertices = t->mesh.face_normals;
+        if (normals.vertices) sdv_put_tile(&t->normals, f, &normals);
         for (size_t i = t->first[f].faces; i < out.faces; i++)
             t->mesh.cage_faces[i] = sdv_user_face(t->surface, f);
         uvs.vertices = t->mesh.face_uvs;
@@ -12303,8 +12614,8 @@ static void sdv_make_samples(sdv_context *context, sdv_tessellator *t)
 {
     const subdiv_surface *surface = t->surface, *uv = surface->uv;
     subdiv_mesh *mesh = &t->mesh;
-    sdv_make_tile_points(context, t->opt, &t->points, &t->positions, mesh->positions, mesh->normals,
-                         mesh->vertex_count);
+    sdv_make_tile_points(context, t->opt, &t->normals, &t->positions, mesh->positions,
+                         mesh->normals, mesh->vertex_count);
     if (surface->colors) {
         sdv_exact_work colors = sdv_begin_source(context, &t->arena, surface, 3, surface->colors,
                                                  t->opt);
@@ -12333,7 +12644,10 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     for (int f = 0; f < faces; f++) sdv_find_inside(&t->points, f, sdv_face_rate(t, f));
     *mesh = surface->fine;
     mesh->crease_count = mesh->corner_count = 0;
-    mesh->vertex_count = sdv_place_points(context, &t->points);
+    mesh->vertex_count = mesh->normal_count = sdv_place_points(context, &t->points);
+    t->normals = t->points;
+    if (surface->sides.vertex && !(t->opt && t->opt->one_normal))
+        mesh->normal_count = sdv_place_sides(context, &t->arena, &t->normals, &surface->sides);
     if (surface->uv && !context->result) sdv_tile_uvs(context, t);
     if (!context->result) sdv_plan_tiles(context, t);
     if (!context->result) sdv_new_mesh(context, &made, mesh, SDV_LIMIT);
@@ -14387,9 +14701,9 @@ static void sdv_write_lines(sdv_output *out, const char *keyword, int width, con
 }
 
 // Writes faces of one size: f a, a/t, a//a or a/t/a. uvs may be NULL; a face with a -1 there has
-// none. Normals are numbered as the vertices.
-static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs, int normals,
-                            int size, int count)
+// none. normals: of all face-vertices, or NULL.
+static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs,
+                            const int *normals, int size, int count)
 {
     const sdv_figures *figures = out->figures;
     const char *full = out->buffer + SDV_OUTPUT_SIZE - SDV_PIECE_SIZE;
@@ -14405,19 +14719,17 @@ static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs
                 p = sdv_room(out);
             }
             *p++ = ' ';
-            const char *index = p;
             p = sdv_write_index(figures, p, vertices[i] + 1);
             if (!t && !normals) continue;
-            ptrdiff_t length = p - index;
             *p++ = '/';
             if (t) p = sdv_write_index(figures, p, t[i] + 1);
             if (!normals) continue;
             *p++ = '/';
-            memmove(p, index, 16);              // at most 10 of them count
-            p += length;
+            p = sdv_write_index(figures, p, normals[i] + 1);
         }
         *p++ = '\n';
         sdv_end(out, p);
+        if (normals) normals += size;
     }
 }
 
@@ -14436,9 +14748,10 @@ static int sdv_write_statements(sdv_output *out, const subdiv_mesh *mesh, int i,
 static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
 {
     const int *vertices = mesh->face_vertices, *uvs = mesh->uv_count ? mesh->face_uvs : NULL;
+    const int *normals = !mesh->normals ? NULL : mesh->face_normals ? mesh->face_normals : vertices;
     sdv_write_lines(out, "v", 3, mesh->positions, mesh->colors, mesh->vertex_count);
     sdv_write_lines(out, "vt", 2, mesh->uvs, NULL, mesh->uv_count);
-    if (mesh->normals) sdv_write_lines(out, "vn", 3, mesh->normals, NULL, mesh->vertex_count);
+    sdv_write_lines(out, "vn", 3, mesh->normals, NULL, sdv_normal_count(mesh));
     int statement = 0, next;
     for (int f = 0; f < mesh->face_count && !out->context->result; f = next) {
         statement = sdv_write_statements(out, mesh, statement, f);
@@ -14446,9 +14759,11 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
                                                  : mesh->face_count;
         if (!mesh->face_size) next = f + 1;
         int size = sdv_face_size(mesh, f);
-        sdv_write_faces(out, vertices, uvs, mesh->normals != NULL, size, next - f);
-        vertices += (size_t)(next - f) * (size_t)size;
-        if (uvs) uvs += (size_t)(next - f) * (size_t)size;
+        sdv_write_faces(out, vertices, uvs, normals, size, next - f);
+        size_t written = (size_t)(next - f) * (size_t)size;
+        vertices += written;
+        if (uvs) uvs += written;
+        if (normals) normals += written;
     }
     sdv_write_statements(out, mesh, statement, mesh->face_count);
     sdv_write_tags(out, mesh);
@@ -14521,7 +14836,7 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
                 int *last = sdv_grid_faces(&grid, i, i + 1, 0, grid.columns, row);
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, i + 1, 0, uv_grid.columns, uvs);
                 int count = (int)(last - row) / size;
-                sdv_write_faces(out, row, own >= 0 ? uvs : NULL, 0, size, count);
+                sdv_write_faces(out, row, own >= 0 ? uvs : NULL, NULL, size, count);
             }
         }
     }

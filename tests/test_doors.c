@@ -1,6 +1,7 @@
 // One surface: whichever call is asked, a place on the limit has the same point and normal. Random
 // cages through subdiv_refine with opt->limit, subdiv_evaluate_at from every face, a tessellation
-// and both kinds of stencils, on every level; then the same cage far from the origin. (That
+// and both kinds of stencils, on every level; then the same cage far from the origin. The normal of
+// each face-vertex is that of its own face, also where two meet at a crease. (That
 // subdiv_evaluate_at is right, test_exact_oracle.c shows.)
 //
 //     cc -I. tests/test_doors.c -o build/test_doors -lm && build/test_doors
@@ -46,8 +47,9 @@ typedef struct doors {
     subdiv_mesh fine, tiles;
     subdiv_surface *exact;
     void  *scratch;
-    double *worst, *turn;               // [points] of all faces that see a point: how far its
-} doors;                                // point lies off, and how little its normal is turned
+    double *worst;                      // [points] how far off it is, for any face; -1: no face
+    double turned;                      // degrees: the most that a face-vertex's normal is
+} doors;
 
 static int open_doors(doors *d, const subdiv_mesh *cage, int levels)
 {
@@ -66,11 +68,10 @@ static int open_doors(doors *d, const subdiv_mesh *cage, int levels)
     CHECK_EQUAL(subdiv_prepare(&d->exact, cage, SUBDIV_EXACT, NULL), SUBDIV_OK);
     if (test_bad) return 0;
     d->scratch = malloc(subdiv_scratch_size(d->exact, 3));
-    d->worst = calloc((size_t)d->fine.vertex_count, sizeof *d->worst);
-    d->turn = calloc((size_t)d->fine.vertex_count, sizeof *d->turn);
+    d->worst = malloc((size_t)d->fine.vertex_count * sizeof *d->worst);
     CHECK_EQUAL(subdiv_evaluate_begin(d->exact, 3, cage->positions, 0, d->scratch, NULL),
                 SUBDIV_OK);
-    for (int i = 0; i < d->fine.vertex_count; i++) d->turn[i] = -1;
+    for (int i = 0; i < d->fine.vertex_count; i++) d->worst[i] = -1;
     return 1;
 }
 
@@ -78,28 +79,69 @@ static void close_doors(doors *d)
 {
     free(d->scratch);
     free(d->worst);
-    free(d->turn);
     order_free(&d->order);
     subdiv_mesh_free(&d->fine);
     subdiv_mesh_free(&d->tiles);
     subdiv_surface_free(d->exact);
 }
 
-// Compares a point of the result with the place that a face has for it.
-static void meet(doors *d, int point, int face, int corner, double u, double v)
+// Finds the point and the normal at a place of a face. Returns 0 if there is no surface.
+static int look(const doors *d, int face, int corner, double u, double v, float *p, float *n)
 {
     const subdiv_location at = { face, corner, (float)u, (float)v };
-    float p[3], n[3];
+    static const float zero[3] = { 0, 0, 0 };
     subdiv_derivatives out = {0};
     out.points = p;
     out.normals = n;
     CHECK_EQUAL(subdiv_evaluate_at(d->exact, 3, d->scratch, 1, &at, &out, NULL), SUBDIV_OK);
-    static const float zero[3] = { 0, 0, 0 };
-    if (memcmp(p, zero, sizeof p) == 0 && memcmp(n, zero, sizeof n) == 0) return;  // no surface
-    double off = distance(p, d->fine.positions + 3 * point) / d->size;
-    double turn = angle(n, d->fine.normals + 3 * point);
-    d->worst[point] = fmax(d->worst[point], off);
-    if (d->turn[point] < 0 || turn < d->turn[point]) d->turn[point] = turn;
+    return memcmp(p, zero, sizeof zero) || memcmp(n, zero, sizeof zero);
+}
+
+// Compares a point of the result with the place that a face has for it.
+static void meet(doors *d, int point, int face, int corner, double u, double v)
+{
+    float p[3], n[3];
+    if (!look(d, face, corner, u, v, p, n)) return;
+    d->worst[point] = fmax(d->worst[point], distance(p, d->fine.positions + 3 * point) / d->size);
+}
+
+// Compares the normal of a mesh's face-vertex with that of its face at (u, v).
+static void meet_normal(doors *d, const subdiv_mesh *mesh, size_t h, int face, int corner, double u,
+                        double v)
+{
+    float p[3], n[3];
+    int i = mesh->face_normals ? mesh->face_normals[h] : mesh->face_vertices[h];
+    int spoke = order_is_ngon(&d->order, face) && (u > 0.999 || v > 0.999);
+    if (spoke && d->cage->scheme == SUBDIV_BILINEAR) return;       // it has one of two normals
+    if (!look(d, face, corner, u, v, p, n)) return;
+    CHECK(i >= 0 && i < mesh->normal_count);
+    d->turned = fmax(d->turned, angle(n, mesh->normals + 3 * i));
+}
+
+// Compares the normals of all face-vertices, each seen from its own face.
+static void meet_normals(doors *d, const subdiv_mesh *mesh)
+{
+    static const int columns[3][4] = { { 0, 1, 1, 0 }, { 0, 1, 0, 0 }, { 1, 0, 1, 0 } };
+    static const int rows[3][4] = { { 0, 0, 1, 1 }, { 0, 0, 1, 0 }, { 1, 1, 0, 0 } };
+    int loop = d->cage->scheme == SUBDIV_LOOP, fine = 0;
+    size_t h = 0;
+    for (int f = 0; f < d->cage->face_count; f++) {
+        int ngon = order_is_ngon(&d->order, f), n = order_grid(&d->order, f);
+        int size = face_size(d->cage, f), quads = ngon ? size : 1;
+        if (fine >= mesh->face_count || mesh->cage_faces[fine] != f) continue;       // a hole
+        for (int i = 0; i < size && d->levels == 0; i++)
+            meet_normal(d, mesh, h++, f, ngon ? i : 0, ngon ? 0 : columns[loop][i],
+                        ngon ? 0 : rows[loop][i]);
+        fine += d->levels ? order_faces_inside(&d->order, f) : 1;
+        for (int k = 0; k < quads * n * n && d->levels; k++) {
+            int quad = k / (n * n), row = k / n % n, column = k % n;
+            for (int t = 0; t <= loop && (!loop || row + column + t < n); t++)     // 1: turned
+                for (int i = 0; i < 4 - loop; i++)
+                    meet_normal(d, mesh, h++, f, quad, (column + columns[loop + t][i]) / (double)n,
+                                (row + rows[loop + t][i]) / (double)n);
+        }
+    }
+    CHECK_EQUAL(fine, mesh->face_count);
 }
 
 static void meet_faces(doors *d)
@@ -142,19 +184,21 @@ static void check_stencils(const doors *d)
     subdiv_surface_free(surface);
 }
 
-// Rounding turns a normal the more the smaller the faces are: at level 4 a few in a million.
-static void check_doors(const doors *d)
+static void check_doors(doors *d)
 {
+    // Rounding turns a normal the more the smaller the faces are: at level 4 a few in a million.
     double turned = normal_tolerance * (1 << d->levels > 4 ? 4 : 1);
+    int same = d->tiles.vertex_count == d->fine.vertex_count;       // not so: polygons at level 0
     for (int i = 0; i < d->fine.vertex_count; i++) {
-        if (d->turn[i] < 0) continue;                     // no face with a surface
+        if (d->worst[i] < 0) continue;                    // no face with a surface
         CHECK_NEAR(d->worst[i], 0, d->tolerance);
-        CHECK_NEAR(d->turn[i], 0, turned);
-        if (d->tiles.vertex_count != d->fine.vertex_count) continue;      // polygons at level 0
+        if (!same) continue;
         CHECK_NEAR(distance(d->fine.positions + 3 * i, d->tiles.positions + 3 * i) / d->size, 0,
                    d->tolerance);
-        CHECK_NEAR(angle(d->fine.normals + 3 * i, d->tiles.normals + 3 * i), 0, turned);
     }
+    meet_normals(d, &d->fine);
+    if (same) meet_normals(d, &d->tiles);
+    CHECK_NEAR(d->turned, 0, turned);
 }
 
 static void run_cage(const subdiv_mesh *cage, int levels)
