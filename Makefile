@@ -28,12 +28,12 @@ endif
 # Tests that look inside or bring an allocator compile the implementation themselves. The compiler
 # takes longer for tests than they run, so they are optimised less.
 TEST_FLAGS = $(subst -O2,-O1,$(FLAGS)) $(THREADS)
-OWN      = evaluate memory exact patches obj_numbers
+OWN      = buffers evaluate memory exact patches obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
-           recorded creases check errors uv partial_uvs vertex_rules
+           recorded creases check errors uv partial_uvs vertex_rules normals
 TESTS    = $(OWN) $(PLAIN) growth
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
-           07_threads 08_tessellate 09_stencils 10_spines
+           07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer
 HELPERS  = $(wildcard tests/lib/*.h)
 
 all: $(OUT)/subdiv

@@ -48,6 +48,7 @@
              >>refine             a cage into a finer mesh, in one call or in two steps
              >>animation          new values on the same topology, in every frame
              >>limit  >>exact     the limit surface: at the points of the result; anywhere
+             >>buffers            vertex buffers to draw, filled again in every frame
              >>stencils           points as sums of cage vertices; explains a point
              >>tessellation       meshes of the limit surface, each edge cut as you like
              >>creases            from angles, smoothing groups and UV seams
@@ -336,11 +337,11 @@ typedef struct subdiv_options {
     int           keep_holes;         // keep the faces of holes, listed in the result's holes
     int           linear;             // split only: points stay on the cage's faces and edges
     int           limit;              // points on the limit surface, with normals (see >>limit)
-    int           one_normal;         // limit, tessellation: one normal a point, also on creases
     int           no_tags;            // OBJ: write no tags for creases, corners, holes and rules
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
+    int           one_normal;         // limit, tessellation: one normal a point, also on creases
 } subdiv_options;
 
 // Returns the text of a result, such as "index out of range". Never NULL.
@@ -498,9 +499,69 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
                                                      const subdiv_limit *out,
                                                      const subdiv_options *opt);
 
-// Fills mesh->normals of any mesh, a new array if it is NULL. Each vertex gets the sum of its
-// faces' normals, weighted by their areas and scaled to length 1; or 0 if there is none.
+// Gives any mesh normals: at each vertex the sum of its faces' normals, weighted by their areas and
+// scaled to length 1; or 0 if there is none. Where creases are infinitely sharp, each side has its
+// own, as in a limit, unless opt->one_normal says no. Arrays that have the room are filled, else
+// the mesh gets new ones.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
+
+// Does the same, and takes edges for creases, too, where the normals of the two faces differ by
+// more than this many degrees, 0 to 180, as subdiv_crease_by_angle does.
+SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degrees,
+                                                 const subdiv_options *opt);
+
+// ------------------------------------------------------------------------------- >>buffers
+// Makes what a GPU draws of a mesh: triangles, and vertices as you lay them out, split where the
+// surface is creased or UVs have a seam. Make a buffer once; then fill its vertices once from the
+// mesh and, if it moves, in each frame from a surface:
+//
+//     subdiv_surface_mesh(&mesh, surface, positions, &opt);   // prepared with opt.limit
+//     subdiv_make_buffer(&buffer, &mesh, 4, &opt);
+//     float *data = malloc(8 * sizeof(float) * buffer.vertex_count);
+//     subdiv_vertices out = {0};
+//     out.positions = data;  out.normals = data + 3;  out.uvs = data + 6;  out.stride = 8;
+//     subdiv_fill_buffer(&buffer, &mesh, &out, &opt);
+//     subdiv_evaluate_buffer(&buffer, surface, moved, &out, scratch, &opt);       // each frame
+typedef struct subdiv_buffer {
+    int    vertex_count;              // vertex i is point i of the mesh; copies of points follow
+    int    point_count, normal_count; // of the mesh; vertex i has normal i, as long as there are
+    int   *points;                    // [vertex_count]  the point of each vertex,
+    int   *normals;                   // [vertex_count]  its normal
+    int   *uvs;                       // [vertex_count]  and its UV, or -1
+    int    index_count;               // 3 for each triangle
+    int    index_size;                // bytes of an index: 2 or 4
+    void  *indices;                   // [index_count]   unsigned short or int
+    void  *memory;                    // the library's own
+} subdiv_buffer;
+
+// Where to write the vertices: arrays with this many floats a vertex, or NULL.
+typedef struct subdiv_vertices {
+    float *positions;                 // [3]  x y z
+    float *normals;                   // [3]
+    float *uvs;                       // [2]  0 0 without a UV
+    float *colors;                    // [3]  r g b
+    int    stride;                    // floats from vertex to vertex in all of them; 0: dense
+} subdiv_vertices;
+
+// Makes the buffer of a mesh: a result, or any mesh without face_normals. Cuts faces from their
+// first vertex on; index_size is 2 or 4. Error TOO_LARGE: 2 bytes, and more than 65536 vertices.
+SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_mesh *mesh,
+                                            int index_size, const subdiv_options *opt);
+SUBDIV_DEF void subdiv_buffer_free(subdiv_buffer *buffer);
+
+// Fills the vertices from the mesh that the buffer was made of. Error ARGUMENT: the mesh does not
+// have what is to be written.
+SUBDIV_DEF subdiv_result subdiv_fill_buffer(const subdiv_buffer *buffer, const subdiv_mesh *mesh,
+                                            const subdiv_vertices *out, const subdiv_options *opt);
+
+// Fills positions and normals from a surface whose mesh the buffer was made of, for positions
+// [3 * cage vertex_count]; leaves UVs and colours as they are. scratch is as in subdiv_evaluate,
+// for 3 channels: with it, nothing is allocated. Error ARGUMENT: the surface has other points or
+// normals than the buffer, or was prepared without opt->limit and out->normals is not NULL.
+SUBDIV_DEF subdiv_result subdiv_evaluate_buffer(const subdiv_buffer *buffer,
+                                                const subdiv_surface *surface,
+                                                const float *positions, const subdiv_vertices *out,
+                                                void *scratch, const subdiv_options *opt);
 
 // --------------------------------------------------------------------------------- >>exact
 // Evaluates the limit surface at any point of any face: values, derivatives and normals. They are
@@ -5200,7 +5261,8 @@ static void sdv_number_vertex_sides(const subdiv_surface *surface, const sdv_lev
 }
 
 // Finds the sides of infinitely sharp creases: those of a limit, or of SUBDIV_EXACT.
-static void sdv_find_sides(sdv_context *context, subdiv_surface *surface, const sdv_level *cage)
+static void sdv_find_sides(sdv_context *context, sdv_arena *arena, subdiv_surface *surface,
+                           const sdv_level *cage)
 {
     sdv_sides *sides = &surface->sides;
     size_t count = (size_t)cage->face_vertex_count;
@@ -5211,10 +5273,10 @@ static void sdv_find_sides(sdv_context *context, subdiv_surface *surface, const 
     for (int v = 0; v < cage->vertex_count && !any; v++)
         any |= cage->vertex_first[v] >= 0 && !sdv_is_fan(cage, v);
     if (!any) return;
-    sides->vertex = SDV_NEW(context, &surface->arena, int, count);
-    sides->edge = SDV_NEW(context, &surface->arena, int, count);
-    sides->vertex_home = SDV_NEW(context, &surface->arena, int, count);
-    sides->edge_home = SDV_NEW(context, &surface->arena, int, count);
+    sides->vertex = SDV_NEW(context, arena, int, count);
+    sides->edge = SDV_NEW(context, arena, int, count);
+    sides->vertex_home = SDV_NEW(context, arena, int, count);
+    sides->edge_home = SDV_NEW(context, arena, int, count);
     if (context->result) return;
     for (size_t i = 0; i < count; i++) sides->vertex[i] = sides->edge[i] = -1;
     for (int v = 0; v < cage->vertex_count; v++)
@@ -5550,7 +5612,7 @@ static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
     sdv_count_fine_faces(context, surface, opt && opt->keep_holes);
     surface->fine.normal_count = surface->rules.limit ? surface->order.count : 0;
     if ((surface->rules.limit || surface->exact) && !request->alone && !(opt && opt->one_normal))
-        sdv_find_sides(context, surface, &built->level);
+        sdv_find_sides(context, &surface->arena, surface, &built->level);
 }
 
 // Makes a surface for the positions and for the values that go with them, or for values alone.
@@ -12741,42 +12803,371 @@ static double sdv_area_normal(const float *positions, const int *vertices, int s
     return 2 * (double)FLT_EPSILON * largest * perimeter;
 }
 
-// Sums the normals of the faces at each vertex: sums [3 * vertex_count].
-static void sdv_sum_normals(const subdiv_mesh *mesh, double *sums)
+// Computes the normal of face f, 1 long; 0 if the face is as thin as rounding.
+static void sdv_face_normal(const float *positions, const sdv_level *level, int f, double normal[3])
 {
-    const int *v = mesh->face_vertices;
-    memset(sums, 0, 3 * (size_t)mesh->vertex_count * sizeof(double));
+    int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
+    double n[3], error = sdv_area_normal(positions, level->face_vertices + start, size, n);
+    double length = sqrt(sdv_dot3(n, n));
+    for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
+}
+
+// The largest angle that is no crease, in radians: up to 0.001 degrees more are rounding.
+static double sdv_largest_bend(sdv_context *context, float degrees)
+{
+    if (!(degrees >= 0 && degrees <= 180))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "degrees has to be from 0 to 180");
+    return ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
+}
+
+// Is the angle between two faces too large, by their normals? atan2 is exact for all angles, where
+// a cosine blurs the small ones.
+static int sdv_is_bent(const double *a, const double *b, double most)
+{
+    double n[3];
+    sdv_cross(a, b, n);
+    return atan2(sqrt(sdv_dot3(n, n)), sdv_dot3(a, b)) > most;
+}
+
+// Makes edges sharp along which faces are bent by more than so many radians.
+static void sdv_sharpen_bends(sdv_context *context, sdv_arena *arena, const float *positions,
+                              sdv_level *level, double most)
+{
+    double *normals = SDV_NEW(context, arena, double, 3 * (size_t)level->face_count);
+    for (int f = 0; f < level->face_count && normals; f++)
+        sdv_face_normal(positions, level, f, normals + 3 * (size_t)f);
+    for (int h = 0; h < level->face_vertex_count && normals; h++) {
+        int g = level->across[h], f = sdv_face_of(level, h);
+        if (g == h || !sdv_is_bent(normals + 3 * (size_t)f,
+                                   normals + 3 * (size_t)sdv_face_of(level, g), most)) continue;
+        level->sharpness[h] = level->sharpness[g] = SUBDIV_INFINITE;
+        level->creased[level->face_vertices[h]] = level->creased[level->face_vertices[g]] = 1;
+    }
+}
+
+// Finds the sides of creases of a mesh.
+static sdv_sides sdv_find_mesh_sides(sdv_context *context, sdv_arena *arena,
+                                     const subdiv_mesh *mesh, double most)
+{
+    subdiv_surface shape;
+    sdv_cage cage;
+    int any = most < 4;
+    memset(&shape, 0, sizeof shape);
+    for (int i = 0; i < mesh->crease_count; i++)
+        any |= mesh->crease_sharpness[i] >= SUBDIV_INFINITE;
+    if (!any) return shape.sides;
+    sdv_cage_build(context, arena, arena, &cage, mesh);
+    if (most < 4 && !context->result)
+        sdv_sharpen_bends(context, arena, mesh->positions, &cage.level, most);
+    if (context->result) return shape.sides;
+    shape.hole = cage.hole;
+    shape.fine.hole_count = 1;                                  // which are part of the mesh
+    shape.order.cage = cage.level;
+    shape.order.n = 1;
+    shape.order.count = mesh->vertex_count;
+    sdv_find_sides(context, arena, &shape, &cage.level);
+    return shape.sides;
+}
+
+// Sums the normals of faces: for each normal [3] in sums.
+static void sdv_sum_normals(const subdiv_mesh *mesh, const sdv_sides *sides, double *sums)
+{
+    size_t h = 0;
     for (int f = 0; f < mesh->face_count; f++) {
         int size = sdv_face_size(mesh, f);
         double n[3];
-        sdv_area_normal(mesh->positions, v, size, n);
-        for (int i = 0; i < size; i++)
-            for (int k = 0; k < 3; k++) sums[3 * (size_t)v[i] + (size_t)k] += n[k];
-        v += size;
+        sdv_area_normal(mesh->positions, mesh->face_vertices + h, size, n);
+        for (int i = 0; i < size; i++, h++) {
+            int side = sides->vertex ? sides->vertex[h] : -1, v = mesh->face_vertices[h];
+            double *sum = sums + 3 * (size_t)(side < 0 ? v : mesh->vertex_count + side);
+            for (int k = 0; k < 3; k++) sum[k] += n[k];
+        }
     }
+}
+
+// Makes normals, split where faces are bent by more than so many radians; 4: nowhere.
+static void sdv_make_normals(sdv_context *context, subdiv_mesh *mesh, double most, int one_normal)
+{
+    sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
+    const sdv_sides none = { 0, 0, NULL, NULL, NULL, NULL };
+    sdv_sides sides = one_normal ? none : sdv_find_mesh_sides(context, &scratch, mesh, most);
+    size_t vertices = (size_t)mesh->vertex_count, count = vertices + (size_t)sides.vertices;
+    size_t faces = sides.vertices ? sdv_face_vertex_count(mesh) : 0;
+    int room = mesh->normals &&
+               (!faces || (mesh->face_normals && mesh->normal_count == (int)count));
+    float *normals = mesh->normals;
+    int *face_normals = faces ? mesh->face_normals : NULL;
+    double *sums = SDV_NEW(context, &scratch, double, 3 * count);
+    owned.blocks = (sdv_block *)mesh->memory;
+    if (!room && !context->result) {
+        char *made = SDV_NEW(context, &owned, char,
+                             3 * count * sizeof *normals + faces * sizeof *face_normals);
+        normals = (float *)(void *)made;
+        if (made && faces) face_normals = (int *)(void *)(made + 3 * count * sizeof *normals);
+    }
+    if (!context->result) {
+        memset(sums, 0, 3 * count * sizeof *sums);
+        sdv_sum_normals(mesh, &sides, sums);
+        for (size_t i = 0; i < 3 * count; i += 3) sdv_make_unit(sums + i, normals + i);
+        for (size_t h = 0; h < faces; h++)
+            face_normals[h] = sides.vertex[h] < 0 ? mesh->face_vertices[h]
+                                                  : mesh->vertex_count + sides.vertex[h];
+        mesh->normals = normals;
+        mesh->normal_count = (int)count;
+        mesh->face_normals = face_normals;
+        mesh->memory = owned.blocks;
+    }
+    sdv_arena_free(&scratch);
+}
+
+// Checks a mesh but for its normals, which may be anything.
+static void sdv_check_shape(sdv_context *context, const subdiv_mesh *mesh)
+{
+    subdiv_mesh shape;
+    if (mesh) shape = *mesh;
+    shape.normals = NULL;
+    sdv_check_all(context, mesh ? &shape : NULL);
 }
 
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    subdiv_mesh shape;
-    if (mesh) shape = *mesh;
-    shape.normals = NULL;                       // may be anything before
-    sdv_check_all(&context, mesh ? &shape : NULL);
-    if (context.result) return context.result;
-    sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
-    size_t count = 3 * (size_t)mesh->vertex_count;
-    owned.blocks = (sdv_block *)mesh->memory;
-    double *sums = SDV_NEW(&context, &scratch, double, count);
-    float *normals = mesh->normals ? mesh->normals : SDV_NEW(&context, &owned, float, count);
-    if (!context.result) {
-        sdv_sum_normals(mesh, sums);
-        for (size_t i = 0; i < count; i += 3) sdv_make_unit(sums + i, normals + i);
-        mesh->normals = normals;
-        mesh->memory = owned.blocks;
-    }
-    sdv_arena_free(&scratch);
+    sdv_check_shape(&context, mesh);
+    if (!context.result) sdv_make_normals(&context, mesh, 4, opt && opt->one_normal);
     return context.result;
+}
+
+SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degrees,
+                                                 const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_shape(&context, mesh);
+    double most = sdv_largest_bend(&context, degrees);
+    if (!context.result) sdv_make_normals(&context, mesh, most, 0);
+    return context.result;
+}
+
+// -------------------------------------------------------------------------- >>vertex-buffers
+// The vertices of a buffer are the normals of its mesh, each with its first UV. For each other UV
+// that face-vertices with this normal have, a copy follows behind all normals.
+
+typedef struct sdv_buffer_maker {
+    const subdiv_mesh *mesh;
+    const int *normals;                 // [count] the normal of each face-vertex
+    int  count, normal_count;           // face-vertices; normals
+    int *first;                         // [normal_count + 1] where the UVs of each start in
+    int *uvs;                           // [count] rising, and none twice; INT_MAX behind them
+    int *copy;                          // [normal_count] the vertex of each one's second UV
+} sdv_buffer_maker;
+
+// Lists the UVs of each normal. Returns how many vertices there are.
+static int64_t sdv_list_uvs(sdv_buffer_maker *make)
+{
+    const int *face_uvs = make->mesh->uv_count ? make->mesh->face_uvs : NULL;
+    int *first = make->first, *uvs = make->uvs;
+    int64_t vertices = make->normal_count;
+    memset(first, 0, ((size_t)make->normal_count + 1) * sizeof *first);
+    for (int h = 0; h < make->count; h++) first[make->normals[h]]++;
+    for (int n = 1; n <= make->normal_count; n++) first[n] += first[n - 1];
+    for (int h = 0; h < make->count; h++)
+        uvs[--first[make->normals[h]]] = face_uvs ? face_uvs[h] : -1;
+    for (int n = 0; n < make->normal_count; n++) {
+        int from = first[n], end = first[n + 1], to = from;
+        sdv_sort(uvs + from, end - from);
+        for (int i = from; i < end; i++)
+            if (i == from || uvs[i] != uvs[to - 1]) uvs[to++] = uvs[i];
+        make->copy[n] = (int)vertices;
+        vertices += to > from ? to - from - 1 : 0;
+        while (to < end) uvs[to++] = INT_MAX;
+        if (vertices > INT_MAX) break;
+    }
+    return vertices;
+}
+
+// Returns the vertex of face-vertex h.
+static int sdv_vertex_of(const sdv_buffer_maker *make, int h)
+{
+    int n = make->normals[h], first = make->first[n], low = first, high = make->first[n + 1];
+    int uv = make->mesh->uv_count ? make->mesh->face_uvs[h] : -1;
+    while (low + 1 < high) {
+        int middle = low + (high - low) / 2;
+        if (make->uvs[middle] <= uv) low = middle;
+        else high = middle;
+    }
+    return low > first ? make->copy[n] + low - first - 1 : n;
+}
+
+static size_t sdv_carve_buffer(subdiv_buffer *buffer, char *base)
+{
+    size_t size = 0, vertices = (size_t)buffer->vertex_count;
+    buffer->points = SDV_CARVE(int, NULL, vertices, 1);
+    buffer->normals = SDV_CARVE(int, NULL, vertices, 1);
+    buffer->uvs = SDV_CARVE(int, NULL, vertices, 1);
+    buffer->indices = SDV_CARVE(char, NULL, (size_t)buffer->index_count,
+                                (size_t)buffer->index_size);
+    return size;
+}
+
+// Fills in what each vertex is and cuts faces into triangles.
+static void sdv_cut_faces(const sdv_buffer_maker *make, subdiv_buffer *buffer)
+{
+    const subdiv_mesh *mesh = make->mesh;
+    unsigned short *indices2 = (unsigned short *)buffer->indices;
+    int *indices4 = (int *)buffer->indices, h = 0;
+    size_t at = 0;
+    for (int v = 0; v < buffer->vertex_count; v++) {        // those without faces
+        buffer->points[v] = v < buffer->point_count ? v : 0;
+        buffer->normals[v] = v < buffer->normal_count ? v : 0;
+        buffer->uvs[v] = -1;
+    }
+    for (int f = 0; f < mesh->face_count; f++) {
+        int size = sdv_face_size(mesh, f), triangle[3] = { 0, 0, 0 };
+        for (int i = 0; i < size; i++, h++) {
+            int v = sdv_vertex_of(make, h);
+            buffer->points[v] = mesh->face_vertices[h];
+            buffer->normals[v] = make->normals[h];
+            buffer->uvs[v] = mesh->uv_count ? mesh->face_uvs[h] : -1;
+            triangle[i == 0 ? 0 : 1] = triangle[i == 0 ? 0 : 2];
+            triangle[i == 0 ? 0 : 2] = v;
+            for (int k = 0; k < 3 && i >= 2; k++, at++) {
+                if (buffer->index_size == 2) indices2[at] = (unsigned short)triangle[k];
+                else indices4[at] = triangle[k];
+            }
+        }
+    }
+}
+
+// Are the normals of face-vertices numbered as those of results?
+static int sdv_is_result(const subdiv_mesh *mesh, const int *normals, int count)
+{
+    for (int h = 0; h < count; h++)
+        if (normals[h] < mesh->vertex_count && normals[h] != mesh->face_vertices[h]) return 0;
+    return 1;
+}
+
+SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_mesh *mesh,
+                                            int index_size, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    sdv_buffer_maker make;
+    if (buffer) memset(buffer, 0, sizeof *buffer);
+    else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "buffer is NULL");
+    sdv_check_mesh(&context, mesh);
+    if (index_size != 2 && index_size != 4)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "index_size is %d", index_size);
+    if (context.result) return context.result;
+    size_t count = sdv_face_vertex_count(mesh);
+    if (count > INT_MAX / 3)
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the mesh has too many triangles");
+    make.mesh = mesh;
+    make.normals = mesh->normals && mesh->face_normals ? mesh->face_normals : mesh->face_vertices;
+    make.count = (int)count;
+    make.normal_count = mesh->normals ? sdv_normal_count(mesh) : mesh->vertex_count;
+    if (!context.result && !sdv_is_result(mesh, make.normals, make.count))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "face_normals are not those of a result");
+    make.first = SDV_NEW(&context, &arena, int, (size_t)make.normal_count + 1);
+    make.uvs = SDV_NEW(&context, &arena, int, count);
+    make.copy = SDV_NEW(&context, &arena, int, make.normal_count);
+    int64_t vertices = context.result ? 0 : sdv_list_uvs(&make);
+    if (vertices > (index_size == 2 ? 65536 : INT_MAX))
+        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the buffer has more than %d vertices",
+                 index_size == 2 ? 65536 : INT_MAX);
+    subdiv_buffer made = { (int)vertices, mesh->vertex_count, make.normal_count, NULL, NULL, NULL,
+                           3 * ((int)count - 2 * mesh->face_count), index_size, NULL, NULL };
+    sdv_block *block = context.result ? NULL
+                     : sdv_allocate(&context, sdv_carve_buffer(&made, NULL));
+    if (block) {
+        made.memory = block;
+        sdv_carve_buffer(&made, (char *)(block + 1));
+        sdv_cut_faces(&make, &made);
+        *buffer = made;
+    }
+    sdv_arena_free(&arena);
+    return context.result;
+}
+
+SUBDIV_DEF void subdiv_buffer_free(subdiv_buffer *buffer)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!buffer) return;
+    owned.blocks = (sdv_block *)buffer->memory;
+    sdv_arena_free(&owned);
+    memset(buffer, 0, sizeof *buffer);
+}
+
+// Copies vectors of so many floats: that of vertex i, from first on, is the one numbered items[i].
+static void sdv_copy_vectors(float *to, int stride, int width, int first, int end, const int *items,
+                       const float *from, int from_stride)
+{
+    for (int i = first; i < end && to; i++) {
+        float *out = to + (size_t)stride * (size_t)i;
+        for (int c = 0; c < width; c++)
+            out[c] = items[i] < 0 ? 0 : from[(size_t)from_stride * (size_t)items[i] + (size_t)c];
+    }
+}
+
+// Checks the arguments of a call that fills a buffer.
+static void sdv_check_vertices(sdv_context *context, const subdiv_buffer *buffer,
+                               const subdiv_vertices *out)
+{
+    if (!buffer || !out) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    int least = !out ? 0 : out->positions || out->normals || out->colors ? 3 : out->uvs ? 2 : 0;
+    if (out && out->stride && out->stride < least)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "a stride of %d floats is less than %d",
+                 out->stride, least);
+}
+
+SUBDIV_DEF subdiv_result subdiv_fill_buffer(const subdiv_buffer *buffer, const subdiv_mesh *mesh,
+                                            const subdiv_vertices *out, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_vertices(&context, buffer, out);
+    if (!mesh) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the mesh is NULL");
+    if (context.result) return context.result;
+    int normals = mesh->normals ? sdv_normal_count(mesh) : mesh->vertex_count;
+    int count = buffer->vertex_count, three = out->stride ? out->stride : 3;
+    int two = out->stride ? out->stride : 2;
+    if (mesh->vertex_count != buffer->point_count || normals != buffer->normal_count)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the buffer was made of another mesh");
+    if ((out->positions && !mesh->positions) || (out->normals && !mesh->normals) ||
+        (out->uvs && !mesh->uv_count) || (out->colors && !mesh->colors))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the mesh does not have all that is wanted");
+    if (context.result) return context.result;
+    sdv_copy_vectors(out->positions, three, 3, 0, count, buffer->points, mesh->positions, 3);
+    sdv_copy_vectors(out->normals, three, 3, 0, count, buffer->normals, mesh->normals, 3);
+    sdv_copy_vectors(out->uvs, two, 2, 0, count, buffer->uvs, mesh->uvs, 2);
+    sdv_copy_vectors(out->colors, three, 3, 0, count, buffer->points, mesh->colors, 3);
+    return SUBDIV_OK;
+}
+
+SUBDIV_DEF subdiv_result subdiv_evaluate_buffer(const subdiv_buffer *buffer,
+                                                const subdiv_surface *surface,
+                                                const float *positions, const subdiv_vertices *out,
+                                                void *scratch, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_vertices(&context, buffer, out);
+    sdv_check_mesh_surface(&context, surface, positions != NULL);
+    if (context.result) return context.result;
+    int points = surface->fine.vertex_count, limit = surface->rules.limit;
+    int normals = limit ? surface->fine.normal_count : points, end = buffer->vertex_count;
+    if (points != buffer->point_count || normals != buffer->normal_count)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the buffer was made of another surface's mesh");
+    if (out->normals && !limit)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface was prepared without opt->limit");
+    if (context.result) return context.result;
+    int stride = out->stride ? out->stride : 3;
+    float *p = out->positions, *n = out->normals;
+    subdiv_limit to = { p, n, NULL, stride, n ? n + (size_t)stride * (size_t)points : NULL };
+    if (limit)
+        context.result = subdiv_evaluate_limit(surface, positions, 3, &to, scratch, opt);
+    else if (p)
+        context.result = subdiv_evaluate(surface, 3, positions, 3, p, stride, scratch, opt);
+    if (context.result) return context.result;
+    sdv_copy_vectors(p, stride, 3, points, end, buffer->points, p, stride);
+    sdv_copy_vectors(n, stride, 3, normals, end, buffer->normals, n, stride);
+    return SUBDIV_OK;
 }
 
 #ifndef SUBDIV_NO_TOOLS
@@ -12875,25 +13266,12 @@ static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *gene
     return context->result;
 }
 
-// Computes the normal of face f, 1 long; 0 if the face is as thin as rounding.
-static void sdv_face_normal(const float *positions, const sdv_level *level, int f, double normal[3])
-{
-    int start = sdv_face_start(level, f), size = sdv_face_end(level, f) - start;
-    double n[3], error = sdv_area_normal(positions, level->face_vertices + start, size, n);
-    double length = sqrt(sdv_dot3(n, n));
-    for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
-}
-
-// Is the angle between two faces too large? atan2 is exact for all angles, where a cosine blurs the
-// small ones.
-static int sdv_is_bent(const sdv_generator *generator, int h, int g)
+// Is an edge bent, along which one face runs from h and the other back from g?
+static int sdv_is_bent_edge(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
-    const double *a = generator->normals + 3 * (size_t)sdv_face_of(level, h);
-    const double *b = generator->normals + 3 * (size_t)sdv_face_of(level, g);
-    double n[3];
-    sdv_cross(a, b, n);
-    return atan2(sqrt(sdv_dot3(n, n)), sdv_dot3(a, b)) > generator->most;
+    return sdv_is_bent(generator->normals + 3 * (size_t)sdv_face_of(level, h),
+                       generator->normals + 3 * (size_t)sdv_face_of(level, g), generator->most);
 }
 
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
@@ -12902,8 +13280,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     sdv_context context = sdv_begin(opt);
     sdv_generator generator;
     sdv_check_all(&context, mesh);
-    if (!(degrees >= 0 && degrees <= 180))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "degrees has to be from 0 to 180");
+    double most = sdv_largest_bend(&context, degrees);
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     if (!context.result)
         generator.normals = SDV_NEW(&context, &generator.arena, double,
@@ -12911,8 +13288,8 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     for (int f = 0; !context.result && f < mesh->face_count; f++)
         sdv_face_normal(mesh->positions, &generator.cage.level, f,
                         generator.normals + 3 * (size_t)f);
-    generator.most = ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
-    return sdv_generator_end(&context, &generator, sdv_is_bent);
+    generator.most = most;
+    return sdv_generator_end(&context, &generator, sdv_is_bent_edge);
 }
 
 // Finds the word that names a smoothing group: "1" in "s 1"; "" for "s off" and "s 0" (some

@@ -1055,7 +1055,7 @@ static void test_refused(void)
     subdiv_mesh fine;
     subdiv_location at = { 0, 0, 0.5f, 0.5f };
     subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 }, wrong = out;
-    subdiv_limit limit = { p, NULL, NULL, 0 };
+    subdiv_limit limit = { p, NULL, NULL, 0, NULL };
     build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 3);
     c.mesh.boundary = SUBDIV_BOUNDARY_NONE;
     CHECK_EQUAL(subdiv_prepare(&exact, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);

@@ -477,7 +477,7 @@ static void check_pieces(const subdiv_surface *s, const float *in)
     size_t n = (size_t)points;
     float *p = floats(3 * n), *q = floats(3 * n), *normals = floats(3 * n), *t = floats(6 * n);
     float *mixed = floats(13 * n), *scratch = floats(subdiv_scratch_size(s, 3) / sizeof(float));
-    subdiv_limit dense = { p, normals, t, 0 }, only = { NULL, NULL, NULL, 0 };
+    subdiv_limit dense = { p, normals, t, 0, NULL }, only = { NULL, NULL, NULL, 0, NULL };
     subdiv_options opt = {0};
     opt.run = run_backwards;
     CHECK_EQUAL(subdiv_evaluate(s, 3, in, 0, q, 0, NULL, NULL), SUBDIV_OK);
@@ -489,8 +489,8 @@ static void check_pieces(const subdiv_surface *s, const float *in)
     CHECK(same_bytes(normals, q, 3 * points, sizeof(float)));
     for (int first = 0, count; first < points; first += count) {
         float *part = mixed + 13 * (size_t)first;
-        subdiv_limit out = { part + 7, NULL, part + 1, 13 };
-        subdiv_limit out_normals = { NULL, part + 10, NULL, 13 };
+        subdiv_limit out = { part + 7, NULL, part + 1, 13, NULL };
+        subdiv_limit out_normals = { NULL, part + 10, NULL, 13, NULL };
         count = 1 + below(points - first);
         for (int f = faces - 1; f >= 0; f--) {
             CHECK_EQUAL(subdiv_evaluate_limit_faces(s, scratch, f, 1, first, count, &out, NULL),
@@ -611,7 +611,7 @@ static void test_errors(void)
     subdiv_error error = {0};
     subdiv_options opt = {0};
     float scratch[4096], out[512];
-    subdiv_limit to = { out, NULL, NULL, 0 };
+    subdiv_limit to = { out, NULL, NULL, 0, NULL };
     build_prism(&c, 4);
     opt.error = &error;
     CHECK_EQUAL(subdiv_prepare(&plain, &c.mesh, 1, &opt), SUBDIV_OK);

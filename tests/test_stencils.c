@@ -129,7 +129,7 @@ static void check_limit(const subdiv_surface *surface, int inputs)
     float *p = malloc(3 * size), *t = malloc(6 * size), *w[3];
     size *= (size_t)inputs;
     for (int k = 0; k < 3; k++) w[k] = malloc(size);
-    subdiv_limit out = { p, NULL, t, 0 };
+    subdiv_limit out = { p, NULL, t, 0, NULL };
     for (int v = 0; v < inputs; v += 3) {
         for (int k = 0; k < 3 && v + k < inputs; k++) in[3 * (v + k) + k] = 1;
         CHECK_EQUAL(subdiv_evaluate_limit(surface, in, 0, &out, NULL, NULL), SUBDIV_OK);

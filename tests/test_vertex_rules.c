@@ -470,7 +470,7 @@ static void check_stencils(const subdiv_mesh *cage, const rule *r)
     CHECK_EQUAL(subdiv_surface_mesh(&mesh, surface, cage->positions, &opt), SUBDIV_OK);
     CHECK_EQUAL(subdiv_refined_stencils(&s, surface, 0, mesh.vertex_count, &opt), SUBDIV_OK);
     float *all = malloc(sizeof(float) * 12 * (size_t)mesh.vertex_count);
-    subdiv_limit out = { all, all + 3, all + 6, 12 };
+    subdiv_limit out = { all, all + 3, all + 6, 12, NULL };
     CHECK_EQUAL(subdiv_evaluate_limit(surface, cage->positions, 0, &out, NULL, &opt), SUBDIV_OK);
     for (int i = 0; i < mesh.vertex_count; i++) {
         const float *p = all + 12 * i;

@@ -119,6 +119,9 @@ static void check_normals(const evaluation *e)
     CHECK_EQUAL(subdiv_prepare(&surface, e->cage, e->levels, &opt), SUBDIV_OK);
     out.tangents = malloc(6 * sizeof(float) * ((size_t)a.vertex_count + 1));
     CHECK_EQUAL(subdiv_evaluate_limit(surface, e->cage->positions, 0, &out, NULL, NULL), SUBDIV_OK);
+    CHECK_EQUAL(a.normal_count, b.normal_count);
+    CHECK(a.face_normals ? memcmp(a.face_normals, b.face_normals, (size_t)a.face_size *
+          (size_t)a.face_count * sizeof(int)) == 0 : !b.face_normals);
     for (int i = 0; i < a.vertex_count && a.vertex_count == b.vertex_count; i++) {
         double turn = turn_of(out.tangents + 6 * i, size);
         if (!(turn < 0.05)) continue;                       // too short, or almost parallel
