@@ -89,6 +89,17 @@ static void check_normals(const subdiv_mesh *mesh, double degrees)
     }
 }
 
+// Each normal is that of a face-vertex, but for those of vertices without faces.
+static void check_numbers(const subdiv_mesh *mesh)
+{
+    unsigned char *used = (unsigned char *)calloc((size_t)mesh->normal_count, 1);
+    for (int h = 0; h < count; h++) used[mesh->face_normals[h]] |= 1;
+    for (int h = 0; h < count; h++) used[mesh->face_vertices[h]] |= 2;
+    for (int i = 0; i < mesh->normal_count; i++)
+        CHECK(i < mesh->vertex_count ? used[i] != 2 : used[i] == 1);
+    free(used);
+}
+
 static void test_creases(void)
 {
     for (unsigned seed = 1; seed <= CAGES; seed++) {
@@ -98,6 +109,7 @@ static void test_creases(void)
         CHECK_EQUAL(subdiv_normals(&c->mesh, NULL), SUBDIV_OK);
         // Without infinitely sharp creases in its list, a mesh has one normal a vertex.
         if (c->mesh.face_normals) check_normals(&c->mesh, 181);
+        if (c->mesh.face_normals) check_numbers(&c->mesh);
         else CHECK_EQUAL(c->mesh.normal_count, c->mesh.vertex_count);
         float *normals = c->mesh.normals;                 // filled where they are
         CHECK_EQUAL(subdiv_normals(&c->mesh, NULL), SUBDIV_OK);
