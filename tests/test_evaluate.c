@@ -830,7 +830,7 @@ static subdiv_surface *prepare_prism(test_cage *cage, int levels)
 
 // The result and the code in the error are the same.
 static subdiv_error error;
-static const subdiv_options with_error = { 0, 0, 0, 0, 0, &error, NULL, NULL };
+static const subdiv_options with_error = { 0, 0, 0, 0, 0, &error, NULL, NULL, 0 };
 
 #define CHECK_FAILS(call, result) do {                                                  \
         error.code = SUBDIV_RESULT_COUNT; error.message[0] = 0;                         \
