@@ -6616,7 +6616,7 @@ typedef struct sdv_interior {             // makes the points inside grids
     int level, full;                    // made from this level; the last whole level up to it
     const sdv_grid_limit *limit;        // makes the limit of level; NULL: makes the next level
     sdv_grid_step step;
-    sdv_grid grids[SDV_MOST_LEVELS];    // one face's, of levels full to level
+    sdv_grid grids[SDV_MOST_LEVELS - SDV_FULL_LEVELS];  // one face's, of levels full to level
 } sdv_interior;
 
 enum { SDV_LARGE_REGION = 21, SDV_SMALL_REGION = 13 };              // points along a side
@@ -6692,7 +6692,7 @@ static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step
 static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_out *to)
 {
     sdv_four room[SDV_LARGE_REGION * SDV_LARGE_REGION], other[SDV_SMALL_REGION * SDV_SMALL_REGION];
-    sdv_cells needed[SDV_MOST_LEVELS];
+    sdv_cells needed[SDV_MOST_LEVELS - SDV_FULL_LEVELS];
     sdv_region region, before;
     int last = in->level - in->full;
     needed[last] = cells;
@@ -10209,8 +10209,8 @@ typedef struct sdv_exact_evaluation {
     float *out[6], *normals;
     size_t stride, normal_stride;
     int order;                          // of the highest derivative
-    unsigned char failed[SDV_MOST_JOBS];        // jobs that got no memory
-    unsigned char refused[SDV_MOST_JOBS];       // jobs with a location that is not there
+    unsigned char *failed;              // [jobs] got no memory
+    unsigned char *refused;             // [jobs] have a location that is not there
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
@@ -10696,7 +10696,7 @@ typedef struct sdv_queue {
     sdv_context  context;
     sdv_arena    arena;
     int          room, count;
-    int          most_work;             // of their nests
+    double      *work;                  // [4 * most_work] of the nests
     sdv_waiting *items;                 // [room] NULL before the first one
     uint32_t    *keys;                  // [room] from the highest bit: nest, level, face, quarter
     int         *order[2];              // [room] sorted, and while they are
@@ -10710,7 +10710,7 @@ static void sdv_queue_new(const sdv_exact_evaluation *e, size_t share, sdv_queue
     queue->context.user = e->opt ? e->opt->user : NULL;
     queue->arena = sdv_new_arena(0);
     queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
-    queue->count = queue->most_work = 0;
+    queue->count = 0;
     queue->items = NULL;
 }
 
@@ -10759,23 +10759,18 @@ static void sdv_sample_nest(const sdv_waiting *at, int level, int c, sdv_nest_sa
 // Evaluates the samples of a queue.
 static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
 {
-    double stack[4 * SDV_NEST_STACK];
-    sdv_arena arena = sdv_new_arena(0);
     sdv_nest_sample s;
-    s.state.w = stack;
+    s.state.w = queue->work;
     s.like = NULL;
-    if (queue->most_work > SDV_NEST_STACK)
-        s.state.w = SDV_NEW(&queue->context, &arena, double, 4 * (size_t)queue->most_work);
     sdv_sort_queue(queue);
-    for (int c = 0; c < e->channels && s.state.w; c += 4) {
+    for (int c = 0; c < e->channels; c += 4) {
         s.nest = -1;
         for (int k = 0; k < queue->count; k++) {
             int i = queue->order[0][k];
             sdv_sample_nest(&queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
         }
     }
-    queue->count = queue->most_work = 0;
-    sdv_arena_free(&arena);
+    queue->count = 0;
 }
 
 // Adds a sample to the queue.
@@ -10784,8 +10779,8 @@ static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, siz
 {
     const sdv_exact *exact = e->surface->exact;
     const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
-    int work = sdv_nest_work(exact, face->nest);
     if (!queue->items) {
+        queue->work = SDV_NEW(&queue->context, &queue->arena, double, 4 * (size_t)exact->most_work);
         queue->items = SDV_NEW(&queue->context, &queue->arena, sdv_waiting, queue->room);
         queue->keys = SDV_NEW(&queue->context, &queue->arena, uint32_t, queue->room);
         for (int k = 0; k < 2; k++)
@@ -10803,7 +10798,6 @@ static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, siz
     queue->keys[queue->count++] =
         (uint32_t)face->nest << 20 | (uint32_t)leaf->below_kept << 12 |
         ((uint32_t)at->face & 1023) << 2 | (uint32_t)(at->y >= 0.5) << 1 | (uint32_t)(at->x >= 0.5);
-    if (work > queue->most_work) queue->most_work = work;
 }
 
 // Writes the zeros of a face without a surface.
@@ -10973,6 +10967,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     sdv_check_exact(&context, surface, channels, count, locations, out);
     if (context.result) return context.result;
     sdv_exact_evaluation e;
+    unsigned char failed[SDV_MOST_JOBS] = { 0 }, refused[SDV_MOST_JOBS] = { 0 };
     float *to[6] = { out->points, out->du, out->dv, out->duu, out->duv, out->dvv };
     memset(&e, 0, sizeof e);
     e.surface = surface;
@@ -10986,11 +10981,13 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.normal_stride = (size_t)(out->stride ? out->stride : 3);
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
     e.opt = opt;
+    e.failed = failed;
+    e.refused = refused;
     e.jobs = sdv_jobs(opt, count, 1024);
     sdv_run(opt, sdv_locations_job, &e, e.jobs);
-    if (memchr(e.refused, 1, sizeof e.refused))
+    if (memchr(refused, 1, sizeof refused))
         sdv_check_locations(&context, surface, count, locations);
-    else if (memchr(e.failed, 1, sizeof e.failed))
+    else if (memchr(failed, 1, sizeof failed))
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
 }
@@ -12463,7 +12460,7 @@ static void sdv_tile_points_job(void *context, int job)
     int i = sdv_share(count, job, l.jobs), end = sdv_share(count, job + 1, l.jobs);
     sdv_context here = { SUBDIV_OK, NULL, l.user, NULL };
     sdv_arena arena = sdv_new_arena(0);
-    double stack[4 * SDV_NEST_STACK], *w = stack;
+    double *w = NULL;
     if (l.tangents.normals) l.out.tangents = &l.tangents;
     sdv_patch_at at = sdv_find_patch(surface, i);
     for (; i < end && i < patches; i++, at.i++) {
@@ -12471,8 +12468,7 @@ static void sdv_tile_points_job(void *context, int job)
         sdv_put_patch_points(&l, at);
     }
     for (; i < end && !here.result; i++) {
-        if (w == stack && sdv_nest_work(exact, i - patches) > SDV_NEST_STACK)
-            w = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
+        if (!w) w = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
         if (w) sdv_put_nest_points(&l, i - patches, w);
     }
     sdv_flush_tangents(&l.tangents);
