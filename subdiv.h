@@ -1599,15 +1599,15 @@ static void sdv_check_faces(sdv_context *context, const subdiv_mesh *mesh)
 static void sdv_check_list(sdv_context *context, const char *what, int count, const int *items,
                            int ends, int most, const float *sharpness)
 {
-    for (int i = 0; i < count && !context->result; i++) {
-        for (int j = ends * i; j < ends * (i + 1); j++)
+    for (int i = 0; i < count && !context->result; i++, items += ends) {
+        for (int j = 0; j < ends; j++)
             if (items[j] < 0 || items[j] >= most)
                 sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, sharpness ? -1 : items[j],
                               sharpness ? items[j] : -1,
                               "%s %d: %s %d does not exist (the mesh has %d)", what, i,
                               sharpness ? "vertex" : "face", items[j], most);
         if (sharpness && sharpness[i] != sharpness[i])
-            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, items[ends * i],
+            sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, items[0],
                           "%s %d: the sharpness is not a number", what, i);
     }
 }
@@ -2028,8 +2028,8 @@ static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const sub
     memset(level->sharpness, 0, (size_t)level->face_vertex_count * sizeof(float));
     memset(level->vertex_sharpness, 0, (size_t)level->vertex_count * sizeof(float));
     for (int i = 0; i < mesh->crease_count; i++) {
-        int a = mesh->crease_vertices[2 * i], b = mesh->crease_vertices[2 * i + 1];
-        int e = sdv_find_edge(level, a, b);
+        const int *ends = mesh->crease_vertices + 2 * (size_t)i;
+        int a = ends[0], b = ends[1], e = sdv_find_edge(level, a, b);
         float s = sdv_clamp_sharpness(mesh->crease_sharpness[i]);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else level->sharpness[level->edge_first[e]] = s;
@@ -5740,7 +5740,7 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *
 // Writes the normals and tangents of the limit's points. Rows and grids make the tangents; normals
 // are made from these, four at a time.
 
-enum { SDV_WAITING = 16 };              // points that wait at most; a multiple of 4
+enum { SDV_WAITING = 8 };               // points that wait at most; a multiple of 4
 
 typedef struct sdv_tangents {           // goes with an sdv_window and has the same points
     float *normals, *tangents;          // where they go, or NULL
