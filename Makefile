@@ -30,7 +30,7 @@ endif
 TEST_FLAGS = $(subst -O2,-O1,$(FLAGS)) $(THREADS)
 OWN      = buffers evaluate memory exact patches obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
-           recorded creases check errors uv partial_uvs vertex_rules normals
+           recorded creases check errors uv partial_uvs vertex_rules normals threads stack limits
 TESTS    = $(OWN) $(PLAIN) growth
 EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
            07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer
@@ -124,28 +124,35 @@ endif
 	@sh tests/lib/sum.sh $(TEST_LOGS)
 
 # The sanitizers share the tests: those that take an implementation of their own go to the first
-# compiler, the others to the last.
+# compiler, the others to the last, of which clang also finds unsigned numbers that overflow. The
+# sanitizers have a stack of their own.
 COMPILERS := $(foreach c,gcc clang,$(if $(shell command -v $c 2> /dev/null),$c))
 CHECK     = $(OUT)/check
 SANITIZE  = -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
-SANITIZED_LOGS = $(MAKE) --no-print-directory logs CFLAGS="$(SANITIZE)"
-PLAIN_TESTS = $(filter-out exact_oracle,$(PLAIN))
+INTEGER   = -fsanitize=integer -fsanitize-ignorelist=tests/lib/integer.txt
+SANITIZED_LOGS = $(MAKE) --no-print-directory logs
+PLAIN_TESTS = $(filter-out exact_oracle stack,$(PLAIN))
 SANITIZED = $(OWN:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
-CHECK_LOGS = $(CHECK)/simd.log $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log)
+CHECK_LOGS = $(CHECK)/simd.log $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log) \
+             $(CHECK)/threads.log $(CHECK)/lint.log
 
 sanitize_own:
-	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)"
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)" CFLAGS="$(SANITIZE)"
 
 sanitize_plain:
-	@+$(SANITIZED_LOGS) OUT=$(CHECK)/plain CC=$(lastword $(COMPILERS)) TESTS="$(PLAIN_TESTS)"
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/plain CC=$(lastword $(COMPILERS)) TESTS="$(PLAIN_TESTS)" \
+		CFLAGS="$(SANITIZE) $(if $(filter clang,$(COMPILERS)),$(INTEGER))"
 
 logs: $(TESTS:%=$(OUT)/%.log)
 
 $(COMPILERS:%=$(CHECK)/%.log): $(CHECK)/%.log: FORCE
 	$(RUN) sh tests/check.sh $*
 
-$(CHECK)/simd.log: FORCE
-	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/simd.sh
+$(CHECK)/simd.log $(CHECK)/threads.log: $(CHECK)/%.log: FORCE
+	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/$*.sh
+
+$(CHECK)/lint.log: FORCE | $(OUT)
+	$(RUN) sh tests/lint.sh
 
 $(CHECK)/growth.log: $(OUT)/test_growth FORCE
 	$(RUN) $< 11

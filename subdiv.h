@@ -7123,7 +7123,7 @@ static void *sdv_carve_copy(char *base, size_t *size, const void *from, size_t c
 
 // Carves and copies an array of so many numbers an item.
 #define SDV_CARVE(type, from, count, numbers) \
-    ((type *)sdv_carve_copy(base, &size, from, count, numbers * sizeof(type)))
+    ((type *)sdv_carve_copy(base, &size, from, count, (numbers) * sizeof(type)))
 
 // The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
 typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
@@ -9309,7 +9309,7 @@ static void sdv_set_cut(sdv_cell_maker *maker, const sdv_square *square, const s
         for (int n = 1 << SDV_STRIP_LEVELS; n > along->items[i].unit; n /= 2) columns++;
         for (int n = 1 << SDV_STRIP_LEVELS; n > up->items[j].unit; n /= 2) rows++;
         if (columns <= square->level && rows <= square->level) {
-            size_t polynomial = (size_t)(patch->polynomial + j * along->count + i);
+            size_t polynomial = (size_t)patch->polynomial + (size_t)(j * along->count + i);
             sdv_set_polynomial(maker, square, polynomial, columns, rows, leaf);
             return;
         }
@@ -10265,7 +10265,7 @@ static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch
         for (int k = 0; k < sdv_double_parts(&from); k++) {
             sdv_make_polynomial(&from, k, &q, origin);
             sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
-                                sdv_polynomial_at(e, (size_t)(patch->polynomial + k), c));
+                                sdv_polynomial_at(e, (size_t)patch->polynomial + (size_t)k, c));
         }
     }
 }
@@ -10767,7 +10767,7 @@ static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
         s.nest = -1;
         for (int k = 0; k < queue->count; k++) {
             int i = queue->order[0][k];
-            sdv_sample_nest(&queue->items[i], queue->keys[i] >> 12 & 255, c, &s);
+            sdv_sample_nest(&queue->items[i], (int)(queue->keys[i] >> 12 & 255), c, &s);
         }
     }
     queue->count = 0;
@@ -13926,7 +13926,7 @@ static char *sdv_write_decimal(char *p, uint32_t digits, int ten)
     }
     for (int i = point < 1 ? point - 1 : 0; i < count || i < point; i++) {
         if (i == point) *p++ = '.';
-        *p++ = i < 0 || i >= count ? '0' : first[i];
+        *p++ = (char)(i < 0 || i >= count ? '0' : first[i]);
     }
     if (ten == 0) return p;
     *p++ = 'e';
@@ -14697,7 +14697,7 @@ static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
         if (*p == '#' && (any || p == keyword.end || (blank && sdv_ends_token(p + 1)))) break;
         blank = sdv_is_blank(*p) || sdv_is_newline(*p) || sdv_continues(p);
         if (sdv_continues(p)) p = sdv_skip_newline(p + 1) - 1;
-        if (!blank || end > name) *end++ = sdv_is_newline(*p) ? ' ' : *p;
+        if (!blank || end > name) *end++ = (char)(sdv_is_newline(*p) ? ' ' : *p);
     }
     while (sdv_is_blank(end[-1])) end--;
     *end++ = 0;

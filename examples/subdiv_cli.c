@@ -722,7 +722,7 @@ static int print_sample_lines(char *text, size_t size)
     int vertices = 0;
     for (size_t i = 0; i < size; i++) {
         if (text[i] == 'v') i++;
-        else text[end++] = text[i] == '\n' && ++vertices % 3 ? ' ' : text[i];
+        else text[end++] = (char)(text[i] == '\n' && ++vertices % 3 ? ' ' : text[i]);
     }
     fwrite(text, 1, end, stdout);
     return flush_output();

@@ -55,12 +55,12 @@ static void test_threads(void)
     subdiv_options alone = { 0 }, threads = { 0 };
     threads.run = run;
     test_context = seed_text;
-    for (unsigned seed = 1; seed <= 20; seed++) {
+    for (unsigned seed = 1; seed <= 10; seed++) {
         random_cage *c = random_cage_new(seed, RANDOM_ALL);
         if (!c) abort();
         sprintf(seed_text, "cage %u", seed);
-        CHECK(every_call(&c->mesh, 4, &threads, no_more) ==
-              every_call(&c->mesh, 4, &alone, no_more));
+        CHECK(every_call(&c->mesh, 3, &threads, no_more) ==
+              every_call(&c->mesh, 3, &alone, no_more));
         random_cage_free(c);
     }
     CHECK(lent > 20);
