@@ -137,7 +137,8 @@ CHECK_LOGS = $(CHECK)/simd.log $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log)
              $(CHECK)/threads.log $(CHECK)/lint.log
 
 sanitize_own:
-	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)" CFLAGS="$(SANITIZE)"
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)" \
+		CFLAGS="$(SANITIZE)"
 
 sanitize_plain:
 	@+$(SANITIZED_LOGS) OUT=$(CHECK)/plain CC=$(lastword $(COMPILERS)) TESTS="$(PLAIN_TESTS)" \
