@@ -384,6 +384,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface);
 // linearly: use it for data that must not overshoot. Look up data of faces by cage_faces.
 
 // Return the sizes of the result. face_size is 4, or 3 under Loop; on level 0 it is the cage's.
+// All functions that return a number return 0 for a surface that is NULL.
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface);
 SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface);
@@ -883,12 +884,16 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt);
 
 // Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
-// subdiv_save_obj, but above level 0 without normals. The mesh is never in memory as a whole.
+// subdiv_save_obj, but without normals. From level 1 on, the mesh is never in memory as a whole.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
 
-// Files. Paths are UTF-8, on Windows too.
+// Files. Paths are UTF-8, on Windows too. Saving replaces a regular file only when the new one is
+// whole: until then that is beside it, as "fine.obj.0.tmp" for fine.obj or with the next number that
+// is free. An error removes it and leaves the old file as it was. The new file has the old one's
+// permissions. Devices, pipes, links and files that cannot be replaced, as in a folder that is
+// read-only, are written in place: an error may leave a part of the text there.
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);
@@ -925,6 +930,10 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #ifndef SUBDIV_NO_STDIO
 #include <errno.h>
 #include <stdio.h>
+#if (defined(__GNUC__) || defined(__TINYC__)) && (defined(__unix__) || defined(__APPLE__))
+#include <sys/stat.h>
+#define SDV_POSIX
+#endif
 #endif
 
 #if defined(SUBDIV_MALLOC) != defined(SUBDIV_FREE)
@@ -7405,31 +7414,32 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
 
 SUBDIV_DEF int subdiv_surface_vertex_count(const subdiv_surface *surface)
 {
-    return surface->fine.vertex_count;
+    return surface ? surface->fine.vertex_count : 0;
 }
 
 SUBDIV_DEF int subdiv_surface_face_count(const subdiv_surface *surface)
 {
-    return surface->fine.face_count;
+    return surface ? surface->fine.face_count : 0;
 }
 
 SUBDIV_DEF int subdiv_surface_face_size(const subdiv_surface *surface)
 {
-    return surface->fine.face_size;
+    return surface ? surface->fine.face_size : 0;
 }
 
 SUBDIV_DEF int subdiv_surface_cage_face_count(const subdiv_surface *surface)
 {
-    return surface->cage_face_count;
+    return surface ? surface->cage_face_count : 0;
 }
 
 SUBDIV_DEF int subdiv_surface_edge_count(const subdiv_surface *surface)
 {
-    return surface->order.cage.edge_count;
+    return surface ? surface->order.cage.edge_count : 0;
 }
 
 SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
 {
+    if (!surface || !ends) return;
     const sdv_level *cage = &surface->order.cage;
     for (int h = 0; h < cage->face_vertex_count && cage->edge_count; h++) {
         int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
@@ -7440,9 +7450,11 @@ SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends)
 
 SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 {
-    if (surface->levels == 0 || surface->cage_face_count == 0 || surface->exact)
-        return surface->fine.vertex_count;
-    return sdv_first_inside(&surface->order, cage_face);
+    int faces = subdiv_surface_cage_face_count(surface);
+    if (faces == 0 || surface->levels == 0 || surface->exact)
+        return subdiv_surface_vertex_count(surface);
+    int face = cage_face < 0 ? 0 : cage_face < faces ? cage_face : faces;
+    return sdv_first_inside(&surface->order, face);
 }
 
 SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int *face_vertices,
@@ -7479,6 +7491,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_face_normals(const subdiv_surface *surfa
 
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels)
 {
+    if (!surface || channels < 1) return 0;
     if (surface->exact) return surface->exact_calls->size(surface, channels);
     surface = sdv_maker(surface);
     double points = (double)surface->work_count + 1;
@@ -15246,6 +15259,7 @@ static subdiv_result sdv_write_obj(sdv_context *context, const subdiv_mesh *mesh
     if (context->result) return context->result;
     if (surface && surface->levels == 0) {                      // no larger than the cage
         context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
+        copy.normals = NULL;                                    // as on the other levels
         mesh = &copy;
     }
     sdv_arena arena = sdv_scratch();
@@ -15309,32 +15323,71 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *t
 
 #ifndef SUBDIV_NO_STDIO
 
-// The path is UTF-8, which Windows has to be told.
+// Paths are UTF-8, which Windows has to be told.
 #ifdef _WIN32
 #ifdef __cplusplus
-extern "C"
+extern "C" {
 #endif
 __declspec(dllimport) int __stdcall MultiByteToWideChar(unsigned, unsigned long, const char *, int,
                                                         wchar_t *, int);
+__declspec(dllimport) int __stdcall MoveFileExW(const wchar_t *, const wchar_t *, unsigned long);
+#ifdef __cplusplus
+}
+#endif
+
+static wchar_t *sdv_wide(sdv_context *context, sdv_arena *arena, const char *path)
+{
+    const unsigned utf8 = 65001;
+    int size = MultiByteToWideChar(utf8, 8, path, -1, NULL, 0);    // 8: nothing invalid
+    if (size == 0) sdv_fail(context, SUBDIV_ERROR_IO, "the path is not UTF-8");
+    wchar_t *wide = SDV_NEW(context, arena, wchar_t, size);
+    if (wide) MultiByteToWideChar(utf8, 8, path, -1, wide, size);
+    return wide;
+}
 
 static FILE *sdv_open_path(sdv_context *context, const char *path, const char *mode)
 {
-    const unsigned utf8 = 65001;
     const wchar_t wide_mode[] = { (wchar_t)mode[0], (wchar_t)mode[1], 0 };
     sdv_arena arena = sdv_scratch();
-    FILE *file = NULL;
-    int size = MultiByteToWideChar(utf8, 8, path, -1, NULL, 0);    // 8: nothing invalid
-    if (size == 0) sdv_fail(context, SUBDIV_ERROR_IO, "the path is not UTF-8");
-    wchar_t *wide = SDV_NEW(context, &arena, wchar_t, size);
-    if (wide && MultiByteToWideChar(utf8, 8, path, -1, wide, size)) file = _wfopen(wide, wide_mode);
+    const wchar_t *wide = sdv_wide(context, &arena, path);
+    FILE *file = wide && mode[2] ? _wfopen(wide, L"rb") : NULL;     // not every runtime knows x
+    if (file) {
+        fclose(file);
+        file = NULL;
+        errno = EEXIST;
+    } else if (wide) {
+        file = _wfopen(wide, wide_mode);
+    }
     sdv_arena_free(&arena);
     return file;
+}
+
+// Gives a file another name, also if there is a file of that name. Removes the file if it fails, or
+// if to is NULL. Returns whether it has the name.
+static int sdv_rename(const sdv_context *context, const char *from, const char *to)
+{
+    sdv_context own = { SUBDIV_OK, NULL, context->user, NULL };     // the call may have failed
+    sdv_arena arena = sdv_scratch();
+    const wchar_t *wide_from = sdv_wide(&own, &arena, from);
+    const wchar_t *wide_to = to ? sdv_wide(&own, &arena, to) : NULL;
+    int done = wide_to && MoveFileExW(wide_from, wide_to, 1);       // 1: replaces
+    if (!done && wide_from) _wremove(wide_from);
+    sdv_arena_free(&arena);
+    return done;
 }
 #else
 static FILE *sdv_open_path(sdv_context *context, const char *path, const char *mode)
 {
     (void)context;
     return fopen(path, mode);
+}
+
+static int sdv_rename(const sdv_context *context, const char *from, const char *to)
+{
+    (void)context;
+    if (to && rename(from, to) == 0) return 1;
+    remove(from);
+    return 0;
 }
 #endif
 
@@ -15372,14 +15425,68 @@ SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
     return context.result;
 }
 
+// May another file take the place of this one? Either it is a regular file that may be written, or
+// there is none.
+static int sdv_is_replaceable(sdv_context *context, const char *path)
+{
+#if defined(SDV_POSIX)
+#ifdef __APPLE__
+    extern long sdv_readlink(const char *path, char *text, size_t size) __asm__("_readlink");
+#else
+    extern long sdv_readlink(const char *path, char *text, size_t size) __asm__("readlink");
+#endif
+    struct stat old;
+    char text;
+    if (sdv_readlink(path, &text, 1) >= 0) return 0;
+    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode)) return 0;
+#elif !defined(_WIN32)
+    return 0;                                   // rename need not replace what is there
+#endif
+    FILE *file = sdv_open_path(context, path, "r+");
+    if (file) fclose(file);
+    return file || errno == ENOENT;
+}
+
+// Opens a new file beside a path and stores its name, of which size bytes are kept. NULL if the
+// path is to be written in place, and on failure.
+static FILE *sdv_open_beside(sdv_context *context, const char *path, char *name, size_t size)
+{
+    FILE *file = NULL;
+    if (!sdv_is_replaceable(context, path)) return NULL;
+    errno = EEXIST;
+    for (int i = 0; i < 100 && !file && errno == EEXIST; i++) {
+        sdv_text out = { name, 0, size };
+        sdv_say(&out, "%s.%d.tmp", path, i);
+        file = sdv_open_path(context, name, "wbx");
+    }
+#ifdef SDV_POSIX
+    struct stat old;
+    if (file && stat(path, &old) == 0) chmod(name, old.st_mode & 0777);
+#endif
+    if (file) setvbuf(file, NULL, _IONBF, 0);
+    else if (errno == ENOSPC) sdv_fail_io(context, "writing failed");
+    return file;
+}
+
 static subdiv_result sdv_write_path(sdv_context *context, const subdiv_mesh *mesh,
                                     const subdiv_surface *surface, const float *positions,
                                     const char *path, const subdiv_options *opt)
 {
-    FILE *file = context->result ? NULL : sdv_open(context, path, "wb");
-    if (!file) return context->result;                      // bad arguments leave a file as it is
-    sdv_write_obj(context, mesh, surface, positions, sdv_write_file, file, opt);
-    if (fclose(file)) sdv_fail_io(context, "writing failed");
+    if (context->result) return context->result;            // bad arguments leave a file as it is
+    sdv_arena arena = sdv_scratch();
+    size_t size = strlen(path) + 16;
+    char *beside = SDV_NEW(context, &arena, char, size);
+    context->name = path;
+    for (int done = 0, again = 0; !done && !context->result; again = 1) {
+        FILE *file = again ? NULL : sdv_open_beside(context, path, beside, size);
+        done = !file;
+        if (!file) file = sdv_open(context, path, "wb");
+        if (!file) break;
+        sdv_write_obj(context, mesh, surface, positions, sdv_write_file, file, opt);
+        if (fclose(file)) sdv_fail_io(context, "writing failed");
+        if (!done) done = sdv_rename(context, beside, context->result ? NULL : path);
+    }
+    sdv_arena_free(&arena);
     return context->result;
 }
 
@@ -15964,6 +16071,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_INLINE
 #undef SDV_SIMD
 #undef SDV_SEPARATE
+#undef SDV_POSIX
 #undef SDV_NEW
 #undef SDV_CARVE
 #undef SDV_IMPLIED
