@@ -10,8 +10,9 @@
 //     refine 0.693 ms 40.52 ns/vertex
 //     save 7.781 ms 455.17 ns/vertex
 
-#define _POSIX_C_SOURCE 200809L       // clock_gettime, where there are pthreads
+#define _XOPEN_SOURCE 700             // clock_gettime, realpath and more, where there are pthreads
 
+#include <errno.h>
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -25,6 +26,8 @@
 #ifndef _WIN32
 #define HAS_PTHREADS
 #include <pthread.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #endif
 
 #define SUBDIV_IMPLEMENTATION
@@ -497,10 +500,9 @@ static size_t read_stdin(void *user, void *bytes, size_t size)
     return n == 0 && ferror(stdin) ? (size_t)-1 : n;
 }
 
-static size_t write_stdout(void *user, const void *bytes, size_t size)
+static size_t write_file(void *user, const void *bytes, size_t size)
 {
-    (void)user;
-    return fwrite(bytes, 1, size, stdout);
+    return fwrite(bytes, 1, size, (FILE *)user);
 }
 
 // Loads the cage and lets the options win over the tags of the file.
@@ -575,24 +577,104 @@ static int explain(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
     return result ? report(cmd->input, opt) : flush_output();
 }
 
-static int writes_stdout(const command *cmd)
+// A file that is being written. Under its final name it is always whole: until then it has another
+// one, and is removed if writing fails or the program is stopped. Written in place is only what is
+// no regular file, such as a device, or in a folder that takes no new files.
+typedef struct output {
+    FILE       *file;
+    const char *path;                 // NULL or "-": standard output
+    char        real[4096];           // the path behind links
+    char        beside[4096 + 32];    // the name until the file is whole
+} output;
+
+static const char *volatile unfinished;   // beside, while that file is open
+
+#ifdef _WIN32
+static FILE *open_beside(output *o)
 {
-    return cmd->output == NULL || strcmp(cmd->output, "-") == 0;
+    snprintf(o->beside, sizeof o->beside, "%s.tmp", o->path);
+    unfinished = o->beside;
+    return fopen(o->beside, "wb");
 }
 
-// Looks at how writing ended. What a failed write has left of OUTPUT is emptied, not removed:
-// OUTPUT may be a device.
-static int check_output(subdiv_result result, const command *cmd, const subdiv_options *opt)
+// Here rename does not replace. If it fails now, the file is still there under its other name.
+static int rename_output(const output *o)
 {
-    if (writes_stdout(cmd)) {
-        if (result == SUBDIV_OK || result == SUBDIV_ERROR_IO) return flush_output();
-    } else if (result == SUBDIV_OK) {
-        return DONE;
-    } else if (result == SUBDIV_ERROR_IO) {
-        FILE *file = fopen(cmd->output, "wb");
-        if (file) fclose(file);
-    }
-    return report(writes_stdout(cmd) ? cmd->input : cmd->output, opt);
+    remove(o->path);
+    return rename(o->beside, o->path);
+}
+#else
+static FILE *open_beside(output *o)
+{
+    struct stat old;
+    if (strncmp(o->path, "/dev/", 5) != 0 && realpath(o->path, o->real)) o->path = o->real;
+    int exists = lstat(o->path, &old) == 0;
+    if (exists && (!S_ISREG(old.st_mode) || access(o->path, W_OK))) return NULL;
+    snprintf(o->beside, sizeof o->beside, "%s.%ld.tmp", o->path, (long)getpid());
+    unfinished = o->beside;
+    FILE *file = fopen(o->beside, "wb");
+    if (file && exists) chmod(o->beside, old.st_mode & 0777);
+    return file;
+}
+
+static int rename_output(const output *o)
+{
+    return rename(o->beside, o->path);
+}
+
+// Ends the program after Ctrl-C, or when nobody reads what it writes, without a word.
+static void stop(int number)
+{
+    const char *name = unfinished;
+    (void)number;
+    if (name) unlink(name);
+    _exit(FAILED);
+}
+#endif
+
+static void catch_signals(void)
+{
+#ifndef _WIN32
+    const int numbers[] = {SIGHUP, SIGINT, SIGPIPE, SIGTERM};
+    for (int i = 0; i < 4; i++)
+        if (signal(numbers[i], stop) == SIG_IGN && numbers[i] != SIGPIPE)
+            signal(numbers[i], SIG_IGN);
+#endif
+}
+
+static int fail_output(const char *path)
+{
+    fprintf(stderr, "subdiv: %s: %s\n", path, strerror(errno));
+    return FAILED;
+}
+
+static int open_output(output *o, const char *path)
+{
+    o->path = path;
+    o->file = stdout;
+    if (path == NULL || strcmp(path, "-") == 0) return DONE;
+    errno = 0;
+    o->file = strlen(path) < sizeof o->real ? open_beside(o) : NULL;
+    if (o->file == NULL) unfinished = NULL;
+    if (o->file == NULL && errno != ENOSPC) o->file = fopen(o->path, "wb");
+    if (o->file == NULL) return fail_output(path);
+    setvbuf(o->file, NULL, _IONBF, 0);                // the library writes large blocks
+    return DONE;
+}
+
+// Looks at how writing ended.
+static int close_output(output *o, subdiv_result result, const command *cmd,
+                        const subdiv_options *opt)
+{
+    if (o->file == stdout)
+        return result && result != SUBDIV_ERROR_IO ? report(cmd->input, opt) : flush_output();
+    int failed = fclose(o->file) != 0 || result;
+    if (!failed && unfinished) failed = rename_output(o) != 0;
+    if (failed && !result) fail_output(cmd->output);
+    if (failed && unfinished) remove(o->beside);
+    unfinished = NULL;
+    if (result) return report(cmd->output, opt);
+    return failed ? FAILED : DONE;
 }
 
 // What a run needs and main frees.
@@ -633,20 +715,21 @@ static int refine_then_save(work *w, const command *cmd, const subdiv_options *o
     subdiv_mesh_free(&w->cage);
     if (result) return report(cmd->input, opt);
     end_step(w, "refine");
-    result = writes_stdout(cmd) ? subdiv_save_obj_callback(&w->fine, write_stdout, NULL, opt)
-                                : subdiv_save_obj(&w->fine, cmd->output, opt);
-    if (check_output(result, cmd, opt)) return FAILED;
+    output out = {0};
+    if (open_output(&out, cmd->output)) return FAILED;
+    result = subdiv_save_obj_callback(&w->fine, write_file, out.file, opt);
+    if (close_output(&out, result, cmd, opt)) return FAILED;
     end_step(w, "save");
     return DONE;
 }
 
 static int stream(work *w, const command *cmd, const subdiv_options *opt)
 {
-    const float *positions = w->cage.positions;
-    subdiv_result result = writes_stdout(cmd)
-        ? subdiv_stream_obj_callback(w->surface, positions, write_stdout, NULL, opt)
-        : subdiv_stream_obj(w->surface, positions, cmd->output, opt);
-    if (check_output(result, cmd, opt)) return FAILED;
+    output out = {0};
+    if (open_output(&out, cmd->output)) return FAILED;
+    subdiv_result result = subdiv_stream_obj_callback(w->surface, w->cage.positions, write_file,
+                                                      out.file, opt);
+    if (close_output(&out, result, cmd, opt)) return FAILED;
     end_step(w, "refine+save");
     return DONE;
 }
@@ -849,9 +932,7 @@ int main(int argc, char **argv)
     command cmd = {{0}, {0}, NULL, NULL, NULL};
     int result = read_command(&cmd, argc, argv);
     if (result) return result;
-#ifdef SIGPIPE
-    signal(SIGPIPE, SIG_IGN);         // a reader that goes away is a failed write, with a message
-#endif
+    catch_signals();
     if (cmd.given[HELP] == 1) return print_help();
     if (cmd.given[VERSION] == 1) return print_version();
 

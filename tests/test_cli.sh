@@ -576,15 +576,59 @@ fi
 subdiv box.obj >&- 2> err
 fine "closed standard output: exit 1" test $? = 1
 says "standard output"
-{ subdiv -l 6 box.obj 2> err; echo $? > status; } | true
-fine "broken pipe: exit 1" test "$(cat status)" = 1
-says "standard output"
 
-# A disk that gets full does not leave half a mesh.
-(ulimit -f 8 2> err && trap '' XFSZ 2> err && exec "$program" -l 6 box.obj half.obj 2> err)
-fine "full disk: exit 1" test $? = 1
-says "half.obj"
-fine "full disk: nothing left in OUTPUT" test ! -s half.obj
+# A reader that goes away ends the program without a word.
+for form in '-l 6' '-l 6 --stream'; do
+    { subdiv $form box.obj 2> err; echo $? > status; } | true
+    fine "subdiv $form, broken pipe: exit 1" test "$(cat status)" = 1
+    fine "subdiv $form, broken pipe: not a word" test ! -s err
+done
+
+# OUTPUT is whole or as it was: a full disk and Ctrl-C leave the old file, and nothing beside it.
+# unharmed WHAT: that is so of kept.obj.
+unharmed() {
+    same kept.obj kept_copy.obj
+    fine "$1: nothing is left beside OUTPUT" test "$(ls kept*)" = "$(printf 'kept.obj\nkept_copy.obj')"
+}
+
+for form in '' --stream; do
+    (ulimit -f 8 2> err && trap '' XFSZ 2> err && exec "$program" $form -l 6 box.obj kept.obj 2> err)
+    fine "full disk $form: exit 1" test $? = 1
+    says "kept.obj"
+    unharmed "full disk $form"
+done
+chmod 640 kept.obj
+# The shell has programs in the background ignore INT.
+default=
+env --default-signal=INT true 2> err && default='env --default-signal=INT'
+for signal in ${default:+INT} TERM HUP; do
+    $default "$program" --stream -l 10 box.obj kept.obj 2> err &
+    for try in 1 2 3 4 5 6 7 8 9 10; do
+        test -s kept.obj.$!.tmp && break
+        sleep 0.1
+    done
+    fine "$signal: it writes beside OUTPUT" test -s kept.obj.$!.tmp
+    fine "$signal: with its permissions" \
+        test "$(ls -l kept.obj.$!.tmp | cut -c 1-10)" = -rw-r-----
+    kill -s $signal $!
+    wait $! 2> /dev/null
+    fine "$signal: exit 1" test $? = 1
+    unharmed $signal
+done
+ln -s kept.obj link.obj
+ends 0 -l 2 box.obj link.obj
+fine "a link stays one" test -h link.obj
+same kept.obj two.obj
+fine "permissions stay" test "$(ls -l kept.obj | cut -c 1-10)" = -rw-r-----
+cp kept_copy.obj kept.obj
+subdiv -l 2 box.obj /dev/stdout > out
+same out two.obj
+if [ -p pipe ]; then
+    cat pipe > out &
+    ends 0 -l 2 box.obj pipe
+    wait $!
+    fine "a pipe stays one" test -p pipe
+fi
 
 # --------------------------------------------------------------------------------------- stream
 
@@ -622,10 +666,6 @@ if [ -w /dev/full ]; then
     ends 1 --stream -l 0 ../../examples/cages/octopus.obj /dev/full
     says "/dev/full"
 fi
-(ulimit -f 8 2> err && trap '' XFSZ 2> err && exec "$program" --stream -l 6 box.obj half.obj 2> err)
-fine "full disk under --stream: exit 1" test $? = 1
-says "half.obj"
-fine "full disk under --stream: nothing left in OUTPUT" test ! -s half.obj
 
 # within MB ARGUMENTS: in so much memory.
 within() {
@@ -651,7 +691,7 @@ if within 64 --version > /dev/null 2>&1; then
     says "out of memory"
     { within 64 -l 11 box.obj 2> err; echo $? > status; } | head -n 8 > out
     fine "a large result, not read to its end: exit 1" test "$(cat status)" = 1
-    says "standard output"
+    fine "a large result, not read to its end: not a word" test ! -s err
     counts out 8 0
 fi
 
