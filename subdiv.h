@@ -889,11 +889,10 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
 
-// Files. Paths are UTF-8, on Windows too. Saving replaces a regular file only when the new one is
-// whole: until then that is beside it, as "fine.obj.0.tmp" for fine.obj or with the next number that
-// is free. An error removes it and leaves the old file as it was. The new file has the old one's
-// permissions. Devices, pipes, links and files that cannot be replaced, as in a folder that is
-// read-only, are written in place: an error may leave a part of the text there.
+// Files. Paths are UTF-8, on Windows too. Saving replaces a regular file when the new one is whole.
+// Until then that is beside it: fine.obj.0.tmp, or the next number that is free. An error removes
+// it and leaves the old file as it was. Permissions stay. Devices, pipes, links, and files in
+// folders that take no new ones, are written in place: an error may leave a part of the text.
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
                                          const subdiv_options *opt);
@@ -4630,19 +4629,20 @@ static void sdv_add_sector(const sdv_level *level, const sdv_sector *s, int loop
     }
 }
 
-// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends.
-static sdv_ray sdv_ray_of(const sdv_limit_writer *limit, int h, int end)
+// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends. (tcc 0.9.27 breaks
+// functions that return a struct of three floats.)
+static void sdv_find_ray(const sdv_limit_writer *limit, int h, int end, sdv_ray *ray)
 {
     const sdv_level *level = limit->level;
     float s = end ? sdv_sharpness_before(level, h) : level->sharpness[h];
-    sdv_ray ray = { s, sdv_half(level, h), sdv_half_before(level, h) };
-    if (end) ray.half = ray.behind, ray.behind = sdv_half(level, h);
-    if (!limit->fill || !level->half_sharpness || !sdv_is_semi_sharp(s)) return ray;
+    ray->now = s;
+    ray->half = end ? sdv_half_before(level, h) : sdv_half(level, h);
+    ray->behind = end ? sdv_half(level, h) : sdv_half_before(level, h);
+    if (!limit->fill || !level->half_sharpness || !sdv_is_semi_sharp(s)) return;
     sdv_edge_line line = sdv_line_at(limit->fill, h);
     int first = level->edge_first[level->face_edges[h]];
     int v = level->face_vertices[end ? sdv_next(level, h) : h];
-    ray.behind = line.next[level->face_vertices[first] == v ? 1 : 2 * line.n - 2];
-    return ray;
+    ray->behind = line.next[level->face_vertices[first] == v ? 1 : 2 * line.n - 2];
 }
 
 // Returns the last face-vertex of the ring of h's edge.
@@ -4661,7 +4661,7 @@ static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
     s->corner = level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
         int before = sdv_previous(level, at), end = i == s->faces, h = end ? before : at;
-        s->rays[i] = sdv_ray_of(limit, h, end);
+        sdv_find_ray(limit, h, end, &s->rays[i]);
         limit->seen[sdv_last_of_edge(level, h)] = mark;
         if (i + 1 < s->faces) at = level->across[before];
     }
@@ -4671,8 +4671,8 @@ static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
             int h = end ? sdv_previous(level, k) : k;
             if (!sdv_is_edge_at(level, h, !end)) continue;
             if (limit->seen[sdv_last_of_edge(level, h)] == mark) continue;
-            sdv_ray ray = sdv_ray_of(limit, h, end);
-            if (ray.now > 0) s->rays[s->count++] = ray;
+            sdv_find_ray(limit, h, end, &s->rays[s->count]);
+            s->count += s->rays[s->count].now > 0;
         }
 }
 

@@ -449,43 +449,7 @@ static void test_sizes_that_overflow(void)
     CHECK_EQUAL(refused_levels(&cage, 1), SUBDIV_ERROR_TOO_LARGE);
 }
 
-// ------------------------------------------------------------------------------------ arguments
-
-static void test_null_arguments(void)
-{
-    subdiv_mesh cage = good_mesh(), fine;
-    subdiv_surface *surface = NULL;
-    subdiv_info info;
-    subdiv_error error = stale_error();
-    subdiv_options opt = {0};
-    opt.error = &error;
-    CHECK_EQUAL(subdiv_refine(NULL, &cage, 1, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK_EQUAL(error.code, SUBDIV_ERROR_ARGUMENT);
-    CHECK_EQUAL(error.face, -1);
-    memset(&fine, 0x55, sizeof fine);
-    CHECK_EQUAL(subdiv_refine(&fine, NULL, 1, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK(mesh_is_zero(&fine));
-    CHECK_EQUAL(subdiv_prepare(NULL, &cage, 1, &opt), SUBDIV_ERROR_ARGUMENT);
-    surface = (subdiv_surface *)&cage;
-    CHECK_EQUAL(subdiv_prepare(&surface, NULL, 1, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK(surface == NULL);
-    surface = (subdiv_surface *)&cage;
-    CHECK_EQUAL(subdiv_prepare(&surface, &cage, -2, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK(surface == NULL);
-    memset(&fine, 0x55, sizeof fine);
-    CHECK_EQUAL(subdiv_surface_mesh(&fine, NULL, P, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK(mesh_is_zero(&fine));
-    CHECK_EQUAL(subdiv_inspect(NULL, &cage, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK_EQUAL(subdiv_inspect(&info, NULL, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK_EQUAL(subdiv_prepare(&surface, &cage, 1, NULL), SUBDIV_OK);
-    CHECK_EQUAL(subdiv_surface_mesh(NULL, surface, P, &opt), SUBDIV_ERROR_ARGUMENT);
-    memset(&fine, 0x55, sizeof fine);
-    CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, NULL, &opt), SUBDIV_ERROR_ARGUMENT);
-    CHECK(mesh_is_zero(&fine));
-    subdiv_surface_free(surface);
-    subdiv_surface_free(NULL);
-    subdiv_mesh_free(NULL);
-}
+// ------------------------------------------------------------------------ freeing and the error
 
 // Freeing leaves the caller's arrays alone, and freeing twice is harmless.
 static void test_free(void)
@@ -552,14 +516,6 @@ static void test_crease_without_an_edge_is_a_warning(void)
     subdiv_mesh_free(&plain);
 }
 
-// A result is another mesh than its cage: refused, and the cage is left alone.
-static void test_fine_is_the_cage(void)
-{
-    subdiv_mesh cage = good_mesh(), copy = cage;
-    CHECK_EQUAL(subdiv_refine(&cage, &cage, 1, NULL), SUBDIV_ERROR_ARGUMENT);
-    CHECK(memcmp(&cage, &copy, sizeof cage) == 0);
-}
-
 // Huge coordinates give finite results, also where neighbours have both signs: a sheet of n x n
 // quads (Loop: triangles) like a chessboard; those of a smaller sheet, times a power of two.
 static void check_huge(subdiv_scheme scheme, float size)
@@ -615,13 +571,11 @@ int main(void)
     RUN(test_loop_needs_triangles);
     RUN(test_levels);
     RUN(test_levels_of_a_mesh_without_faces);
-    RUN(test_null_arguments);
     RUN(test_free);
     RUN(test_success_clears_the_error);
     RUN(test_result_strings);
     RUN(test_crease_without_an_edge_is_a_warning);
     RUN(test_sizes_that_overflow);
-    RUN(test_fine_is_the_cage);
     RUN(test_huge_coordinates);
     return test_end("test_errors");
 }

@@ -354,7 +354,7 @@ static void test_block_borders(void)
         subdiv_mesh first = {0};
         subdiv_error first_error = {0};
         for (int k = 0; k < 7; k++) {
-            pieces p = {text, bad ? size : size - 11, 0, steps[k], 0, 0};
+            pieces p = {text, bad ? size : size - 11, 0, steps[k]};
             subdiv_mesh mesh;
             subdiv_error error = {0};
             subdiv_options opt = {0};
@@ -780,23 +780,6 @@ static void test_binary_is_refused(void)
     test_context = "";
 }
 
-static void test_failing_read(void)
-{
-    subdiv_options opt = {0};
-    subdiv_error error = {0};
-    opt.error = &error;
-    for (int k = 1; k <= 40; k++) {
-        pieces p = {CAGE, sizeof CAGE - 1, 0, 2, 0, k};
-        subdiv_mesh mesh;
-        memset(&mesh, 0x55, sizeof mesh);
-        subdiv_result result = subdiv_load_obj_callback(&mesh, read_piece, &p, &opt);
-        CHECK_EQUAL(p.calls >= k, result == SUBDIV_ERROR_IO);
-        CHECK_EQUAL(error.code, result);
-        if (result) CHECK(mesh_is_zero(&mesh));
-        subdiv_mesh_free(&mesh);
-    }
-}
-
 int main(void)
 {
     RUN(test_plain_quad);
@@ -817,6 +800,5 @@ int main(void)
     RUN(test_refusals);
     RUN(test_refusals_of_a_file);
     RUN(test_binary_is_refused);
-    RUN(test_failing_read);
     return test_end("obj_read");
 }
