@@ -7472,7 +7472,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int
 
 SUBDIV_DEF int subdiv_surface_normal_count(const subdiv_surface *surface)
 {
-    return surface->fine.normal_count;
+    return surface ? surface->fine.normal_count : 0;
 }
 
 SUBDIV_DEF subdiv_result subdiv_surface_face_normals(const subdiv_surface *surface,
