@@ -4,6 +4,8 @@
 # make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop".
 #               And how long it takes to compile; with libstb-dev beside stb_image.h
 # make check    the header under every compiler, standard and sanitizer that is installed
+# make platforms    the same bits on other platforms, with all cross compilers and emulators that
+#               are installed
 # make clean
 #
 # Every program here holds the implementation, as a user would write it, and compiles alone: its
@@ -133,7 +135,8 @@ INTEGER   = -fsanitize=integer -fsanitize-ignorelist=tests/lib/integer.txt
 SANITIZED_LOGS = $(MAKE) --no-print-directory logs
 PLAIN_TESTS = $(filter-out exact_oracle stack,$(PLAIN))
 SANITIZED = $(OWN:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
-CHECK_LOGS = $(CHECK)/simd.log $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log) \
+BITS      = $(COMPILERS) $(shell command -v tcc > /dev/null && echo tcc)
+CHECK_LOGS = $(BITS:%=$(CHECK)/bits_%.log) $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log) \
              $(CHECK)/threads.log $(CHECK)/lint.log
 
 sanitize_own:
@@ -149,17 +152,29 @@ logs: $(TESTS:%=$(OUT)/%.log)
 $(COMPILERS:%=$(CHECK)/%.log): $(CHECK)/%.log: FORCE
 	$(RUN) sh tests/check.sh $*
 
-$(CHECK)/simd.log $(CHECK)/threads.log: $(CHECK)/%.log: FORCE
+$(CHECK)/threads.log: $(CHECK)/%.log: FORCE
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/$*.sh
 
 $(CHECK)/lint.log: FORCE | $(OUT)
 	$(RUN) sh tests/lint.sh
+
+$(OUT)/bits.txt: tests/bits.c $(OUT)/plain.o $(HELPERS)
+	$(CC) $(FLAGS) $(SHARED) $< $(OUT)/plain.o -o $(OUT)/bits.exe -lm
+	$(OUT)/bits.exe examples/cages/*.obj > $@
+
+$(CHECK)/bits_%.log: $(OUT)/bits.txt FORCE
+	$(RUN) sh tests/bits.sh $< $*
 
 $(CHECK)/growth.log: $(OUT)/test_growth FORCE
 	$(RUN) $< 11
 
 check: $(CHECK_LOGS) sanitize_own sanitize_plain
 	@sh tests/lib/sum.sh $(SANITIZED) $(CHECK_LOGS)
+
+PLATFORMS = aarch64 armhf s390x i686 windows wasm32 wasm32-simd
+
+platforms: $(PLATFORMS:%=$(CHECK)/bits_%.log)
+	@sh tests/lib/sum.sh $^
 
 # ------------------------------------------------------------------------------------------ bench
 
@@ -185,4 +200,4 @@ bench: $(OUT)/bench $(OUT)/bench_obj
 clean:
 	rm -rf $(OUT)
 
-.PHONY: all demo examples test logs check sanitize_own sanitize_plain bench clean FORCE
+.PHONY: all demo examples test logs check sanitize_own sanitize_plain platforms bench clean FORCE

@@ -1132,6 +1132,15 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #endif
 }
 
+// From here on no compiler fuses multiplications and additions, which would round once instead of
+// twice. gcc has a pragma of its own; it is left out where the target cannot fuse them.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off")
+#endif
+
 // SDV_SEPARATE is 1 under the address sanitizer: each array is then a block of its own, so that the
 // sanitizer sees accesses beside it.
 #if defined(__SANITIZE_ADDRESS__)
@@ -2501,6 +2510,22 @@ static sdv_mask sdv_catmull_clark_vertex(int n)
     return mask;
 }
 
+// Returns the cosine of k/n of a full turn, 0 <= k <= n, and so many quarters more: those of the C
+// libraries differ in their last bits. k/n is reduced, exactly for whole numbers, to an angle x up
+// to an eighth of a turn, where the series of cos x or sin x ends. The error is below 2^-52.
+static double sdv_circle(double k, double n, int quarters)
+{
+    double whole = floor(4 * k / n), rest = 4 * k - whole * n, sum = 1;
+    int quarter = ((int)whole + quarters) % 4, back = 2 * rest > n, sine = back != quarter % 2;
+    double x = (back ? n - rest : rest) / n * (3.14159265358979323846 / 2);
+    for (int i = 16 + sine; i > 1; i -= 2) sum = 1 - x * x / (i * (i - 1)) * sum;
+    if (sine) sum *= x;
+    return quarter == 1 || quarter == 2 ? 0 - sum : sum;
+}
+
+static double sdv_cosine(double k, double n) { return sdv_circle(k, n, 0); }
+static double sdv_sine(double k, double n)   { return sdv_circle(k, n, 3); }
+
 // Smooth even point, Loop, valence n [Loop87]:
 //
 //       b---b
@@ -2510,7 +2535,7 @@ static sdv_mask sdv_catmull_clark_vertex(int n)
 //       b---b
 static sdv_mask sdv_loop_vertex(int n)
 {
-    double c = 0.375 + 0.25 * cos(6.283185307179586477 / n);
+    double c = 0.375 + 0.25 * sdv_cosine(1, n);
     double b = n == 6 ? 0.0625 : (0.625 - c * c) / n;
     sdv_mask mask = { 1 - n * b, b, 0, 0 };
     return mask;
@@ -2627,15 +2652,15 @@ typedef struct sdv_wave {
     double factor, face;                // L and g
 } sdv_wave;
 
-// Returns the wave whose neighbours are the angle a apart.
-static sdv_wave sdv_wave_of(const sdv_rules *rules, double a)
+// Returns the wave of n neighbours, a = 2 pi/n. For fewer than 3, g is left 0.
+static sdv_wave sdv_wave_of(const sdv_rules *rules, double n)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2);
-    double b = 1 + 4 * edge.self + 2 * edge.face * (1 + cos(a));
-    sdv_wave wave = { edge.self + 2 * edge.face * cos(a), 0 };
+    double cosine = sdv_cosine(1, n), b = 1 + 4 * edge.self + 2 * edge.face * (1 + cosine);
+    sdv_wave wave = { edge.self + 2 * edge.face * cosine, 0 };
     if (rules->loop) return wave;
     wave.factor = (b + sqrt(b * b - 16 * edge.self)) / 8;
-    wave.face = 4 * edge.face / (4 * wave.factor - 1);
+    if (n > 2) wave.face = 4 * edge.face / (4 * wave.factor - 1);
     return wave;
 }
 
@@ -2666,17 +2691,17 @@ static double sdv_spike_of(const sdv_rules *rules, int n)
 // triangles make a cusp and have no t1. A spike has neither.
 static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, double *t1)
 {
-    double a = 6.283185307179586477 / n;
-    sdv_wave wave = sdv_wave_of(rules, a);
-    double g = n > 2 ? wave.face : 0, room = wave.factor - sdv_spike_of(rules, n);
+    sdv_wave wave = sdv_wave_of(rules, n);
+    double g = wave.face, room = wave.factor - sdv_spike_of(rules, n);
     t0[0] = t1[0] = 0;
     for (int i = 0; i < n; i++) {
-        t0[1 + i] = 4 * cos(i * a);
-        t1[1 + i] = n > 2 ? 4 * sin(i * a) : 0;
+        t0[1 + i] = 4 * sdv_cosine(i, n);
+        t1[1 + i] = n > 2 ? 4 * sdv_sine(i, n) : 0;
     }
     for (int i = 0; i < n && !rules->loop; i++) {
-        t0[1 + n + i] = g * (cos(i * a) + cos((i + 1) * a));
-        t1[1 + n + i] = n > 2 ? g * (sin(i * a) + sin((i + 1) * a)) : n == 2 ? 1 - 2 * i : 0;
+        int next = 1 + (i + 1) % n;
+        t0[1 + n + i] = g / 4 * (t0[1 + i] + t0[next]);
+        t1[1 + n + i] = n == 2 ? 1 - 2 * i : g / 4 * (t1[1 + i] + t1[next]);
     }
     for (int i = 0; i <= (rules->loop ? n : 2 * n) && room < (n > 2 ? 1e-9 : -1e-9); i++)
         t0[i] = t1[i] = 0;
@@ -2692,7 +2717,7 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 //     (L - c) x - v.crease y = p       c: self of the edge mask on a crease
 //     (L - v.self) y - 2 c x = q       p, q: what the wave gives to e_0 and to v
 //     p = (g / 4 + face) sin a         q = (4 self + 2 face + g / 2) r
-//     Loop:  p = 4 face sin a          q = 4 self r         r = (1 + cos a) / sin a
+//     Loop:  p = 4 face sin a          q = 4 self r         r = (1 + cos a) / sin a = cot a/2
 //
 // At a regular vertex k = 2, so t1 = 4 e_1 + f_0 + f_1 - e_0 - e_2 - 4v; Loop k = 3. A single face
 // fills a straight angle: t1 = e_0 + e_1 - 2v, the way the curve bends.
@@ -2705,21 +2730,22 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 static void sdv_crease_tangents(const sdv_rules *rules, sdv_mask v, int k, double *t0, double *t1)
 {
     sdv_mask edge = sdv_smooth_edge(rules, 2);
-    double a = 3.14159265358979323846 / k, r = (1 + cos(a)) / sin(a), c = sdv_crease_edge().self;
-    sdv_wave wave = sdv_wave_of(rules, a);
+    double r = sdv_cosine(1, 4.0 * k) / sdv_sine(1, 4.0 * k), sine = sdv_sine(1, 2.0 * k);
+    double c = sdv_crease_edge().self;
+    sdv_wave wave = sdv_wave_of(rules, 2.0 * k);
     double g = wave.face, end = wave.factor - c, middle = wave.factor - v.self;
     int corner = v.crease <= 0, plane = k == 1 || (corner && end < -1e-9);
     if (corner && end < 0.0003) end = 0.0003;
-    double p = rules->loop ? 4 * edge.face * sin(a) : (g / 4 + edge.face) * sin(a);
+    double p = rules->loop ? 4 * edge.face * sine : (g / 4 + edge.face) * sine;
     double q = (rules->loop ? 4 * edge.self : 4 * edge.self + 2 * edge.face + g / 2) * r;
     double determinant = end * middle - 2 * c * v.crease;
     for (int i = 0; i <= k; i++) {
         t0[1 + i] = 0;
-        t1[1 + i] = plane ? 0 : 4 * sin(i * a);
+        t1[1 + i] = plane ? 0 : 4 * sdv_sine(i, 2.0 * k);
     }
     for (int i = 0; i < k && !rules->loop; i++) {
         t0[2 + k + i] = 0;
-        t1[2 + k + i] = plane ? 0 : g * (sin(i * a) + sin((i + 1) * a));
+        t1[2 + k + i] = g / 4 * (t1[1 + i] + t1[2 + i]);
     }
     t0[0] = 0;
     t0[1] = 1;
@@ -4629,7 +4655,7 @@ static void sdv_add_sector(const sdv_level *level, const sdv_sector *s, int loop
     }
 }
 
-// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends. (tcc 0.9.27 breaks
+// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends. (tcc 0.9.27 spoils
 // functions that return a struct of three floats.)
 static void sdv_find_ray(const sdv_limit_writer *limit, int h, int end, sdv_ray *ray)
 {
@@ -10620,13 +10646,16 @@ static void sdv_nest_go_down(sdv_nest_sample *s, int level)
 static void sdv_nest_vertex(sdv_nest_sample *s)
 {
     const sdv_nest_kind *kind = s->state.kind;
-    double a = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces, limit[3][4];
+    double n = (kind->ring ? 1.0 : 2.0) * kind->faces, along[2], across[2], limit[3][4];
     sdv_nest_masks(&s->state, limit);
+    for (int i = 0; i < 2; i++) {
+        along[i] = sdv_cosine(s->face + i, n);
+        across[i] = sdv_sine(s->face + i, n);
+    }
     for (int c = 0; c < 4; c++) {
         s->values[0][c] = s->state.work[4 * (size_t)s->state.points[0] + (size_t)c] + limit[0][c];
         for (int i = 0; i < 2; i++)
-            s->values[1 + i][c] = cos((s->face + i) * a) * limit[1][c] +
-                                  sin((s->face + i) * a) * limit[2][c];
+            s->values[1 + i][c] = along[i] * limit[1][c] + across[i] * limit[2][c];
     }
     memcpy(s->tangents, limit[1], sizeof s->tangents);
     memset(s->values[3], 0, 3 * sizeof s->values[3]);
@@ -11677,10 +11706,10 @@ static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *
 static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 {
     const double *limit = kind->limit, *t0 = limit + kind->points, *t1 = t0 + kind->points;
-    double turn = (kind->ring ? 2 : 1) * 3.14159265358979323846 / kind->faces;
+    double n = (kind->ring ? 1.0 : 2.0) * kind->faces;
     for (int i = 0; i < kind->points; i++) w[3 * i] = limit[i];
     for (int k = 0; k < 2; k++) {
-        double along = cos((face + k) * turn), across = sin((face + k) * turn);
+        double along = sdv_cosine(face + k, n), across = sdv_sine(face + k, n);
         for (int i = 0; i < kind->points; i++) w[3 * i + 1 + k] = along * t0[i] + across * t1[i];
     }
 }
@@ -12823,26 +12852,33 @@ static void sdv_face_normal(const float *positions, const sdv_level *level, int 
     for (int k = 0; k < 3; k++) normal[k] = length > error ? n[k] / length : 0;
 }
 
-// The largest angle that is no crease, in radians: up to 0.001 degrees more are rounding.
-static double sdv_largest_bend(sdv_context *context, float degrees)
+// The largest angle that is no crease.
+typedef struct sdv_bend {
+    double cosine, sine;
+} sdv_bend;
+
+// Up to 0.001 degrees more are rounding.
+static sdv_bend sdv_largest_bend(sdv_context *context, float degrees)
 {
-    if (!(degrees >= 0 && degrees <= 180))
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "degrees has to be from 0 to 180");
-    return ((double)degrees + 0.001) * (3.14159265358979323846 / 180);
+    int valid = degrees >= 0 && degrees <= 180;
+    double most = valid ? fmin((double)degrees + 0.001, 180) : 0;
+    sdv_bend bend = { sdv_cosine(most, 360), sdv_sine(most, 360) };
+    if (!valid) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "degrees has to be from 0 to 180");
+    return bend;
 }
 
-// Is the angle between two faces too large, by their normals? atan2 is exact for all angles, where
-// a cosine blurs the small ones.
-static int sdv_is_bent(const double *a, const double *b, double most)
+// Is the angle between two faces larger, by their normals? The sine of the difference tells angles
+// apart that a cosine blurs: the small ones.
+static int sdv_is_bent(const double *a, const double *b, const sdv_bend *most)
 {
     double n[3];
     sdv_cross(a, b, n);
-    return atan2(sqrt(sdv_dot3(n, n)), sdv_dot3(a, b)) > most;
+    return sqrt(sdv_dot3(n, n)) * most->cosine > sdv_dot3(a, b) * most->sine;
 }
 
-// Makes edges sharp along which faces are bent by more than so many radians.
+// Makes edges sharp along which faces are bent by more than so much.
 static void sdv_sharpen_bends(sdv_context *context, sdv_arena *arena, const float *positions,
-                              sdv_level *level, double most)
+                              sdv_level *level, const sdv_bend *most)
 {
     double *normals = SDV_NEW(context, arena, double, 3 * (size_t)level->face_count);
     for (int f = 0; f < level->face_count && normals; f++)
@@ -12856,19 +12892,19 @@ static void sdv_sharpen_bends(sdv_context *context, sdv_arena *arena, const floa
     }
 }
 
-// Finds the sides of creases of a mesh.
+// Finds the sides of creases of a mesh. most: of bends that are no creases; NULL: all are none.
 static sdv_sides sdv_find_mesh_sides(sdv_context *context, sdv_arena *arena,
-                                     const subdiv_mesh *mesh, double most)
+                                     const subdiv_mesh *mesh, const sdv_bend *most)
 {
     subdiv_surface shape;
     sdv_cage cage;
-    int any = most < 4;
+    int any = most != NULL;
     memset(&shape, 0, sizeof shape);
     for (int i = 0; i < mesh->crease_count; i++)
         any |= mesh->crease_sharpness[i] >= SUBDIV_INFINITE;
     if (!any) return shape.sides;
     sdv_cage_build(context, arena, arena, &cage, mesh);
-    if (most < 4 && !context->result)
+    if (most && !context->result)
         sdv_sharpen_bends(context, arena, mesh->positions, &cage.level, most);
     if (context->result) return shape.sides;
     shape.hole = cage.hole;
@@ -12896,8 +12932,9 @@ static void sdv_sum_normals(const subdiv_mesh *mesh, const sdv_sides *sides, dou
     }
 }
 
-// Makes normals, split where faces are bent by more than so many radians; 4: nowhere.
-static void sdv_make_normals(sdv_context *context, subdiv_mesh *mesh, double most, int one_normal)
+// Makes normals, split as sdv_find_mesh_sides says or, with one_normal, not at all.
+static void sdv_make_normals(sdv_context *context, subdiv_mesh *mesh, const sdv_bend *most,
+                             int one_normal)
 {
     sdv_arena scratch = sdv_scratch(), owned = sdv_new_arena(0);
     const sdv_sides none = { 0, 0, NULL, NULL, NULL, NULL };
@@ -12944,7 +12981,7 @@ SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options 
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_shape(&context, mesh);
-    if (!context.result) sdv_make_normals(&context, mesh, 4, opt && opt->one_normal);
+    if (!context.result) sdv_make_normals(&context, mesh, NULL, opt && opt->one_normal);
     return context.result;
 }
 
@@ -12953,8 +12990,8 @@ SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degree
 {
     sdv_context context = sdv_begin(opt);
     sdv_check_shape(&context, mesh);
-    double most = sdv_largest_bend(&context, degrees);
-    if (!context.result) sdv_make_normals(&context, mesh, most, 0);
+    sdv_bend most = sdv_largest_bend(&context, degrees);
+    if (!context.result) sdv_make_normals(&context, mesh, &most, 0);
     return context.result;
 }
 
@@ -13192,7 +13229,7 @@ typedef struct sdv_generator {
     sdv_arena arena;
     sdv_cage cage;                      // without creases and corners
     double *normals;                    // [3 * face_count]  of length 1, or 0 for no area
-    double most;                        // the largest angle that is no crease, in radians
+    sdv_bend most;                      // the largest angle that is no crease
     const char **groups;                // [face_count]      smoothing groups; "": none
 } sdv_generator;
 
@@ -13282,7 +13319,7 @@ static int sdv_is_bent_edge(const sdv_generator *generator, int h, int g)
 {
     const sdv_level *level = &generator->cage.level;
     return sdv_is_bent(generator->normals + 3 * (size_t)sdv_face_of(level, h),
-                       generator->normals + 3 * (size_t)sdv_face_of(level, g), generator->most);
+                       generator->normals + 3 * (size_t)sdv_face_of(level, g), &generator->most);
 }
 
 SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees, float sharpness,
@@ -13291,7 +13328,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_angle(subdiv_mesh *mesh, float degrees
     sdv_context context = sdv_begin(opt);
     sdv_generator generator;
     sdv_check_all(&context, mesh);
-    double most = sdv_largest_bend(&context, degrees);
+    sdv_bend most = sdv_largest_bend(&context, degrees);
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     if (!context.result)
         generator.normals = SDV_NEW(&context, &generator.arena, double,
@@ -15794,7 +15831,7 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
     sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
     int loop = x->rules.loop, k = (int)x->rules.vertex_rule;
     double w = 1.0 / ((double)n * n), warren = n == 3 ? 0.1875 : 0.375 / n;
-    double c = 0.375 + 0.25 * cos(6.283185307179586477 / n), b = (0.625 - c * c) / n;
+    double c = 0.375 + 0.25 * sdv_cosine(1, n), b = (0.625 - c * c) / n;
     const struct { const char *text; double self, edge, face, crease; } formulas[] = {
         { "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2", (n - 2.0) / n, w, w, 0 },
         { "Q/4 + R/2 + v/4  [CC78]\n", 0.5, 0.25 / n, 0.25 / n, 0 },
@@ -16068,6 +16105,12 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #endif // SUBDIV_NO_TOOLS
 
 // ------------------------------------------------------------------------------- >>cleanup
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT DEFAULT
+#elif defined(__GNUC__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))
+#pragma GCC pop_options
+#endif
+
 #undef SDV_INLINE
 #undef SDV_SIMD
 #undef SDV_SEPARATE
