@@ -135,8 +135,8 @@
    * An error zeroes the output, but leaves a mesh that was to be changed as it was.
    * The library keeps no state, so different threads may call it at once. One call uses the threads
      that you lend it. The same input gives the same bits on any number of threads, with SIMD and
-     without. (Where the target can fuse multiplications and additions, gcc does so in its default
-     gnu modes: use -ffp-contract=off.)
+     without, from any compiler and on any platform that rounds each operation as IEEE 754 does:
+     not on x87, which 32-bit x86 uses without -msse2 -mfpmath=sse, and not with -ffast-math.
    * A call takes less than 16 KB of stack, if it is compiled with optimisation. Nothing recurses
      deeper for a larger mesh.
    * A result has up to 2^31-1 vertices and faces, a cage up to 2^30 face-vertices. Larger ones are
@@ -959,9 +959,8 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 #endif
 
 // sdv_four holds four floats: all the SIMD there is. Below, plain C says what each operation does.
-// SIMD rounds as plain C does, so the results' bits are the same with and without, unless the
-// compiler fuses multiplications and additions. (32-bit ARM goes without: its NEON has no numbers
-// below FLT_MIN.)
+// SIMD rounds as plain C does, so the results' bits are the same with and without. (32-bit ARM goes
+// without: its NEON has no numbers below FLT_MIN.)
 #if defined(SUBDIV_NO_SIMD)
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
@@ -4655,8 +4654,8 @@ static void sdv_add_sector(const sdv_level *level, const sdv_sector *s, int loop
     }
 }
 
-// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends. (tcc 0.9.27 spoils
-// functions that return a struct of three floats.)
+// Finds how the edge of h fades at the vertex of h or, with end 1, where it ends. (No result: tcc
+// 0.9.27 spoils one of three floats.)
 static void sdv_find_ray(const sdv_limit_writer *limit, int h, int end, sdv_ray *ray)
 {
     const sdv_level *level = limit->level;

@@ -48,6 +48,16 @@ compare() {
     program "$@" tests/bits.c > $out/printed && tr -d '\r' < $out/printed | diff $expected -
 }
 
+# What follows the header in its file is compiled as the user asks.
+fuses() {
+    {
+        echo '#include "subdiv.h"'
+        echo 'double after(double a, double b, double c) { return a * b + c; }'
+    } > $out/after.c
+    $compile -O2 -mfma -DSUBDIV_STATIC -DSUBDIV_IMPLEMENTATION -I. -S $out/after.c -o $out/after.s &&
+        grep vfmadd $out/after.s
+}
+
 same() {
     step "the bits of $name $*" compare "$@"
 }
@@ -60,6 +70,9 @@ if [ -z "$run" ]; then
         same -O3 -march=native
         same -O2 -march=native -DSUBDIV_NO_SIMD
         same -O2 -march=native -x c++ -std=c++11
+    fi
+    if [ $name != tcc ] && $compile -mfma $out/empty.c -o $out/empty 2> $out/log; then
+        step "$name fuses behind the header" fuses
     fi
 elif program $out/empty.c > $out/log 2>&1; then
     step "$name" $compile -O2 -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $out/subdiv.o

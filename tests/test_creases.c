@@ -342,6 +342,7 @@ static void test_sheet(void)
             for (int k = 0; k < 3; k++) p[k] += 100;
         }
         CHECK_EQUAL(crease_count_at(&c, 0.1f), fold ? 6 : 0);
+        CHECK_EQUAL(crease_count_at(&c, 180), 0);
     }
 }
 

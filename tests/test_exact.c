@@ -273,6 +273,23 @@ static double eigenvalue(int n, int loop)
     return (5 + c + cos(pi() / n) * sqrt(2 * (9 + c))) / 16;
 }
 
+// The library's own cosines: at least as good as its comment says, and exact at quarters.
+static void test_cosines(void)
+{
+    const long double bound = LDBL_MANT_DIG > DBL_MANT_DIG ? DBL_EPSILON : 16 * DBL_EPSILON;
+    for (int n = 1; n < 300; n++) {
+        for (int k = 0; k <= n; k++) {
+            long double angle = 2 * acosl(-1) * k / n;
+            CHECK(fabsl(cosl(angle) - sdv_cosine(k, n)) <= bound);
+            CHECK(fabsl(sinl(angle) - sdv_sine(k, n)) <= bound);
+        }
+    }
+    for (int k = 0; k <= 4; k++) {
+        CHECK(sdv_cosine(k, 4) == (k % 2 ? 0 : k == 2 ? -1 : 1));
+        CHECK(sdv_sine(k, 4) == (k % 2 ? 2 - k : 0));
+    }
+}
+
 // A closed fan that is a hill.
 static void build_hill(test_cage *c, int loop, int n)
 {
@@ -1096,6 +1113,7 @@ int main(void)
     RUN(test_limit_of_refined);
     RUN(test_derivatives);
     RUN(test_vertices);
+    RUN(test_cosines);
     RUN(test_eigenvalues);
     RUN(test_continuous);
     RUN(test_shared);

@@ -489,7 +489,8 @@ static inline void random_edit_duplicate(random_cage *c)
 static inline void random_edit_repeat(random_cage *c)
 {
     const int f = random_below(c, c->face_count), size = c->face_sizes[f];
-    c->faces[f][random_below(c, size)] = c->faces[f][random_below(c, size)];
+    const int from = random_below(c, size), to = random_below(c, size);
+    c->faces[f][to] = c->faces[f][from];
 }
 
 typedef struct random_edit {
@@ -653,8 +654,11 @@ static inline void random_add_creases(random_cage *c)
         random_crease_boundary, random_crease_scatter
     };
     const int pattern_count = (int)(sizeof patterns / sizeof patterns[0]);
-    for (int count = random_below(c, 4) + random_below(c, 2); count > 0; count--)
-        patterns[random_below(c, pattern_count)](c, random_chance(c, 50));
+    int count = random_below(c, 4);
+    for (count += random_below(c, 2); count > 0; count--) {
+        const int pattern = random_below(c, pattern_count);
+        patterns[pattern](c, random_chance(c, 50));
+    }
 }
 
 static inline void random_add_corners(random_cage *c)
@@ -832,8 +836,10 @@ static inline random_cage *random_cage_new(unsigned seed, int features)
 
     random_list_edges(c);
     if (c->features & RANDOM_CREASES) random_add_creases(c);
-    if (c->features & RANDOM_DEGENERATE)
-        random_add_crease(c, random_below(c, c->vertex_count), random_below(c, c->vertex_count), 2);
+    if (c->features & RANDOM_DEGENERATE) {
+        const int b = random_below(c, c->vertex_count), a = random_below(c, c->vertex_count);
+        random_add_crease(c, a, b, 2);
+    }
     if (c->features & RANDOM_CORNERS) random_add_corners(c);
     if (c->features & RANDOM_HOLES) random_add_holes(c);
     random_fill_mesh(c);
