@@ -2082,12 +2082,13 @@ static void sdv_open_boundary(sdv_cage *cage)
 // Around a vertex: how many edges, and of them boundary and non-manifold ones.
 typedef struct sdv_edges_at {
     int count, boundary, nonmanifold;
+    int room;                           // tcc 0.9.27 takes 16 bytes from a function that returns 12
 } sdv_edges_at;
 
 static sdv_edges_at sdv_count_edges_at(const sdv_cage *cage, int v)
 {
     const sdv_level *level = &cage->level;
-    sdv_edges_at edges = { 0, 0, 0 };
+    sdv_edges_at edges = { 0, 0, 0, 0 };
     for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k]) {
         int two[2] = { k, sdv_previous(level, k) };
         for (int i = 0; i < 2; i++) {
