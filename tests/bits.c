@@ -176,11 +176,19 @@ static void add_cage(const subdiv_mesh *m, int i)
     if (i % 3 == 2) add_refined_stencils(m);
 }
 
-// Rounds to multiples of 2^-12, so that a cage is the same whatever the compiler makes of cos.
-static void round_positions(const subdiv_mesh *m)
+static void round_all(float *values, int count)
 {
-    for (int i = 0; i < 3 * m->vertex_count; i++)
-        m->positions[i] = floorf(m->positions[i] * 4096 + 0.5f) / 4096;
+    for (int i = 0; i < count; i++) values[i] = floorf(values[i] * 4096 + 0.5f) / 4096;
+}
+
+// Rounds to multiples of 2^-12, so that a cage is the same whatever becomes of the sums and cosines
+// that made it.
+static void round_cage(const subdiv_mesh *m)
+{
+    round_all(m->positions, 3 * m->vertex_count);
+    round_all(m->crease_sharpness, m->crease_count);
+    round_all(m->corner_sharpness, m->corner_count);
+    round_all(m->uvs, 2 * m->uv_count);
 }
 
 // A vertex with many faces, smooth, with a dart, a crease, a corner, and on the boundary.
@@ -191,7 +199,7 @@ static void add_fan(subdiv_scheme scheme, int faces, int closed)
         build_fan(&c, scheme, faces, closed);
         for (int i = 0; i < creases; i++)
             cage_crease(&c, 0, 2 + i * faces / 4, i == 1 ? 1.5 : (double)SUBDIV_INFINITE);
-        round_positions(&c.mesh);
+        round_cage(&c.mesh);
         add_cage(&c.mesh, faces + creases);
     }
 }
@@ -212,7 +220,7 @@ int main(int count, char **paths)
     for (unsigned seed = 1; seed <= 99; seed++) {
         random_cage *c = random_cage_new(seed, RANDOM_ALL);
         if (!c) abort();
-        round_positions(&c->mesh);
+        round_cage(&c->mesh);
         add_cage(&c->mesh, (int)seed);
         random_cage_free(c);
     }
