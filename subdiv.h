@@ -7297,7 +7297,7 @@ static float sdv_shrink_huge(sdv_context *context, sdv_arena *arena, const subdi
     size_t count = 3 * (size_t)surface->cage_vertex_count;
     if (*positions && sdv_find_exponent(*positions, count, SDV_HUGE) == count) return 1;
     sdv_check_positions(context, *positions, surface->cage_vertex_count);
-    if (context->result || surface->levels == 0) return 1;
+    if (context->result || (surface->levels == 0 && !surface->rules.limit)) return 1;
     float *copy = SDV_NEW(context, arena, float, count);
     if (context->result) return 1;
     memcpy(copy, *positions, count * sizeof(float));
