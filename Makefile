@@ -6,6 +6,7 @@
 # make check    the header under every compiler, standard and sanitizer that is installed
 # make platforms    the same bits on other platforms, with all cross compilers and emulators that
 #               are installed
+# make fuzz     the fuzzers under clang's sanitizers, each for SECONDS=60, with what they found before
 # make clean
 #
 # Every program here holds the implementation, as a user would write it, and compiles alone: its
@@ -87,6 +88,17 @@ $(OUT)/counted.o: subdiv.h | $(OUT)
 $(OUT)/test_growth: tests/test_growth.c $(OUT)/counted.o $(HELPERS)
 	$(CC) $(FLAGS) $< $(OUT)/counted.o -o $@ -lm
 
+# The fuzzers on their seeds and on mutations of these, with any compiler: see make fuzz.
+FUZZERS      = $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/*.c))
+FUZZ_HELPERS = $(wildcard tests/fuzz/*.h) $(HELPERS)
+MUTATIONS    = 1000
+
+$(OUT)/fuzzed.o: subdiv.h tests/fuzz/heap.h | $(OUT)
+	$(CC) $(FLAGS) -O0 -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
+
+$(FUZZERS:%=$(OUT)/fuzz_%): $(OUT)/fuzz_%: tests/fuzz/%.c $(OUT)/fuzzed.o $(FUZZ_HELPERS)
+	$(CC) $(FLAGS) -O0 $(SHARED) $< $(OUT)/fuzzed.o -o $@ -lm
+
 $(OUT)/opensubdiv: $(wildcard tests/opensubdiv/*) $(OUT)/plain.o $(HELPERS)
 	$(CXX) -std=c++14 $(CFLAGS) $(SHARED) -I. tests/opensubdiv/opensubdiv.cpp $(OUT)/plain.o \
 		-o $@ -losdCPU
@@ -96,6 +108,9 @@ RUN = @sh tests/lib/run.sh $@
 
 $(TESTS:%=$(OUT)/%.log): $(OUT)/%.log: $(OUT)/test_% FORCE
 	$(RUN) $<
+
+$(FUZZERS:%=$(OUT)/fuzz_%.log): $(OUT)/fuzz_%.log: $(OUT)/fuzz_% FORCE
+	$(RUN) $< $(MUTATIONS) $(wildcard tests/fuzz/seeds/$*/*)
 
 $(OUT)/cli.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/test_cli.sh $<
@@ -117,7 +132,7 @@ ifeq ($(HAVE_OSD),yes)
 TEST_LOGS = $(OUT)/opensubdiv.log
 endif
 TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) \
-             $(OUT)/plain.log $(OUT)/cli.log
+             $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log
 
 test: $(TEST_LOGS) examples
 ifneq ($(HAVE_OSD),yes)
@@ -176,6 +191,26 @@ PLATFORMS = aarch64 armhf s390x i686 windows wasm32 wasm32-simd
 platforms: $(PLATFORMS:%=$(CHECK)/bits_%.log)
 	@sh tests/lib/sum.sh $^
 
+# ------------------------------------------------------------------------------------------- fuzz
+
+SECONDS   = 60
+FUZZ      = $(OUT)/fuzz
+FUZZ_CC   = clang -g -O1 -DLIBFUZZER -fno-sanitize-recover=all -I. -fsanitize=address,undefined
+FUZZ_LOGS = $(FUZZERS:%=$(FUZZ)/%.log)
+
+$(FUZZ)/subdiv.o: subdiv.h tests/fuzz/heap.h
+	mkdir -p $(FUZZ)
+	$(FUZZ_CC),fuzzer-no-link -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c $< -o $@
+
+$(FUZZERS:%=$(FUZZ)/%): $(FUZZ)/%: tests/fuzz/%.c $(FUZZ)/subdiv.o $(FUZZ_HELPERS)
+	$(FUZZ_CC),fuzzer $(SHARED) $< $(FUZZ)/subdiv.o -o $@ -lm
+
+$(FUZZ_LOGS): $(FUZZ)/%.log: $(FUZZ)/% FORCE
+	$(RUN) sh tests/fuzz/fuzz.sh $< $(SECONDS) $(wildcard tests/fuzz/seeds/$*)
+
+fuzz: $(FUZZ_LOGS)
+	@sh tests/lib/sum.sh $(FUZZ_LOGS)
+
 # ------------------------------------------------------------------------------------------ bench
 
 BENCH = $(FLAGS) -O3 $(SHARED)
@@ -200,4 +235,4 @@ bench: $(OUT)/bench $(OUT)/bench_obj
 clean:
 	rm -rf $(OUT)
 
-.PHONY: all demo examples test logs check sanitize_own sanitize_plain platforms bench clean FORCE
+.PHONY: all demo examples test logs check sanitize_own sanitize_plain platforms fuzz bench clean FORCE
