@@ -1153,6 +1153,11 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #define SDV_SEPARATE 0
 #endif
 
+// Is told, under SDV_SEPARATE, of the bytes between the arrays of a mesh: fuzzers poison them.
+#ifndef SDV_GUARD
+#define SDV_GUARD(bytes, size) ((void)(bytes), (void)(size))
+#endif
+
 // Allocates count items of a type from an arena: see sdv_new.
 #define SDV_NEW(context, arena, type, count) \
     ((type *)sdv_new(context, arena, (size_t)(count), sizeof(type)))
@@ -7146,7 +7151,9 @@ static void sdv_check_range(sdv_context *context, const subdiv_surface *surface,
 static void *sdv_carve(char *base, size_t *size, size_t count, size_t item)
 {
     char *array = base && count ? base + *size : NULL;
-    *size += (count * item + 15) / 16 * 16;
+    size_t end = *size + count * item;
+    *size = (end + 15) / 16 * 16 + 16 * SDV_SEPARATE;
+    if (base && SDV_SEPARATE) SDV_GUARD(base + end, *size - end);
     return array;
 }
 
@@ -16115,6 +16122,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_SIMD
 #undef SDV_SEPARATE
 #undef SDV_POSIX
+#undef SDV_GUARD
 #undef SDV_NEW
 #undef SDV_CARVE
 #undef SDV_IMPLIED

@@ -5,7 +5,7 @@ program=$1
 seconds=$2
 shift 2
 mkdir -p "$program.found"
-"$program" -max_total_time="$seconds" -max_len=2000 -timeout=20 -artifact_prefix="$program." \
+"$program" -max_total_time="$seconds" -entropic=0 -max_len=2000 -timeout=20 -artifact_prefix="$program." \
     "$program.found" "$@" > "$program.out" 2>&1
 status=$?
 name=fuzz_${program##*/}

@@ -1,5 +1,5 @@
 // The allocator of the fuzzers, which counts, and small limits of the library, so that little input
-// gets far. To save time the implementation is compiled with this once for all fuzzers:
+// gets far. Under the address sanitizer no array of a mesh may be left unseen. To save time the implementation is compiled with this once for all fuzzers:
 //
 //     cc -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h
 #ifndef HEAP_H
@@ -18,6 +18,13 @@ void heap_free(void *block, void *user);
 #define SUBDIV_FREE(block, user)  heap_free(block, user)
 #define SDV_JOB_POINTS  16                // several jobs
 #define SDV_FULL_LEVELS 2                 // frames on level 3, as deep levels have
+
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#include <sanitizer/asan_interface.h>
+#define SDV_GUARD(bytes, size) __asan_poison_memory_region(bytes, size)
+#endif
+#endif
 
 #if defined(SUBDIV_IMPLEMENTATION) && !defined(SUBDIV_IMPLEMENTED)
 int heap_live;

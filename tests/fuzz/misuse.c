@@ -196,11 +196,11 @@ static void evaluate(void)
     const float *from = (const float *)needed(in);
     float *to = kind ? (float *)needed(out) : NULL;
     if (below(b, 16) == 15) {
-        channels = any_int(b);            // no scratch, so that a huge number is refused
+        channels = any_int(b);            // without scratch, or it would be a lie
         lent = NULL;
         in_stride = out_stride = 0;
         spoiled++;
-        if (channels >= 1 && channels <= CHANNELS) channels = 0;
+        if (channels > 0) channels |= 1 << 28;
     }
     spoiled += !s->surface || (kind && s->exact);
     end_call(kind ? subdiv_evaluate(s->surface, channels, from, in_stride, to, out_stride, lent, opt)
