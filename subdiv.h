@@ -132,7 +132,8 @@
    * A mesh made by the library is one block, which subdiv_mesh_free frees. It also frees the crease
      lists and normals that the library adds to a mesh of yours. Arrays that you filled in are never
      written or freed. Output is overwritten, not freed.
-   * An error zeroes the output, but leaves a mesh that was to be changed as it was.
+   * An error zeroes the output, but leaves a mesh that was to be changed, and arrays of yours that
+     were to be filled, as they were. Where a call can fail halfway, its comment says so.
    * The library keeps no state, so different threads may call it at once. One call uses the threads
      that you lend it. The same input gives the same bits on any number of threads, with SIMD and
      without, from any compiler and on any platform that rounds each operation as IEEE 754 does:
@@ -198,9 +199,9 @@
 #define SUBDIV_INFINITE 10.0f         // this sharpness or more never fades
 
 // The code and text of every result. Any function may fail with ARGUMENT (a needed pointer is NULL,
-// a count is negative, a value is out of range) or MEMORY. A function that reads a mesh checks it:
-// EMPTY, INDEX, FACE, NOT_FINITE, TOO_LARGE (see LIMITS) and, if it refines, NOT_TRIANGLE. Comments
-// of functions name further causes only.
+// a count is negative, a value is out of range, a surface was prepared for something else) or
+// MEMORY. A function that reads a mesh checks it: EMPTY, INDEX, FACE, NOT_FINITE, TOO_LARGE (see
+// LIMITS) and, if it refines, NOT_TRIANGLE. Comments of functions name further causes only.
 #define SUBDIV_RESULTS(X)                                          \
     X(SUBDIV_OK,                 "no error")                       \
     X(SUBDIV_ERROR_ARGUMENT,     "invalid argument")               \
@@ -272,10 +273,11 @@ typedef enum subdiv_vertex_rule {
 typedef void (*subdiv_vertex_weights)(void *user, int valence, double weights[3]);
 
 // A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
-// The mesh says what the surface is; the options say what to compute.
+// The mesh says what the surface is; the options say what to compute. All numbers are finite, but
+// sharpness may be infinite. UVs and colours should be below 1e35 in size, or sums may overflow.
 typedef struct subdiv_mesh {
     int    vertex_count;
-    float *positions;                 // [3 * vertex_count]   x y z, finite
+    float *positions;                 // [3 * vertex_count]   x y z
 
     int    face_count;
     int    face_size;                 // vertices of every face; or 0: see face_sizes
@@ -408,7 +410,7 @@ SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 // subdiv_surface_faces gives the indices of values, -1 where there are none. Value i stays value i
 // at the first cage vertex that has it. From level 1 on, other vertices that share it have values
 // of their own, numbered from value_count. Cage faces of this surface are only those that have a
-// value at each vertex.
+// value at each vertex. opt->limit changes nothing here.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -873,7 +875,8 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
 // have the fewest digits that read back as the same float, in any locale. Error IO.
 //
 // To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
-// 0 to get the size alone; any other capacity that is too small is error TOO_LARGE.
+// 0 to get the size alone; any other capacity that is too small is error TOO_LARGE, and text holds
+// the beginning.
 SUBDIV_DEF subdiv_result subdiv_save_obj_memory(const subdiv_mesh *mesh, void *text,
                                                 size_t capacity, size_t *size,
                                                 const subdiv_options *opt);
@@ -1716,15 +1719,21 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     sdv_check_list(context, "hole", mesh->hole_count, mesh->holes, 1, mesh->face_count, NULL);
 }
 
-// Checks everything.
-static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
+// Checks everything but the positions.
+static void sdv_check_data(sdv_context *context, const subdiv_mesh *mesh)
 {
     sdv_check_mesh(context, mesh);
     if (context->result) return;
-    sdv_check_positions(context, mesh->positions, mesh->vertex_count);
     sdv_check_finite(context, "UV", 2, mesh->uvs, mesh->uv_count);
     sdv_check_finite(context, "color", 3, mesh->colors, mesh->colors ? mesh->vertex_count : 0);
     sdv_check_finite(context, "normal", 3, mesh->normals, sdv_normal_count(mesh));
+}
+
+// Checks everything.
+static void sdv_check_all(sdv_context *context, const subdiv_mesh *mesh)
+{
+    sdv_check_data(context, mesh);
+    if (!context->result) sdv_check_positions(context, mesh->positions, mesh->vertex_count);
 }
 
 // --------------------------------------------------------------------------------- >>level
@@ -5385,7 +5394,7 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
     else sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "surface is NULL");
     if (r->levels < 0 && !(r->levels == SUBDIV_EXACT && r->exact))
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "levels is %d", r->levels);
-    if (!context->result) sdv_check_mesh(context, cage);
+    if (!context->result) sdv_check_data(context, cage);
     if (!context->result && cage->scheme == SUBDIV_LOOP && !(r->opt && r->opt->triangulate))
         sdv_check_triangles(context, cage);
 }
@@ -13418,7 +13427,7 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
 {
     sdv_context context = sdv_begin(opt);
     sdv_generator generator;
-    sdv_check_mesh(&context, mesh);
+    sdv_check_data(&context, mesh);
     sdv_generator_begin(&context, &generator, mesh, sharpness);
     int known = !context.result && mesh->uv_count > 0;
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no UVs");

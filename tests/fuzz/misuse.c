@@ -39,6 +39,13 @@ static void begin_call(void)
     spoiled = 0;
 }
 
+// Are the numbers of an array still those of floats?
+static int untouched(const float *numbers, int points)
+{
+    for (int i = 0; i < STRIDE * points; i++) if (numbers[i] != 0.5f) return 0;
+    return 1;
+}
+
 // What holds after each call. Returns whether it succeeded.
 static int end_call(subdiv_result result)
 {
@@ -203,8 +210,10 @@ static void evaluate(void)
         if (channels > 0) channels |= 1 << 28;
     }
     spoiled += !s->surface || (kind && s->exact);
-    end_call(kind ? subdiv_evaluate(s->surface, channels, from, in_stride, to, out_stride, lent, opt)
-                  : subdiv_evaluate_begin(s->surface, channels, from, in_stride, lent, opt));
+    int good = end_call(kind ?
+        subdiv_evaluate(s->surface, channels, from, in_stride, to, out_stride, lent, opt) :
+        subdiv_evaluate_begin(s->surface, channels, from, in_stride, lent, opt));
+    REQUIRE((good || untouched(out, s->points)) && untouched(in, VERTICES));
     free(in), free(out), free(scratch);
 }
 
@@ -224,9 +233,11 @@ static void evaluate_part(void)
         spoiled += to && to->tangents && stride && stride < 6;
     }
     spoiled += !s->surface || s->exact || (limit && !s->limit);
-    end_call(limit ? subdiv_evaluate_limit_faces(s->surface, from, face, faces, point, points, to, opt)
-                   : subdiv_evaluate_faces(s->surface, channels, from, face, faces, point, points,
-                                           (float *)needed(p), stride, opt));
+    int good = end_call(limit ?
+        subdiv_evaluate_limit_faces(s->surface, from, face, faces, point, points, to, opt) :
+        subdiv_evaluate_faces(s->surface, channels, from, face, faces, point, points,
+                              (float *)needed(p), stride, opt));
+    REQUIRE(good || (untouched(p, s->points) && untouched(n, s->points)));
     free(p), free(n), free(t), free(scratch);
 }
 
@@ -237,8 +248,9 @@ static void evaluate_limit(void)
     int in_stride = a_stride(3);
     subdiv_limit where = { p, NULL, NULL, a_stride(3) };
     spoiled += !s->surface || !s->limit || s->exact;
-    end_call(subdiv_evaluate_limit(s->surface, (const float *)needed(in), in_stride,
-                                   (const subdiv_limit *)needed(&where), NULL, opt));
+    int good = end_call(subdiv_evaluate_limit(s->surface, (const float *)needed(in), in_stride,
+                                              (const subdiv_limit *)needed(&where), NULL, opt));
+    REQUIRE(good || untouched(p, s->points));
     free(in), free(p);
 }
 
