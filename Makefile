@@ -200,7 +200,7 @@ FUZZ_LOGS = $(FUZZERS:%=$(FUZZ)/%.log)
 
 $(FUZZ)/subdiv.o: subdiv.h tests/fuzz/heap.h
 	mkdir -p $(FUZZ)
-	$(FUZZ_CC),fuzzer-no-link -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c $< -o $@
+	$(FUZZ_CC),fuzzer-no-link -fno-sanitize-coverage=trace-cmp -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c $< -o $@
 
 $(FUZZERS:%=$(FUZZ)/%): $(FUZZ)/%: tests/fuzz/%.c $(FUZZ)/subdiv.o $(FUZZ_HELPERS)
 	$(FUZZ_CC),fuzzer $(SHARED) $< $(FUZZ)/subdiv.o -o $@ -lm

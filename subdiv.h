@@ -5399,16 +5399,12 @@ static void sdv_check_request(sdv_context *context, subdiv_surface **surface,
         sdv_check_triangles(context, cage);
 }
 
-// Checks the values that go with the positions, or instead of them.
-static void sdv_check_carried(sdv_context *context, const sdv_request *r)
+// Checks a request for values alone.
+static void sdv_check_alone(sdv_context *context, const sdv_request *r)
 {
     const subdiv_mesh *cage = r->cage;
-    if (context->result) return;
-    if (!r->alone) {
-        sdv_check_finite(context, "UV", 2, cage->uvs, cage->uv_count);
-        if (!context->result && cage->colors)
-            sdv_check_finite(context, "color", 3, cage->colors, cage->vertex_count);
-    } else if (r->values.count < 1 || !r->values.indices) {
+    if (context->result || !r->alone) return;
+    if (r->values.count < 1 || !r->values.indices) {
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
                  r->values.indices ? "value_count is %d" : "indices is NULL", r->values.count);
     } else if (r->values.rule < 0 || r->values.rule > SUBDIV_UV_NONE) {
@@ -5452,6 +5448,8 @@ static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const s
     int *indices = SDV_NEW(context, &surface->arena, int, sdv_face_vertex_count(work));
     if (!context->result) sdv_cut(cage, values->indices, indices);
     values->indices = indices;
+    surface->uv->cage_face = (int *)sdv_duplicate(context, &surface->uv->arena, surface->cage_face,
+                                                  (size_t)work->face_count, sizeof(int));
 }
 
 // Gives a surface of values the rules and fine faces of the surface of positions.
@@ -5675,7 +5673,7 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
     sdv_values values = request->values;
     sdv_cage built;
     sdv_check_request(&context, surface, request);
-    sdv_check_carried(&context, request);
+    sdv_check_alone(&context, request);
     subdiv_surface *made = context.result ? NULL : sdv_new_surface(&context, request);
     if (!made) return context.result;
     int levels = request->levels, exact = levels == SUBDIV_EXACT;

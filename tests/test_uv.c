@@ -621,6 +621,24 @@ static void test_channels(void)
 
 // --------------------------------------------------------------------------------- triangulate
 
+// A surface of the UVs alone has their faces, and those of the cage that these are parts of.
+static void check_value_faces(const subdiv_mesh *m, const subdiv_mesh *fine,
+                              const subdiv_options *opt)
+{
+    subdiv_surface *uvs;
+    int count = fine->face_count, *faces, *of;
+    if (!fine->uv_count) return;
+    faces = calloc(3 * (size_t)count + 1, sizeof(int));
+    of = calloc((size_t)count + 1, sizeof(int));
+    CHECK_EQUAL(subdiv_prepare_face_varying(&uvs, m, m->uv_count, m->face_uvs, m->uv_rule, 1, opt),
+                SUBDIV_OK);
+    CHECK_EQUAL(subdiv_surface_faces(uvs, faces, of, opt), SUBDIV_OK);
+    CHECK(same_bytes(faces, fine->face_uvs, 3 * count, sizeof(int)));
+    CHECK(same_bytes(of, fine->cage_faces, count, sizeof(int)));
+    subdiv_surface_free(uvs);
+    free(faces), free(of);
+}
+
 // UVs are cut with the faces: as if the cage had been cut by hand.
 static void check_cut(subdiv_mesh *m, unsigned seed)
 {
@@ -648,6 +666,7 @@ static void check_cut(subdiv_mesh *m, unsigned seed)
     CHECK_EQUAL(subdiv_refine(&fine, m, 1, &opt), SUBDIV_OK);
     CHECK_EQUAL(subdiv_refine(&other, &cut, 1, NULL), SUBDIV_OK);
     CHECK(same_mesh(&fine, &other));
+    check_value_faces(m, &fine, &opt);
     subdiv_mesh_free(&fine);
     subdiv_mesh_free(&other);
     free(cut.face_vertices), free(cut.face_uvs);

@@ -119,7 +119,8 @@ static void prepare(void)
     made.values = values;
     subdiv_result result;
     if (values) {
-        count = spoil(4, 4, 1000);
+        count = spoil(4, 4, VERTICES + 1);
+        if (count > VERTICES) count = 3;  // not enough for the indices
         rule = spoil(2, 0, 6);
         indices = (int *)needed(indices);
         result = subdiv_prepare_face_varying(to, of, count, indices, (subdiv_uv_rule)rule, levels,
