@@ -14282,6 +14282,7 @@ static void sdv_series_drop(sdv_arena *series, size_t size)
 {
     for (size_t in_last; size > (in_last = series->chunk / 2 - series->left); size -= in_last)
         sdv_series_free_last(series);
+    if (size == 0) return;                                  // free may be NULL
     series->free -= size;
     series->left += size;
 }

@@ -267,6 +267,7 @@ static void anywhere(void)
     subdiv_derivatives where = { p, p, p, p, p, p, NULL, stride };
     subdiv_stencils made;
     void *scratch = scratch_for(s, channels);
+    if (count > 2) count = -count;        // or it would be a lie
     if (count == 0) spoiled = stride && stride < channels;      // then there is no location
     if (count) from = (const subdiv_location *)needed(at);
     if (below(b, 2)) where.normals = n;
