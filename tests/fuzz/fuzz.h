@@ -155,8 +155,8 @@ static inline void check_mesh(const subdiv_mesh *m)
     REQUIRE(all_within(m->positions, 3 * vertices, FLT_MAX));
     REQUIRE(all_within(m->uvs, 2 * (size_t)m->uv_count, FLT_MAX));
     REQUIRE(!m->colors || all_within(m->colors, 3 * vertices, FLT_MAX));
-    for (int i = 0; i < m->crease_count; i++) REQUIRE(m->crease_sharpness[i] == m->crease_sharpness[i]);
-    for (int i = 0; i < m->corner_count; i++) REQUIRE(m->corner_sharpness[i] == m->corner_sharpness[i]);
+    for (int i = 0; i < m->crease_count; i++) REQUIRE(!isnan(m->crease_sharpness[i]));
+    for (int i = 0; i < m->corner_count; i++) REQUIRE(!isnan(m->corner_sharpness[i]));
     for (int i = 0; i < m->statement_count; i++) {
         REQUIRE(all_in(m->statement_faces + i, 1, i ? m->statement_faces[i - 1] : 0,
                        m->face_count + 1));

@@ -1,5 +1,6 @@
 // The allocator of the fuzzers, which counts, and small limits of the library, so that little input
-// gets far. Under the address sanitizer no array of a mesh may be left unseen. To save time the implementation is compiled with this once for all fuzzers:
+// gets far. Under the address sanitizer the bytes between arrays are out of bounds. To save time
+// the implementation is compiled with this once for all fuzzers:
 //
 //     cc -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h
 #ifndef HEAP_H

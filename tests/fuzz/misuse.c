@@ -2,7 +2,7 @@
 // too small and surfaces that were prepared for something else. A call is an error if it has to be,
 // writes then nothing but zeros, and never more than the arrays that it was given.
 //
-//     clang -g -O1 -DLIBFUZZER -fsanitize=fuzzer,address,undefined -I. tests/fuzz/misuse.c -o misuse
+//     clang -g -O1 -DLIBFUZZER -fsanitize=fuzzer,address,undefined -I. tests/fuzz/misuse.c
 //     cc -I. tests/fuzz/misuse.c -o fuzz_misuse -lm && ./fuzz_misuse 300 tests/fuzz/seeds/misuse/*
 
 #include "fuzz.h"
@@ -12,7 +12,8 @@ enum { SURFACES = 4, STRIDE = 8, CHANNELS = 5, CALLS = 24 };
 // A cube of triangles and quads, with some of everything.
 static float P[] = { -1,-1,-1, 1,-1,-1, 1,1,-1, -1,1,-1, -1,-1,1, 1,-1,1, 1,1,1, -1,1,1, 3,3,3 };
 static float S[] = { 2, 10 }, CS[] = { 1.5f }, UV[] = { 0,0, 1,0, 1,1, 0,1 };
-static int sizes[] = { 4, 4, 4, 4, 4, 3, 3 }, E[] = { 4,5, 5,6 }, corners[] = { 0 }, holes[] = { 3 };
+static int sizes[] = { 4, 4, 4, 4, 4, 3, 3 }, E[] = { 4,5, 5,6 };
+static int corners[] = { 0 }, holes[] = { 3 };
 static int F[] = { 0,3,2,1, 4,5,6,7, 0,1,5,4, 1,2,6,5, 2,3,7,6, 3,0,4, 3,4,7 };
 static int face_uvs[] = { 0,1,2,3, 0,1,2,3, 0,1,2,3, -1,-1,-1,-1, 0,1,2,3, 0,1,2, 0,2,3 };
 static int statement_faces[] = { 0, 2 };
@@ -177,19 +178,18 @@ static void refine_itself(void)
 static void getters(void)
 {
     const slot *s = a_slot();
-    int size = 4, *vertices, *of = (int *)need(sizeof(int) * 4096);
-    if (!s->surface) {
-        free(of);
-        return;
-    }
-    size = subdiv_surface_face_size(s->surface);
-    int count = subdiv_surface_face_count(s->surface);
-    vertices = (int *)need(sizeof(int) * (size_t)size * (size_t)count);
+    int size = subdiv_surface_face_size(s->surface), count = subdiv_surface_face_count(s->surface);
+    int *vertices = (int *)need(sizeof(int) * (size_t)size * (size_t)count);
+    int *of = (int *)need(sizeof(int) * (size_t)count);
     int *ends = (int *)need(2 * sizeof(int) * (size_t)s->edges);
+    spoiled += !s->surface;
+    REQUIRE(s->surface || (!size && !count && !subdiv_scratch_size(NULL, 3)));
     spoiled += s->exact || size == 0;
-    end_call(subdiv_surface_faces(s->surface, (int *)needed(vertices), below(b, 2) ? of : NULL, opt));
+    int *to = (int *)needed(vertices);
+    end_call(subdiv_surface_faces(s->surface, to, below(b, 2) ? of : NULL, opt));
     subdiv_surface_edges(s->surface, ends);
-    REQUIRE(subdiv_first_inside(s->surface, s->faces) <= s->points || s->exact);
+    REQUIRE(s->exact || all_in((int[]){ subdiv_first_inside(s->surface, any_int(b)) }, 1, 0,
+                               s->points + 1));
     free(vertices), free(of), free(ends);
 }
 
@@ -222,7 +222,8 @@ static void evaluate(void)
 static void evaluate_part(void)
 {
     const slot *s = a_slot();
-    int limit = below(b, 2), channels = limit ? 3 : 1 + below(b, CHANNELS), stride = a_stride(channels);
+    int limit = below(b, 2), channels = limit ? 3 : 1 + below(b, CHANNELS);
+    int stride = a_stride(channels);
     float *p = floats(s->points), *n = floats(s->points), *t = floats(s->points);
     void *scratch = scratch_for(s, channels), *from = needed(scratch);
     int face = spoil(0, 0, s->faces + 1), faces = spoil(s->faces - face, 0, s->faces - face + 1);

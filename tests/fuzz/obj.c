@@ -2,7 +2,7 @@
 // the same error; what was read is refined, written, and read again as the same mesh. What becomes
 // of the text follows from a hash of it, so that the seeds are OBJ files.
 //
-//     clang -g -O1 -DLIBFUZZER -fsanitize=fuzzer,address,undefined -I. tests/fuzz/obj.c -o fuzz_obj
+//     clang -g -O1 -DLIBFUZZER -fsanitize=fuzzer,address,undefined -I. tests/fuzz/obj.c
 //     cc -I. tests/fuzz/obj.c -o fuzz_obj -lm && ./fuzz_obj 300 tests/fuzz/seeds/obj/*
 
 #include "fuzz.h"
@@ -103,7 +103,7 @@ static void check_stream(const subdiv_mesh *cage, int levels, const subdiv_optio
     subdiv_mesh fine;
     REQUIRE(settled(subdiv_prepare(&surface, cage, levels, &opt)));
     REQUIRE(settled_mesh(subdiv_surface_mesh(&fine, surface, cage->positions, &opt), &fine));
-    if (levels) fine.normals = NULL;
+    fine.normals = NULL;
     text t = save(&fine);
     REQUIRE(settled(subdiv_stream_obj_callback(surface, cage->positions, write_piece, &t, &opt)));
     REQUIRE(t.at == t.size);
@@ -118,6 +118,8 @@ static void refine(subdiv_mesh *cage)
     subdiv_options opt = fresh_options();
     subdiv_mesh fine;
     memset(&fine, 0x55, sizeof fine);
+    if (!all_within(cage->uvs, 2 * (size_t)cage->uv_count, 1e35f)) return;
+    if (cage->colors && !all_within(cage->colors, 3 * (size_t)cage->vertex_count, 1e35f)) return;
     while (levels && face_vertex_sum(cage) << 2 * levels > 10000) levels--;
     cage->scheme = (subdiv_scheme)draw(3);
     opt.triangulate = draw(4) > 0;
