@@ -14,8 +14,7 @@
 #include "lib/random_cage.h"
 #include "lib/test.h"
 
-// Faces that repeat a vertex are left out: whether a vertex is manifold then is told differently.
-enum { FEATURES = RANDOM_ALL & ~RANDOM_DEGENERATE, PLACES = 16, MOST_PLACES = 512 };
+enum { FEATURES = RANDOM_ALL, PLACES = 16, MOST_PLACES = 512 };
 
 static const double position_tolerance = 1e-6;    // of the extent of the cage
 static const double derivative_tolerance = 1e-4;  // of the larger of the two
@@ -140,10 +139,9 @@ static void check_dyadic_points(random_cage *random, int levels)
     subdiv_mesh fine = {0};
     subdiv_options opt = {0};
     order grid;
-    oracle *o;
+    slow_mesh *o = slow_cage(cage, 0);
     opt.limit = 1;
     CHECK(order_make(&grid, cage, levels, NULL));
-    CHECK(oracle_open(&o, cage));
     CHECK_EQUAL(subdiv_refine(&fine, cage, levels, &opt), SUBDIV_OK);
     for (int i = 0; i < 8 && !test_bad; i++) {
         const int f = random_below(random, cage->face_count), n = order_grid(&grid, f);
@@ -152,12 +150,12 @@ static void check_dyadic_points(random_cage *random, int levels)
         const int column = random_below(random, n + 1 - (loop ? row : 0));
         const int point = order_point(&grid, f, quad, row, column);
         double out[3][3];
-        CHECK(oracle_evaluate(o, f, quad, (double)column / n, (double)row / n, ORACLE_DEPTH, out));
+        oracle_evaluate(o, f, quad, (double)column / n, (double)row / n, out);
         for (int k = 0; k < 3; k++)
             CHECK_NEAR(fine.positions[3 * point + k], out[0][k],
                        position_tolerance * mesh_extent(cage));
     }
-    oracle_close(o);
+    slow_free(o);
     order_free(&grid);
     subdiv_mesh_free(&fine);
 }
@@ -176,12 +174,11 @@ static void test_oracle(void)
 
 // --------------------------------------------------------------------------- against the oracle
 
-static void check_place(const sampler *s, oracle *o, int i)
+static void check_place(const sampler *s, const slow_mesh *o, int i)
 {
     const subdiv_location *at = &s->at[i];
     double exact[3][3];
-    CHECK(oracle_evaluate(o, at->face, at->corner, (double)at->u, (double)at->v, ORACLE_DEPTH,
-                          exact));
+    oracle_evaluate(o, at->face, at->corner, (double)at->u, (double)at->v, exact);
     const double size = fmax(length(of_doubles(exact[1])), length(of_doubles(exact[2])));
     for (int which = 0; which < 3; which++) {
         const vec ours = value(s, i, which), difference = add(ours, -1, of_doubles(exact[which]));
@@ -235,16 +232,16 @@ static void test_random_cages(void)
     for (int i = 0; i < 200; i++) {
         const unsigned seed = seed_number(i);
         random_cage *random = random_cage_new(seed, FEATURES);
-        oracle *o = NULL;
         sprintf(context, "seed %u", seed);
-        CHECK(random && oracle_open(&o, &random->mesh));
-        if (!o || !open_sampler(&s, &random->mesh)) return;
+        CHECK(random != NULL);
+        if (!random || !open_sampler(&s, &random->mesh)) return;
+        slow_mesh *o = slow_cage(&random->mesh, 0);
         for (int k = 0; k < PLACES; k++) choose_place(random, &s);
         evaluate_places(&s);
         for (int k = 0; k < s.count; k++)
-            if (!oracle_is_bare(o, s.at[k].face)) check_place(&s, o, k);
+            if (!o->dropped[s.at[k].face]) check_place(&s, o, k);
         close_sampler(&s);
-        oracle_close(o);
+        slow_free(o);
         random_cage_free(random);
     }
 }
@@ -271,12 +268,11 @@ static void build_vertex(test_cage *c, int i, int faces)
 
 // Is a normal that of the exact derivatives? Near the vertex they have the exact direction only as
 // far as the oracle's last face is small beside the distance.
-static void check_normal(const sampler *s, oracle *o, int i)
+static void check_normal(const sampler *s, const slow_mesh *o, int i)
 {
     const subdiv_location *at = &s->at[i];
     double exact[3][3];
-    CHECK(oracle_evaluate(o, at->face, at->corner, (double)at->u, (double)at->v, ORACLE_DEPTH,
-                          exact));
+    oracle_evaluate(o, at->face, at->corner, (double)at->u, (double)at->v, exact);
     const vec n = cross(of_doubles(exact[1]), of_doubles(exact[2]));
     const double angle = length(cross(value(s, i, 6), n)) / length(n);
     if (!(angle <= 1e-3))
@@ -292,10 +288,9 @@ static void test_valences(void)
     test_context = context;
     for (int faces = 3; faces <= 50; faces += faces < 8 ? 1 : 7) {
         for (int kind = 0; kind < 8; kind++) {
-            oracle *o;
             build_vertex(&c, kind, faces);
-            CHECK(oracle_open(&o, &c.mesh));
             if (!open_sampler(&s, &c.mesh)) return;
+            slow_mesh *o = slow_cage(&c.mesh, 0);
             for (int i = 0; i < 8; i++) {
                 const double r = pow(0.5, 0.5 + 1.5 * i), part = 0.09 + 0.11 * i;
                 add_place(&s, i % faces, 0, r * part, r * (1 - part));
@@ -304,7 +299,7 @@ static void test_valences(void)
             for (int i = 0; i < s.count; i++) check_place(&s, o, i);
             for (int i = 0; i < s.count; i++) check_normal(&s, o, i);
             close_sampler(&s);
-            oracle_close(o);
+            slow_free(o);
         }
     }
 }
@@ -348,17 +343,17 @@ enum { EDGE_PLACES = sizeof edge_places / sizeof *edge_places };
 
 // Every edge with two faces, and the edges between the quads of an n-gon. An edge that is sharp
 // forever has two normals; one that is sharp for a while has one.
-static void check_all_edges(sampler *s, const oracle *o)
+static void check_all_edges(sampler *s, const slow_mesh *cage)
 {
-    const oracle_mesh *cage = &o->cage;
-    static int first_face[ORACLE_MOST], first_edge[ORACLE_MOST];
+    int *first_face = (int *)slow_new(cage->edge_count, sizeof *first_face);
+    int *first_edge = (int *)slow_new(cage->edge_count, sizeof *first_edge);
     for (int e = 0; e < cage->edge_count; e++) first_face[e] = -1;
     for (int f = 0; f < cage->face_count; f++) {
-        for (int i = 0, n = oracle_size(cage, f); i < n; i++) {
+        for (int i = 0, n = slow_size(cage, f); i < n; i++) {
             const int h = cage->start[f] + i, e = cage->edges[h], g = first_face[e];
             const int same = g >= 0 && cage->vertices[cage->start[g] + first_edge[e]]
                                     == cage->vertices[h];
-            if (oracle_is_bare(o, f)) continue;
+            if (cage->dropped[f]) continue;
             s->count = 0;
             for (int k = 0; k < EDGE_PLACES && g >= 0; k++) {
                 const double t = edge_places[k];
@@ -380,6 +375,7 @@ static void check_all_edges(sampler *s, const oracle *o)
             first_edge[e] = i;
         }
     }
+    free(first_face), free(first_edge);
 }
 
 static void test_edges(void)
@@ -389,13 +385,13 @@ static void test_edges(void)
     for (int i = 0; i < 120; i++) {
         const unsigned seed = seed_number(i);
         random_cage *random = random_cage_new(seed, FEATURES & ~RANDOM_BILINEAR);
-        oracle *o = NULL;
         sprintf(context, "seed %u", seed);
-        CHECK(random && oracle_open(&o, &random->mesh));
-        if (!o || !open_sampler(&s, &random->mesh)) return;
+        CHECK(random != NULL);
+        if (!random || !open_sampler(&s, &random->mesh)) return;
+        slow_mesh *o = slow_cage(&random->mesh, 0);
         check_all_edges(&s, o);
         close_sampler(&s);
-        oracle_close(o);
+        slow_free(o);
         random_cage_free(random);
     }
 }

@@ -88,8 +88,7 @@ struct Quality {
 template <class Evaluate> static Quality quality_of(const Fan &fan, const Evaluate &evaluate)
 {
     Quality worst;
-    oracle *exact;
-    CHECK(oracle_open(&exact, &fan.mesh));
+    slow_mesh *exact = slow_cage(&fan.mesh, 0);
     for (int i = 0; i < fan.valence; i++) {
         const int f = fan.first_face(i), before = fan.first_face(i - 1);
         for (float r = 0.75f; r > 1e-4f; r *= 0.75f)
@@ -102,14 +101,14 @@ template <class Evaluate> static Quality quality_of(const Fan &fan, const Evalua
             const Place place = evaluate(0, u, v);
             double out[3][3];
             Vector e[3];
-            CHECK(oracle_evaluate(exact, 0, 0, (double)u, (double)v, ORACLE_DEPTH, out));
+            oracle_evaluate(exact, 0, 0, (double)u, (double)v, out);
             memcpy(e, out, sizeof out);
             for (int k = 0; k < 3; k++) e[0].p[k] -= place.point.p[k];
             worst.point = std::max(worst.point, length(e[0]));
             worst.normal = std::max(worst.normal, angle_between(place.normal, cross(e[1], e[2])));
         }
     }
-    oracle_close(exact);
+    slow_free(exact);
     return worst;
 }
 
