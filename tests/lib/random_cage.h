@@ -56,6 +56,7 @@ typedef struct random_cage {
     float uvs[2 * RANDOM_MAX_UVS];
     int   face_uvs[RANDOM_MAX_FACES * RANDOM_MAX_SIZE];
 
+    const unsigned char *bytes, *end; // what decides, before the generator does
     unsigned long long state;         // of the generator; the rest is the cage while it is made
     int features;
     int vertex_count, face_count;
@@ -79,7 +80,10 @@ static inline unsigned random_bits(random_cage *c)
 // 0 <= result < n
 static inline int random_below(random_cage *c, int n)
 {
-    return (int)(random_bits(c) % (unsigned)n);
+    unsigned bits = 0;
+    if (c->end - c->bytes < 2) return (int)(random_bits(c) % (unsigned)n);
+    if (n > 256) bits = 256u * *c->bytes++;
+    return (int)((bits + *c->bytes++) % (unsigned)n);
 }
 
 static inline int random_chance(random_cage *c, int percent)
@@ -538,8 +542,10 @@ static inline int random_is_allowed(const random_cage *c)
 static inline void random_undo(random_cage *c, const random_cage *before)
 {
     const unsigned long long state = c->state;
+    const unsigned char *bytes = c->bytes;
     *c = *before;
     c->state = state;
+    c->bytes = bytes;
 }
 
 static inline void random_edit_some(random_cage *c, random_cage *before)
@@ -814,8 +820,10 @@ static inline void random_cage_free(random_cage *c)
     free(c);
 }
 
-// features: RANDOM_ALL or less. Returns NULL without memory.
-static inline random_cage *random_cage_new(unsigned seed, int features)
+// features: RANDOM_ALL or less. The bytes decide as long as there are two. Returns NULL without
+// memory.
+static inline random_cage *random_cage_of(unsigned seed, int features, const unsigned char *bytes,
+                                          size_t count)
 {
     random_cage *c = (random_cage *)calloc(1, sizeof *c);
     random_cage *before = (random_cage *)calloc(1, sizeof *before);
@@ -825,6 +833,8 @@ static inline random_cage *random_cage_new(unsigned seed, int features)
         return NULL;
     }
     c->state = seed;
+    c->bytes = bytes;
+    c->end = bytes + count;
     c->features = features;
     random_choose_features(c);
     random_add_shape(c);
@@ -846,6 +856,12 @@ static inline random_cage *random_cage_new(unsigned seed, int features)
     if (c->features & RANDOM_UVS) random_add_uvs(c);
     free(before);
     return c;
+}
+
+static inline random_cage *random_cage_new(unsigned seed, int features)
+{
+    static const unsigned char none[1] = { 0 };
+    return random_cage_of(seed, features, none, 0);
 }
 
 #endif

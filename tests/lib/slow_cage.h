@@ -6,6 +6,11 @@
 
 // --------------------------------------------------------------------------------------- the cage
 
+static inline int slow_joins(const slow_mesh *m, int e, int a, int b)
+{
+    return (m->ends[e][0] == a && m->ends[e][1] == b) || (m->ends[e][0] == b && m->ends[e][1] == a);
+}
+
 // Edges as the faces first meet them. An edge that a face has a second time, and one from a vertex to
 // itself, is one more, of that face alone. Not manifold are these, edges of three faces, and those
 // that two faces follow in the same direction.
@@ -15,8 +20,7 @@ static inline void slow_find_edges(slow_mesh *m, int *face_count)
         for (int h = m->start[f]; h < m->start[f + 1]; h++) {
             const int a = m->vertices[h], b = m->vertices[slow_turn(m, f, h, 1)];
             int e = 0, again = 0;
-            while (e < m->edge_count && !((m->ends[e][0] == a && m->ends[e][1] == b) ||
-                                          (m->ends[e][0] == b && m->ends[e][1] == a))) e++;
+            while (e < m->edge_count && (a == b || !slow_joins(m, e, a, b))) e++;
             const int found = e < m->edge_count;
             for (int g = m->start[f]; g < h; g++) again |= found && m->edges[g] == e;
             if (again || (found && (m->ends[e][0] == a || face_count[e] > 1))) m->odd_edge[e] = 1;
@@ -87,12 +91,9 @@ static inline void slow_read_lists(slow_mesh *m, const subdiv_mesh *cage)
 {
     for (int i = 0; i < cage->crease_count; i++) {
         const int a = cage->crease_vertices[2 * i], b = cage->crease_vertices[2 * i + 1];
-        for (int e = 0; e < m->edge_count; e++)
-            if ((m->ends[e][0] == a && m->ends[e][1] == b) ||
-                (m->ends[e][0] == b && m->ends[e][1] == a)) {
-                m->crease[e] = slow_listed(cage->crease_sharpness[i]);
-                break;
-            }
+        int e = 0;
+        while (e < m->edge_count && !slow_joins(m, e, a, b)) e++;
+        if (e < m->edge_count) m->crease[e] = slow_listed(cage->crease_sharpness[i]);
     }
     for (int i = 0; i < cage->corner_count; i++)
         m->corner[cage->corner_vertices[i]] = slow_listed(cage->corner_sharpness[i]);
@@ -170,7 +171,7 @@ typedef struct slow_cut {
     unsigned char *seam, *boundary;   // of edges, and of their ends; boundary: of the cage itself
     unsigned char *at_seam, *at_boundary;
     int *own, *value;                 // of face-vertices: the vertex here; of those: their value
-    int *values_at;                   // of vertices of the cage
+    int *values_at, *faces_at;        // of vertices of the cage: how many
     int *size, *forever, *semi;       // of vertices here: faces, infinitely sharp edges, semi-sharp
 } slow_cut;
 
@@ -259,7 +260,7 @@ static inline void slow_uv_rule(const slow_cut *c, slow_mesh *uvs, subdiv_uv_rul
     if (plus) sharp |= count > 2 || (count == 2 && (c->forever[i] > 2 || c->forever[other] > 2));
     if (rule == SUBDIV_UV_CORNERS_PLUS2) {
         sharp |= count == 2 && c->size[other] == 1;
-        sharp |= count == 1 && cut && !c->at_boundary[v];
+        sharp |= cut && c->size[i] == c->faces_at[v] && !c->at_boundary[v];      // a dart
     }
     if (sharp) uvs->corner[i] = SUBDIV_INFINITE;
     else if (plus && count == 2 && c->semi[other] && !c->semi[i] && uvs->corner[i] <= 0)
@@ -269,7 +270,7 @@ static inline void slow_uv_rule(const slow_cut *c, slow_mesh *uvs, subdiv_uv_rul
 static inline slow_mesh *slow_uvs(const slow_mesh *m, const subdiv_mesh *cage)
 {
     const int corners = m->start[m->face_count];
-    slow_cut c = { m, cage->face_uvs, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    slow_cut c = { m, cage->face_uvs, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
     if (!cage->uv_count) return NULL;
     slow_mesh *uvs = slow_mesh_new(m, corners, corners, m->face_count, corners);
     uvs->linear |= cage->uv_rule == SUBDIV_UV_ALL;
@@ -287,7 +288,9 @@ static inline slow_mesh *slow_uvs(const slow_mesh *m, const subdiv_mesh *cage)
     c.size = c.value + corners;
     c.forever = c.size + corners;
     c.semi = c.forever + corners;
-    c.values_at = (int *)slow_new(m->vertex_count, sizeof *c.values_at);
+    c.values_at = (int *)slow_new(2 * m->vertex_count, sizeof *c.values_at);
+    c.faces_at = c.values_at + m->vertex_count;
+    for (int h = 0; h < corners; h++) c.faces_at[m->vertices[h]]++;
     slow_find_seams(&c);
     for (int f = 0; f < m->face_count; f++) {
         const int n = slow_size(m, f), first = m->start[f], start = uvs->start[uvs->face_count];
