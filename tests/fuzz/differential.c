@@ -1,19 +1,11 @@
 // The library against the slow reference of tests/lib/slow.h: structured random cages with every
-// option, refined by 0 to 4 levels. Faces, points, UVs and the sharpness that is left are the same; so
-// are the limit, samples and stencils at some places. The first four bytes seed a generator of cages,
-// the others make its decisions.
+// option, refined by 0 to 4 levels. Faces, points, UVs and the sharpness that is left are the same;
+// so are the limit, samples and stencils at some places. The first four bytes seed a generator of
+// cages, the others make its decisions.
 //
 //     clang -g -O1 -fsanitize=fuzzer,address,undefined -DLIBFUZZER -I. tests/fuzz/differential.c
-//         -o build/fuzz_differential -lm && build/fuzz_differential
-//
-// Without -DLIBFUZZER it is a test: build/fuzz_differential [RUNS [FIRST]] makes cages of as many seeds.
-#include <stdint.h>
-#include <stdio.h>
-
-#ifndef SUBDIV_IMPLEMENTED
-#define SUBDIV_IMPLEMENTATION
-#endif
-#include "subdiv.h"
+//         -o build/fuzz_differential && build/fuzz_differential tests/fuzz/seeds/differential
+#include "fuzz.h"
 #include "tests/lib/cages.h"
 #include "tests/lib/exact_oracle.h"
 #include "tests/lib/random_cage.h"
@@ -22,10 +14,6 @@ enum { MOST_FACES = 5000, PLACES = 3 };
 
 static const double tolerance = 1e-6;             // of the extent, of positions and of UVs
 static const double sharpness_tolerance = 1e-5;   // Chaikin adds up in the order of the edges
-
-#define REQUIRE(condition) do { if (!(condition)) {                                     \
-        fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); abort(); }      \
-    } while (0)
 
 typedef struct comparison {
     random_cage *random;
@@ -84,7 +72,8 @@ static void match_vertices(comparison *c)
     int points[RANDOM_MAX_SIZE], *theirs = (int *)slow_new(m->vertex_count, sizeof *theirs);
     c->ours = (int *)slow_new(m->vertex_count, sizeof *c->ours);
     REQUIRE(c->fine.vertex_count == m->vertex_count);
-    for (int v = 0; v < m->vertex_count; v++) c->ours[v] = theirs[v] = v < c->cage->vertex_count ? v : -1;
+    for (int v = 0; v < m->vertex_count; v++)
+        c->ours[v] = theirs[v] = v < c->cage->vertex_count ? v : -1;
     for (int f = 0; f < m->face_count; f++) {
         fine_face(c, m->places[f], points);
         for (int i = 0; i < slow_size(m, f); i++) {
@@ -105,7 +94,8 @@ static void compare_faces(const comparison *c, int face_count)
     const slow_mesh *m = c->slow;
     const subdiv_mesh *fine = &c->fine;
     unsigned char *hole = (unsigned char *)slow_new(fine->face_count, 1);
-    int points[RANDOM_MAX_SIZE], holes = 0, *start = (int *)slow_new(fine->face_count, sizeof *start);
+    int *start = (int *)slow_new(fine->face_count, sizeof *start);
+    int points[RANDOM_MAX_SIZE], holes = 0;
     REQUIRE(fine->face_count == face_count);
     for (int i = 0; i < fine->hole_count; i++) hole[fine->holes[i]] = 1;
     for (int f = 0; f < face_count; f++) start[f + 1] = start[f] + face_size(fine, f);
@@ -125,8 +115,8 @@ static void compare_faces(const comparison *c, int face_count)
 static void compare_points(const comparison *c, double extent)
 {
     for (int v = 0; v < c->slow->vertex_count; v++)
-        require_near(c, "point", c->ours[v], c->fine.positions + 3 * c->ours[v], c->slow->points[v], 3,
-                     tolerance * extent);
+        require_near(c, "point", c->ours[v], c->fine.positions + 3 * c->ours[v],
+                     c->slow->points[v], 3, tolerance * extent);
 }
 
 typedef struct sharp { int a, b; float s; } sharp;            // an edge, or with b -1 a vertex
@@ -238,10 +228,12 @@ static spot choose_spot(random_cage *random, const slow_mesh *m, int levels)
 
 static int point_at(const comparison *c, const spot *s)
 {
-    const int face = s->at.face, corner = s->row ? s->column ? 2 : 3 : s->column;
+    const slow_mesh *m = c->start;
+    const int face = s->at.face;
+    int corner = s->row ? m->loop || s->column ? 2 : 3 : s->column;
     if (c->levels > 0) return order_point(&c->order, face, s->at.corner, s->row, s->column);
-    const int last = c->start->loop && corner == 3 ? 2 : corner;
-    return c->start->vertices[c->start->start[face] + (is_ngon(c->start, face) ? s->at.corner : last)];
+    if (is_ngon(m, face)) corner = s->at.corner;
+    return m->vertices[m->start[face] + corner];
 }
 
 // Points of the result on the limit.
@@ -274,7 +266,8 @@ static void compare_stencils(const comparison *c, double reach)
 {
     subdiv_surface *surface;
     subdiv_stencils stencils;
-    const int first = random_below(c->random, c->fine.vertex_count), rest = c->fine.vertex_count - first;
+    const int first = random_below(c->random, c->fine.vertex_count);
+    const int rest = c->fine.vertex_count - first;
     REQUIRE(!subdiv_prepare(&surface, c->cage, c->levels, &c->opt));
     REQUIRE(!subdiv_refined_stencils(&stencils, surface, first, rest < 9 ? rest : 9, &c->opt));
     for (int i = 0; i < stencils.count; i++) {
@@ -329,7 +322,8 @@ static int stands_alone(const slow_mesh *uvs)
 {
     int alone = uvs->face_count > 0;
     for (int v = 0; v < uvs->vertex_count; v++) alone &= uvs->partner[v] < 0;
-    for (int e = 0; e < uvs->edge_count && uvs->chaikin; e++) alone &= !slow_is_semi(uvs->crease[e]);
+    for (int e = 0; e < uvs->edge_count && uvs->chaikin; e++)
+        alone &= !slow_is_semi(uvs->crease[e]);
     return alone;
 }
 
@@ -341,8 +335,8 @@ static void compare_exact(const comparison *c, double extent, double uv_extent)
     REQUIRE(!subdiv_prepare(&surface, cage, SUBDIV_EXACT, &c->opt));
     compare_samples(c, surface, c->start, cage->positions, 3, extent);
     if (!c->start_uvs || !stands_alone(c->start_uvs)) return;
-    REQUIRE(!subdiv_prepare_face_varying(&surface, cage, cage->uv_count, cage->face_uvs, cage->uv_rule,
-                                         SUBDIV_EXACT, &c->opt));
+    REQUIRE(!subdiv_prepare_face_varying(&surface, cage, cage->uv_count, cage->face_uvs,
+                                         cage->uv_rule, SUBDIV_EXACT, &c->opt));
     compare_samples(c, surface, c->start_uvs, cage->uvs, 2, uv_extent);
 }
 
@@ -395,7 +389,8 @@ static void compare(comparison *c)
     REQUIRE(!subdiv_refine(&c->fine, cage, c->levels, &c->opt));
     int face_count = cage->face_count;
     if (c->levels > 0) {
-        REQUIRE(order_make(&c->order, cage, c->levels, c->opt.keep_holes ? NULL : c->start->hidden));
+        REQUIRE(order_make(&c->order, cage, c->levels,
+                           c->opt.keep_holes ? NULL : c->start->hidden));
         face_count = c->order.face_count;
     }
     match_vertices(c);
@@ -425,21 +420,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     free(c.ours);
     subdiv_mesh_free(&c.fine);
     random_cage_free(c.random);
+    REQUIRE(heap_live == 0);
     return 0;
 }
 
-#ifndef LIBFUZZER
-int main(int argc, char **argv)
-{
-    const unsigned runs = argc > 1 ? (unsigned)atoi(argv[1]) : 500;
-    const unsigned first = argc > 2 ? (unsigned)atoi(argv[2]) : 1;
-    for (unsigned seed = first; seed < first + runs; seed++) {
-        const uint8_t data[4] = { (uint8_t)(seed >> 24), (uint8_t)(seed >> 16), (uint8_t)(seed >> 8),
-                                  (uint8_t)seed };
-        if (argc > 3) fprintf(stderr, "%u\n", seed);
-        LLVMFuzzerTestOneInput(data, sizeof data);
-    }
-    printf("%-24s %4u passed, 0 failed\n", "differential", runs);
-    return 0;
-}
-#endif
+#include "replay.h"

@@ -1,5 +1,5 @@
-// Refinement in doubles as the papers and OpenSubdiv's rules say it, independent of the library: one
-// level at a time, every level a whole mesh, every point by the mask of its rule. Nothing is fast.
+// Refinement in doubles as the papers and OpenSubdiv's rules say it, independent of the library:
+// one level at a time, each level a whole mesh, each point by the mask of its rule. Nothing is fast.
 //
 //     slow_mesh *m = slow_cage(&cage, 0);              see slow_cage.h
 //     slow_mesh *uvs = slow_uvs(m, &cage);
@@ -108,8 +108,8 @@ static inline float slow_fade(float s)
     return s >= SUBDIV_INFINITE ? s : s > 1 ? s - 1 : 0;
 }
 
-// Chaikin: three quarters of the edge's own sharpness, one of the mean of the other semi-sharp edges
-// at that end. A half of an edge of UVs fades as the half of the mesh's edge that it is.
+// Chaikin: three quarters of the edge's own sharpness and one of the mean of the other semi-sharp
+// edges at that end. A half of an edge of UVs fades as the half of the mesh's edge that it is.
 static inline void slow_fade_edges(slow_mesh *m, const slow_mesh *mesh)
 {
     float *sum = (float *)slow_new(m->vertex_count, sizeof *sum);
@@ -237,9 +237,9 @@ static inline void slow_vertex_point(const slow_mesh *m, int v, const slow_ring 
     if (w < 1) slow_add_vertex(m, v, own, next, 1, 1 - w, out);
 }
 
-// Ends and what is across, which are faces, or under Loop their third vertices. A sharp edge has its
-// middle; one that turns smooth a blend, by its sharpness. Triangles under Catmull-Clark may weigh
-// more than 1/4: 0.47, beside a quad the mean of both.
+// From the ends and what is across: face points, or under Loop the third vertices. A sharp edge has
+// its middle; one that turns smooth a blend, by its sharpness. A triangle under Catmull-Clark may
+// weigh 0.47 instead of 1/4 [OSD]: two faces weigh the mean of theirs, each.
 static inline void slow_edge_point(const slow_mesh *m, int e, const double *across, int triangles,
                                    double *out)
 {
@@ -359,9 +359,10 @@ static inline void slow_refine_triangle(const slow_mesh *m, int f, slow_mesh *to
 static inline slow_mesh *slow_refine(slow_mesh *m, const slow_mesh *mesh)
 {
     const int corners = m->start[m->face_count], edges = 2 * m->edge_count + corners;
-    slow_mesh *to = slow_mesh_new(m, m->vertex_count + m->edge_count + (m->loop ? 0 : m->face_count),
-                                  edges, m->loop ? 4 * m->face_count : corners, 4 * corners);
-    to->vertex_count = m->vertex_count + m->edge_count + (m->loop ? 0 : m->face_count);
+    const int vertices = m->vertex_count + m->edge_count + (m->loop ? 0 : m->face_count);
+    const int faces = m->loop ? 4 * m->face_count : corners;
+    slow_mesh *to = slow_mesh_new(m, vertices, edges, faces, 4 * corners);
+    to->vertex_count = vertices;
     to->edge_count = edges;
     slow_fade_edges(m, mesh);
     slow_refine_points(m, mesh, to);
@@ -374,10 +375,11 @@ static inline slow_mesh *slow_refine(slow_mesh *m, const slow_mesh *mesh)
     }
     if (!mesh) return to;
     to->twin = (int *)slow_new(edges, sizeof *to->twin);
-    to->partner = (int *)slow_new(to->vertex_count, sizeof *to->partner);
+    to->partner = (int *)slow_new(vertices, sizeof *to->partner);
     for (int e = 0; e < edges; e++)
-        to->twin[e] = e < 2 * m->edge_count && m->twin[e / 2] >= 0 ? 2 * m->twin[e / 2] + e % 2 : -1;
-    for (int v = 0; v < to->vertex_count; v++)
+        to->twin[e] = e / 2 < m->edge_count && m->twin[e / 2] >= 0 ? 2 * m->twin[e / 2] + e % 2
+                                                                   : -1;
+    for (int v = 0; v < vertices; v++)
         to->partner[v] = v < m->vertex_count ? m->partner[v] : -1;
     return to;
 }

@@ -11,8 +11,8 @@ static inline int slow_joins(const slow_mesh *m, int e, int a, int b)
     return (m->ends[e][0] == a && m->ends[e][1] == b) || (m->ends[e][0] == b && m->ends[e][1] == a);
 }
 
-// Edges as the faces first meet them. An edge that a face has a second time, and one from a vertex to
-// itself, is one more, of that face alone. Not manifold are these, edges of three faces, and those
+// Edges as the faces first meet them. An edge that a face has a second time, and one from a vertex
+// to itself, is one more. Not manifold, odd, are these, the edges of three faces or more, and those
 // that two faces follow in the same direction.
 static inline void slow_find_edges(slow_mesh *m, int *face_count)
 {
@@ -100,9 +100,9 @@ static inline void slow_read_lists(slow_mesh *m, const subdiv_mesh *cage)
     for (int i = 0; i < cage->hole_count; i++) m->hidden[cage->holes[i]] = 1;
 }
 
-// By the shape: boundaries and what is not manifold are sharp forever, but for a vertex through which
-// a crease of two odd edges runs. Boundary rule "none" drops the faces at a boundary that the lists
-// do not make sharp.
+// By the shape: boundaries and what is not manifold are sharp forever, but for a vertex through
+// which a crease of two odd edges runs. Boundary rule "none" drops the faces at a boundary that the
+// lists do not make sharp.
 static inline void slow_look_at_shape(slow_mesh *m, const subdiv_mesh *cage, const int *face_count)
 {
     unsigned char *open = (unsigned char *)slow_new(m->vertex_count, 1);
@@ -184,11 +184,31 @@ static inline int slow_differ(const slow_cut *c, int f, int h, int g, int k)
            c->values[slow_turn(c->m, f, h, 1)] != c->values[slow_turn(c->m, g, k, 1 - turn)];
 }
 
+static inline void slow_cut_new(slow_cut *c, const slow_mesh *m, const int *values)
+{
+    const int corners = m->start[m->face_count];
+    c->m = m;
+    c->values = values;
+    c->has = (unsigned char *)slow_new(m->face_count, 1);
+    c->seam = (unsigned char *)slow_new(2 * m->edge_count, 1);
+    c->boundary = c->seam + m->edge_count;
+    c->at_seam = (unsigned char *)slow_new(2 * m->vertex_count, 1);
+    c->at_boundary = c->at_seam + m->vertex_count;
+    c->own = (int *)slow_new(5 * corners, sizeof *c->own);
+    c->value = c->own + corners;
+    c->size = c->value + corners;
+    c->forever = c->size + corners;
+    c->semi = c->forever + corners;
+    c->values_at = (int *)slow_new(2 * m->vertex_count, sizeof *c->values_at);
+    c->faces_at = c->values_at + m->vertex_count;
+    for (int h = 0; h < corners; h++) c->faces_at[m->vertices[h]]++;
+}
+
 static inline void slow_find_seams(slow_cut *c)
 {
     const slow_mesh *m = c->m;
-    int *first = (int *)slow_new(m->edge_count, sizeof *first), *face = NULL;
-    face = (int *)slow_new(m->edge_count, sizeof *face);
+    int *first = (int *)slow_new(m->edge_count, sizeof *first);
+    int *face = (int *)slow_new(m->edge_count, sizeof *face);
     for (int e = 0; e < m->edge_count; e++) face[e] = -1;
     for (int f = 0; f < m->face_count; f++) {
         c->has[f] = 1;
@@ -246,8 +266,8 @@ static inline int slow_uv_edge(slow_cut *c, slow_mesh *uvs, int f, int h)
     return i;
 }
 
-// The six rules, for vertex i. Two values at a vertex may make each other sharp: forever, or as long
-// as one of them is semi-sharp.
+// The six rules, for vertex i. Two values at a vertex may make each other sharp: forever, or as
+// long as one of them is semi-sharp.
 static inline void slow_uv_rule(const slow_cut *c, slow_mesh *uvs, subdiv_uv_rule rule, int i)
 {
     const int v = uvs->home[i], count = c->values_at[v], cut = c->at_seam[v];
@@ -270,7 +290,7 @@ static inline void slow_uv_rule(const slow_cut *c, slow_mesh *uvs, subdiv_uv_rul
 static inline slow_mesh *slow_uvs(const slow_mesh *m, const subdiv_mesh *cage)
 {
     const int corners = m->start[m->face_count];
-    slow_cut c = { m, cage->face_uvs, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL };
+    slow_cut c;
     if (!cage->uv_count) return NULL;
     slow_mesh *uvs = slow_mesh_new(m, corners, corners, m->face_count, corners);
     uvs->linear |= cage->uv_rule == SUBDIV_UV_ALL;
@@ -278,19 +298,7 @@ static inline slow_mesh *slow_uvs(const slow_mesh *m, const subdiv_mesh *cage)
     uvs->twin = (int *)slow_new(corners, sizeof *uvs->twin);
     uvs->partner = (int *)slow_new(corners, sizeof *uvs->partner);
     uvs->home = (int *)slow_new(corners, sizeof *uvs->home);
-    c.has = (unsigned char *)slow_new(m->face_count, 1);
-    c.seam = (unsigned char *)slow_new(2 * m->edge_count, 1);
-    c.boundary = c.seam + m->edge_count;
-    c.at_seam = (unsigned char *)slow_new(2 * m->vertex_count, 1);
-    c.at_boundary = c.at_seam + m->vertex_count;
-    c.own = (int *)slow_new(5 * corners, sizeof *c.own);
-    c.value = c.own + corners;
-    c.size = c.value + corners;
-    c.forever = c.size + corners;
-    c.semi = c.forever + corners;
-    c.values_at = (int *)slow_new(2 * m->vertex_count, sizeof *c.values_at);
-    c.faces_at = c.values_at + m->vertex_count;
-    for (int h = 0; h < corners; h++) c.faces_at[m->vertices[h]]++;
+    slow_cut_new(&c, m, cage->face_uvs);
     slow_find_seams(&c);
     for (int f = 0; f < m->face_count; f++) {
         const int n = slow_size(m, f), first = m->start[f], start = uvs->start[uvs->face_count];
