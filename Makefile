@@ -109,7 +109,7 @@ RUN = @sh tests/lib/run.sh $@
 $(TESTS:%=$(OUT)/%.log): $(OUT)/%.log: $(OUT)/test_% FORCE
 	$(RUN) $<
 
-$(OUT)/fuzz_differential.log: MUTATIONS = 200
+$(OUT)/fuzz_differential.log: MUTATIONS = 150
 $(FUZZERS:%=$(OUT)/fuzz_%.log): $(OUT)/fuzz_%.log: $(OUT)/fuzz_% FORCE
 	$(RUN) $< $(MUTATIONS) $(wildcard tests/fuzz/seeds/$*/*)
 

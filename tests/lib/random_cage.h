@@ -748,18 +748,35 @@ static inline void random_fill_mesh(random_cage *c)
 
 // ---------------------------------------------------------------------------------------- UVs
 
-// Cuts the UVs open along random walks, around random faces and at random vertices: gives some of the
-// faces at a vertex a value of their own. Sometimes vertices share a value.
+// Gives the faces on one side of vertex v, along an axis, values of their own.
+static inline void random_cut_uvs(random_cage *c, const int *start, int v, int *count)
+{
+    const int axis = random_below(c, 3);
+    int own[RANDOM_MAX_UVS] = {0};
+    for (int f = 0; f < c->face_count; f++) {
+        const int first = c->face_vertices[start[f]];
+        if (c->positions[3 * first + axis] < c->positions[3 * v + axis]) continue;
+        for (int h = start[f]; h < start[f + 1]; h++) {
+            int *value = &own[c->face_uvs[h]];
+            if (!*value) *value = (*count)++;
+            c->face_uvs[h] = *value;
+        }
+    }
+}
+
+// Cuts the UVs open: gives some of the faces a value of their own. Sometimes vertices share a value.
 static inline void random_add_uvs(random_cage *c)
 {
     subdiv_mesh *m = &c->mesh;
-    const int total = c->vertex_count, cuts = random_below(c, 2 + c->face_count);
+    const int total = c->vertex_count, many = random_chance(c, 50);
+    const int cuts = random_below(c, many ? 2 + c->face_count : 4);
     int count = total, start[RANDOM_MAX_FACES + 1] = {0};
     for (int f = 0; f < c->face_count; f++) start[f + 1] = start[f] + c->face_sizes[f];
     for (int h = 0; h < start[c->face_count]; h++) c->face_uvs[h] = c->face_vertices[h];
-    for (int i = 0; i < cuts && count + RANDOM_MAX_SIZE < RANDOM_MAX_UVS; i++) {
+    for (int i = 0; i < cuts && count + start[c->face_count] < RANDOM_MAX_UVS; i++) {
         const int f = random_below(c, c->face_count), size = c->face_sizes[f];
-        const int h = start[f] + random_below(c, size), kind = random_below(c, 4);
+        const int h = start[f] + random_below(c, size), side = !many && random_chance(c, 80);
+        const int kind = side ? 4 : random_below(c, 4);
         if (kind == 0) {                              // an island
             for (int j = 0; j < size; j++) c->face_uvs[start[f] + j] = count++;
         } else if (kind == 1) {                       // some faces at a vertex
@@ -769,6 +786,8 @@ static inline void random_add_uvs(random_cage *c)
             count++;
         } else if (kind == 2) {                       // one face
             c->face_uvs[h] = count++;
+        } else if (kind == 4) {
+            random_cut_uvs(c, start, c->face_vertices[h], &count);
         } else if (random_chance(c, 20)) {            // shared by vertices
             c->face_uvs[h] = c->face_uvs[random_below(c, start[c->face_count])];
         }
