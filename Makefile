@@ -96,8 +96,12 @@ MUTATIONS    = 1000
 $(OUT)/fuzzed.o: subdiv.h tests/fuzz/heap.h | $(OUT)
 	$(CC) $(FLAGS) -O0 -include tests/fuzz/heap.h -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
 
-$(FUZZERS:%=$(OUT)/fuzz_%): $(OUT)/fuzz_%: tests/fuzz/%.c $(OUT)/fuzzed.o $(FUZZ_HELPERS)
+$(filter-out %differential,$(FUZZERS:%=$(OUT)/fuzz_%)): $(OUT)/fuzz_%: tests/fuzz/%.c \
+		$(OUT)/fuzzed.o $(FUZZ_HELPERS)
 	$(CC) $(FLAGS) -O0 $(SHARED) $< $(OUT)/fuzzed.o -o $@ -lm
+
+$(OUT)/fuzz_differential: tests/fuzz/differential.c $(OUT)/plain.o $(FUZZ_HELPERS)
+	$(CC) $(TEST_FLAGS) $(SHARED) $< $(OUT)/plain.o -o $@ -lm
 
 $(OUT)/opensubdiv: $(wildcard tests/opensubdiv/*) $(OUT)/plain.o $(HELPERS)
 	$(CXX) -std=c++14 $(CFLAGS) $(SHARED) -I. tests/opensubdiv/opensubdiv.cpp $(OUT)/plain.o \
@@ -109,7 +113,7 @@ RUN = @sh tests/lib/run.sh $@
 $(TESTS:%=$(OUT)/%.log): $(OUT)/%.log: $(OUT)/test_% FORCE
 	$(RUN) $<
 
-$(OUT)/fuzz_differential.log: MUTATIONS = 150
+$(OUT)/fuzz_differential.log: MUTATIONS = 500
 $(FUZZERS:%=$(OUT)/fuzz_%.log): $(OUT)/fuzz_%.log: $(OUT)/fuzz_% FORCE
 	$(RUN) $< $(MUTATIONS) $(wildcard tests/fuzz/seeds/$*/*)
 

@@ -172,24 +172,6 @@ static void compare_with_limit(const subdiv_mesh *m, int level, subdiv_options o
     subdiv_mesh_free(&fine);
 }
 
-static void test_limit_of_refined(void)
-{
-    char context[64];
-    double worst = 0;
-    for (unsigned seed = 1; seed <= 250; seed++) {
-        random_cage *c = random_cage_new(seed, RANDOM_ALL);
-        subdiv_options opt;
-        memset(&opt, 0, sizeof opt);
-        opt.linear = seed % 9 == 0;
-        tame_sharpness(c);
-        snprintf(context, sizeof context, "seed %u", seed);
-        test_context = context;
-        compare_with_limit(&c->mesh, DEEP, opt, &worst);
-        random_cage_free(c);
-    }
-    CHECK(worst > 0);
-}
-
 // ------------------------------------------------------------------------------------ derivatives
 
 // A polynomial of degree 4 changes as much as Simpson's rule makes of its derivative, exactly.
@@ -1110,7 +1092,6 @@ static void test_refused(void)
 int main(void)
 {
     RUN(test_bicubic);
-    RUN(test_limit_of_refined);
     RUN(test_derivatives);
     RUN(test_vertices);
     RUN(test_cosines);

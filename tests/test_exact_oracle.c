@@ -1,6 +1,6 @@
 // Evaluation anywhere on the limit surface against exact_oracle.h, which refines around the place
 // in doubles: random cages with every feature, all valences; whether faces meet smoothly;
-// derivatives against differences. And the oracle itself against limits of refined meshes.
+// derivatives against differences.
 //
 //     cc -I. tests/test_exact_oracle.c -o build/test_exact_oracle -lm -pthread &&
 //     build/test_exact_oracle
@@ -128,48 +128,6 @@ static int is_near_corner(const subdiv_mesh *cage, const subdiv_location *at)
         if (fabsf(at->u - u) < 0.0625f && fabsf(at->v - v) < 0.0625f) return 1;
     }
     return 0;
-}
-
-// ---------------------------------------------------------------------------- the oracle itself
-
-// One random point of each of some faces of the refined mesh.
-static void check_dyadic_points(random_cage *random, int levels)
-{
-    const subdiv_mesh *cage = &random->mesh;
-    subdiv_mesh fine = {0};
-    subdiv_options opt = {0};
-    order grid;
-    slow_mesh *o = slow_cage(cage, 0);
-    opt.limit = 1;
-    CHECK(order_make(&grid, cage, levels, NULL));
-    CHECK_EQUAL(subdiv_refine(&fine, cage, levels, &opt), SUBDIV_OK);
-    for (int i = 0; i < 8 && !test_bad; i++) {
-        const int f = random_below(random, cage->face_count), n = order_grid(&grid, f);
-        const int quad = order_is_ngon(&grid, f) ? random_below(random, face_size(cage, f)) : 0;
-        const int row = random_below(random, n + 1), loop = cage->scheme == SUBDIV_LOOP;
-        const int column = random_below(random, n + 1 - (loop ? row : 0));
-        const int point = order_point(&grid, f, quad, row, column);
-        double out[3][3];
-        oracle_evaluate(o, f, quad, (double)column / n, (double)row / n, out);
-        for (int k = 0; k < 3; k++)
-            CHECK_NEAR(fine.positions[3 * point + k], out[0][k],
-                       position_tolerance * mesh_extent(cage));
-    }
-    slow_free(o);
-    order_free(&grid);
-    subdiv_mesh_free(&fine);
-}
-
-static void test_oracle(void)
-{
-    test_context = context;
-    for (unsigned seed = 1; seed <= 300; seed++) {
-        random_cage *random = random_cage_new(seed, FEATURES);
-        sprintf(context, "seed %u", seed);
-        if (random) check_dyadic_points(random, 1 + (int)seed % 4);
-        CHECK(random != NULL);
-        random_cage_free(random);
-    }
 }
 
 // --------------------------------------------------------------------------- against the oracle
@@ -490,7 +448,6 @@ static void test_differences(void)
 
 int main(void)
 {
-    RUN(test_oracle);
     RUN(test_random_cages);
     RUN(test_valences);
     RUN(test_edges);

@@ -334,18 +334,6 @@ static void test_regular_grids(void)
     }
 }
 
-static void test_random_cages(void)
-{
-    const int features = RANDOM_NGONS | RANDOM_BOUNDARIES | RANDOM_HOLES | RANDOM_LOOP |
-                         RANDOM_BILINEAR | RANDOM_NONMANIFOLD | RANDOM_DEGENERATE;
-    for (unsigned seed = 0; seed < 300; seed++) {
-        random_cage *c = random_cage_new(seed, features);
-        if (!c) abort();
-        check_order(&c->mesh, 1 + (int)(seed % 3), c->mesh.scheme == SUBDIV_BILINEAR);
-        random_cage_free(c);
-    }
-}
-
 // Without its faces a hole leaves a gap in the faces and none in the points.
 static void test_holes(void)
 {
@@ -404,7 +392,6 @@ int main(void)
     RUN(test_bilinear_points);
     RUN(test_loop_points);
     RUN(test_regular_grids);
-    RUN(test_random_cages);
     RUN(test_holes);
     RUN(test_triangulate);
     return test_end("order");
