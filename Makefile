@@ -1,4 +1,5 @@
 # make          build/subdiv, the command line
+# make examples runs the numbered examples and compares what they print
 # make demo     refines the cages of examples/cages: OBJ files and pictures in build/
 # make test     all tests; with a C++ compiler and libosd-dev also the comparison with OpenSubdiv
 # make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop".
@@ -35,8 +36,8 @@ OWN      = buffers evaluate memory exact patches obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
            recorded creases check errors uv partial_uvs vertex_rules normals threads stack limits
 TESTS    = $(OWN) $(PLAIN) growth
-EXAMPLES = 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate 06_limit_normals \
-           07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer
+EXAMPLES = 00_lecture 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate \
+           06_limit_normals 07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer
 HELPERS  = $(wildcard tests/lib/*.h)
 
 all: $(OUT)/subdiv
@@ -67,7 +68,7 @@ $(OUT)/demo: examples/demo/demo.c examples/demo/render.c examples/demo/picture.c
              examples/demo/render.h
 	$(CC) $(FLAGS) $(SHARED) $(filter-out %.h,$^) -o $@ -lm
 
-examples: $(EXAMPLES:%=$(OUT)/%) $(OUT)/make_cages
+examples: $(OUT)/examples.log $(OUT)/make_cages
 
 demo: $(OUT)/demo
 	$(OUT)/demo examples/cages $(OUT)
@@ -126,6 +127,9 @@ $(OUT)/plain.log $(OUT)/docs.log: $(OUT)/%.log: $(OUT)/plain.o FORCE
 $(OUT)/compile.log $(OUT)/edited.log: $(OUT)/%.log: FORCE | $(OUT)
 	$(RUN) env CC="$(CC)" CXX="$(CXX)" sh tests/$*.sh
 
+$(OUT)/examples.log: $(EXAMPLES:%=$(OUT)/%) FORCE
+	$(RUN) sh tests/examples.sh $(EXAMPLES:%=$(OUT)/%)
+
 $(OUT)/opensubdiv.log: $(OUT)/opensubdiv FORCE
 	$(RUN) $< --continuity --random $(CAGES) tests/oracle/*.obj examples/cages/*.obj
 
@@ -137,9 +141,9 @@ ifeq ($(HAVE_OSD),yes)
 TEST_LOGS = $(OUT)/opensubdiv.log
 endif
 TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) \
-             $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log
+             $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log $(OUT)/examples.log
 
-test: $(TEST_LOGS) examples
+test: $(TEST_LOGS) $(OUT)/make_cages
 ifneq ($(HAVE_OSD),yes)
 	@echo "The comparison with OpenSubdiv was SKIPPED: it needs a C++ compiler and libosd-dev."
 endif

@@ -69,12 +69,13 @@
                          >>locations  >>cells  >>polynomials  >>samples
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
              >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
-   A student needs the four sections with a star and may skip the rest. The way from the first call
-   to a mask: subdiv_refine > sdv_prepare > sdv_prepare_rows > sdv_fill_level > sdv_vertex_row >
-   sdv_vertex_mask > sdv_catmull_clark_vertex. To where it is added up: subdiv_refine >
-   sdv_make_mesh > subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points >
-   sdv_make_batches > sdv_batch_sum. Under SUBDIV_PLAIN every point of every level has such a way:
-   sdv_prepare_rows > sdv_plain_rows > sdv_split_step > sdv_split_rows > sdv_vertex_row.
+   A student reads examples/00_lecture.c first, then >>masks and the other sections with a star, and
+   may skip the rest. The way from the first call to a mask: subdiv_refine > sdv_prepare >
+   sdv_prepare_rows > sdv_fill_level > sdv_vertex_row > sdv_vertex_mask >
+   sdv_catmull_clark_vertex. To where it is added up: subdiv_refine > sdv_make_mesh >
+   subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points > sdv_make_batches >
+   sdv_batch_sum. Under SUBDIV_PLAIN every point of every level has such a way: sdv_prepare_rows >
+   sdv_plain_rows > sdv_split_step > sdv_split_rows > sdv_vertex_row.
 
    WORDS
    cage            the mesh you start from            level      how often it has been refined

@@ -4,6 +4,11 @@
 // after one level.
 //
 //     cc -O2 -I. examples/09_stencils.c -o build/09_stencils -lm && build/09_stencils
+//
+//         vertex   0   0.472656
+//         vertex   1   0.107422
+//         the sum     -0.149842  0.216163  0.671941
+//         the point   -0.149842  0.216163  0.671941
 
 #include <stdio.h>
 #define SUBDIV_IMPLEMENTATION

@@ -5,6 +5,10 @@
 // together with build/octopus_limit.obj of 06_limit_normals.
 //
 //     cc -O2 -I. examples/10_spines.c -o build/10_spines -lm && build/10_spines
+//
+//     u = v = 0.1    normal (0.6941646, -0.6351256, 0.3387491)
+//     u = v = 0      normal (0.6128654, -0.7834415, 0.1030309)
+//     6120 spines: no error
 
 #include <math.h>
 #include <stdio.h>
