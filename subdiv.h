@@ -51,12 +51,14 @@
              >>buffers            vertex buffers to draw, filled again in every frame
              >>stencils           points as sums of cage vertices; explains a point
              >>tessellation       meshes of the limit surface, each edge cut as you like
+             >>curves             corner cutting and B-spline curves
              >>creases            from angles, smoothing groups and UV seams
              >>inspect  >>obj     what a cage is made of, what is odd about it; OBJ files
    Inside:   >>platform  >>memory  >>errors  >>validate     the ground everything stands on
              >>level     a mesh with its edges and sharpness; >>cage makes level 0 from polygons
            * >>sharpness how creases and corners fade
            * >>masks     THE LECTURE: face, edge and vertex points of every scheme
+             >>curves    the masks of creases, along curves
              >>order     where each point of the result stands
              >>rows      masks written out as weights of points; >>lines: those of finer levels
              >>face-varying  UVs: a topology of their own
@@ -147,6 +149,7 @@
    REFERENCES
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
    [DS78]  Doo, Sabin: Behaviour of recursive division surfaces near extraordinary points
+   [Chaikin74] Chaikin: An algorithm for high-speed curve generation
    [Loop87] Loop: Smooth subdivision surfaces based on triangles
    [HDD94] Hoppe, DeRose, et al.: Piecewise smooth surface reconstruction
    [Warren95] Warren: Subdivision methods for geometric design
@@ -756,6 +759,36 @@ SUBDIV_DEF subdiv_result subdiv_surface_tessellate(subdiv_mesh *fine,
                                                    const subdiv_tessellation *how,
                                                    const subdiv_options *opt);
 #endif // SUBDIV_NO_EXACT
+
+// -------------------------------------------------------------------------------- >>curves
+// Refines a curve: points, each joined to the next. Refined again and again, it tends to a spline.
+typedef enum subdiv_curve_rule {
+    SUBDIV_CURVE_B_SPLINE,            // cubic, as boundaries and creases are: a vertex moves to
+                                      // (a + 6v + b) / 8, an edge gets a point (a + b) / 2 [HDD94]
+    SUBDIV_CURVE_CHAIKIN              // quadratic: a vertex becomes two, (a + 3v) / 4 and
+} subdiv_curve_rule;                  // (3v + b) / 4, which cut its corner off [Chaikin74]
+
+typedef enum subdiv_curve_ends {      // each level makes of n points       B-spline    Chaikin
+    SUBDIV_ENDS_KEPT,                 // open: the first and last stay      2n - 1      2n
+    SUBDIV_ENDS_CUT,                  // open: the outermost are left out   2n - 3      2n - 2
+    SUBDIV_ENDS_CLOSED                // the last is joined to the first    2n          2n
+} subdiv_curve_ends;
+
+// Returns how many points a curve has after so many levels; 0 for an error of subdiv_curve.
+SUBDIV_DEF int subdiv_curve_point_count(subdiv_curve_rule rule, subdiv_curve_ends ends,
+                                        int point_count, int levels);
+
+// Refines a curve by this many levels: out [out_stride * subdiv_curve_point_count] from in
+// [in_stride * point_count], with channels and strides as subdiv_evaluate has them. out may be in,
+// with the same stride, but may not overlap it otherwise. Nothing is allocated. With opt->limit,
+// points go to the spline in the end, (a + 4v + b) / 6 or under Chaikin (a + 6v + b) / 8, but the
+// first and the last of an open curve stay: cut ends are not on it. The boundary of a refined
+// surface is such a curve, to the bit unless the cage is small and far from 0. Errors: EMPTY,
+// TOO_LARGE; ARGUMENT also if fewer than 3 points are cut.
+SUBDIV_DEF subdiv_result subdiv_curve(subdiv_curve_rule rule, subdiv_curve_ends ends, int levels,
+                                      int channels, int point_count, const float *in,
+                                      int in_stride, float *out, int out_stride,
+                                      const subdiv_options *opt);
 
 #ifndef SUBDIV_NO_TOOLS
 // ------------------------------------------------------------------------------- >>creases
@@ -2657,6 +2690,26 @@ static sdv_mask sdv_crease_limit(void)
     return mask;
 }
 
+// Points of Chaikin's corner cutting [Chaikin74]: a vertex of a curve becomes two, one on each of
+// its edges. self: the vertex, edge: the other end.
+//
+//     1/4----P-3/4-P----1/4        P = (a + 3v) / 4 and (3v + b) / 4
+static sdv_mask sdv_chaikin_point(void)
+{
+    sdv_mask mask = { 0.75, 0.25, 0, 0 };
+    return mask;
+}
+
+// Limit point of such a vertex, on a quadratic B-spline: the middle between its two points, as what
+// is left of an edge has the same middle.
+//
+//     1/8---6/8---1/8        P = self v + edge/2 (a + b)
+static sdv_mask sdv_chaikin_limit(void)
+{
+    sdv_mask mask = { sdv_chaikin_point().self, 0, 0, sdv_chaikin_point().edge / 2 };
+    return mask;
+}
+
 // A wave around a vertex is a set of weights that one step of refinement only multiplies, by the
 // eigenvalue L. Neighbour i weighs 4 cos(i a); the vertex f across a quad weighs g times the sum of
 // the cosines beside it. With self and face the weights of the edge mask:
@@ -2787,6 +2840,101 @@ static int sdv_is_spline(const sdv_rules *rules)
                           sdv_crease_vertex().crease }, off = 0;
     for (int i = 0; i < 6; i++) off += fabs(weights[i] - splines[rules->loop][i]);
     return rules->linear || off < 1e-9;
+}
+
+// ---------------------------------------------------------------------------------- >>curves
+// A curve is refined channel by channel, in place, from its last point to the first: so a new point
+// takes the place of an old one when that is no longer needed.
+
+static void sdv_check_values(sdv_context *context, const void *surface, int channels,
+                             const void *values, int *stride);        // see >>evaluate
+
+// Adds up a mask for a vertex and the two beside it, as >>rows does.
+static float sdv_curve_vertex(sdv_mask mask, float v, float a, float b)
+{
+    float w = (float)mask.crease;
+    return v + (w * (a - v) + w * (b - v));
+}
+
+// Makes the next level of n points. Each becomes two: its vertex point and that of the edge behind
+// it, under Chaikin one on either side. At the ends of an open curve some of them are missing.
+static void sdv_refine_curve(subdiv_curve_rule rule, subdiv_curve_ends ends, int n, float *points,
+                             size_t stride)
+{
+    float middle = (float)sdv_crease_edge().self, corner = (float)sdv_chaikin_point().edge;
+    float back = points[stride * (size_t)(n - 1)], after = points[0], made[2];
+    int open = ends != SUBDIV_ENDS_CLOSED, cut = ends == SUBDIV_ENDS_CUT;
+    int spline = rule == SUBDIV_CURVE_B_SPLINE;
+    for (int i = n - 1; i >= 0; i--) {
+        int first = open && i == 0, last = open && i == n - 1;
+        float v = points[stride * (size_t)i];
+        float before = first ? v : i > 0 ? points[stride * (size_t)(i - 1)] : back;
+        if (last) after = v;
+        made[0] = sdv_curve_vertex(first || last ? sdv_corner_vertex() : sdv_crease_vertex(),
+                                   v, before, after);
+        made[1] = v + (spline ? middle : corner) * (after - v);
+        if (!spline) made[0] = v + corner * (before - v);
+        for (int k = first && cut; k < 2 - last * (spline + cut); k++)
+            points[stride * (size_t)(2 * i + k - cut)] = made[k];
+        after = v;
+    }
+}
+
+// Moves n points to the limit, but for the ends of an open curve.
+static void sdv_limit_curve(subdiv_curve_rule rule, int open, int n, float *points, size_t stride)
+{
+    sdv_mask mask = rule == SUBDIV_CURVE_CHAIKIN ? sdv_chaikin_limit() : sdv_crease_limit();
+    float front = points[0], before = open ? front : points[stride * (size_t)(n - 1)];
+    for (int i = open; i < n - open; i++) {
+        float *v = points + stride * (size_t)i, after = i + 1 < n ? v[stride] : front, now = *v;
+        *v = sdv_curve_vertex(mask, now, before, after);
+        before = now;
+    }
+}
+
+// Returns how many points n points become. So many as `stay` always stay; what is more doubles.
+static int sdv_count_curve(sdv_context *context, subdiv_curve_rule rule, subdiv_curve_ends ends,
+                           int n, int levels)
+{
+    int cut = ends == SUBDIV_ENDS_CUT, spline = rule == SUBDIV_CURVE_B_SPLINE;
+    int stay = ends == SUBDIV_ENDS_CLOSED ? 0 : spline + 2 * cut;
+    if ((unsigned)rule > SUBDIV_CURVE_CHAIKIN || (unsigned)ends > SUBDIV_ENDS_CLOSED || n < 0 ||
+        levels < 0 || (n > 0 && n < 3 && cut))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "no curve has rule %d, ends %d and %d points on "
+                 "level %d", (int)rule, (int)ends, n, levels);
+    if (n == 0) sdv_fail(context, SUBDIV_ERROR_EMPTY, "the curve has no points");
+    if (levels > 30 || (!context->result && ((int64_t)(n - stay) << levels) + stay > INT_MAX))
+        sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "%d levels are too many of %d points", levels, n);
+    return context->result ? 0 : ((n - stay) << levels) + stay;
+}
+
+SUBDIV_DEF int subdiv_curve_point_count(subdiv_curve_rule rule, subdiv_curve_ends ends,
+                                        int point_count, int levels)
+{
+    sdv_context context = sdv_begin(NULL);
+    return sdv_count_curve(&context, rule, ends, point_count, levels);
+}
+
+SUBDIV_DEF subdiv_result subdiv_curve(subdiv_curve_rule rule, subdiv_curve_ends ends, int levels,
+                                      int channels, int point_count, const float *in,
+                                      int in_stride, float *out, int out_stride,
+                                      const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_values(&context, out, channels, in, &in_stride);
+    sdv_check_values(&context, out, channels, out, &out_stride);
+    int count = sdv_count_curve(&context, rule, ends, point_count, levels);
+    for (int k = 0; k < channels && count; k++) {
+        size_t stride = (size_t)out_stride;
+        for (size_t i = 0; i < (size_t)point_count; i++)
+            out[stride * i + (size_t)k] = in[(size_t)in_stride * i + (size_t)k];
+        for (int level = 0; level < levels; level++)
+            sdv_refine_curve(rule, ends, sdv_count_curve(&context, rule, ends, point_count, level),
+                             out + k, stride);
+        if (opt && opt->limit)
+            sdv_limit_curve(rule, ends != SUBDIV_ENDS_CLOSED, count, out + k, stride);
+    }
+    return context.result;
 }
 
 // ----------------------------------------------------------------------------------- >>order
@@ -7114,7 +7262,8 @@ static int sdv_addressable(int channels, double bytes)
 }
 
 // Checks the channels and an array, and its stride. A stride of 0 becomes the number of channels.
-static void sdv_check_values(sdv_context *context, const subdiv_surface *surface, int channels,
+// surface: or something else that must be there.
+static void sdv_check_values(sdv_context *context, const void *surface, int channels,
                              const void *values, int *stride)
 {
     if (!surface || !values) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
