@@ -309,6 +309,9 @@ typedef struct subdiv_mesh {
     int   *statement_faces;           // [statement_count]    the face that each precedes, rising;
                                       //                      face_count: after all faces
     char **statements;                // [statement_count]    "usemtl stone": keyword, blank, text
+    int    line_count;                // OBJ's l; of results, only level 0 has lines
+    int   *line_sizes;                // [line_count]         vertices of each polyline, at least 2
+    int   *line_vertices;             // [sum of sizes]       closed: the last one is the first
 
     subdiv_scheme    scheme;
     subdiv_boundary  boundary;
@@ -366,7 +369,7 @@ SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 // again: refining by 2 levels is refining by 1 level twice. Only what a mesh cannot express is
 // lost: holes, unless opt->keep_holes keeps them; an edge along which two faces are wound against
 // each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
-// the same three vertices.
+// the same three vertices. Lines are left out.
 //
 // fine must not be the cage itself. A crease between vertices that share no edge is skipped with a
 // warning; level 0 keeps it.
@@ -881,6 +884,7 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //     vt u [v [w]]                         v is 0 if it is missing, w is ignored
 //     f v/vt/vn ...                        in all forms, with negative indices, before or after
 //                                          what it names; any number of vertices
+//     l v/vt ...                           a polyline; vt is ignored
 //     g o s usemtl mtllib                  kept as they stand, with the face that follows; # begins
 //                                          a comment only between blanks (not in "Material #25")
 //     t name ints/floats/strings ...       OpenSubdiv's tags, counted from 0:
@@ -892,10 +896,10 @@ SUBDIV_DEF subdiv_result subdiv_check(int *counts, const subdiv_mesh *mesh, subd
 //
 // The mesh has UVs if any face names a vt at each of its vertices. Other faces then have the UV -1,
 // with one warning for faces that name some vt, and one for faces that name none. Normals are
-// ignored. Faces of fewer than three vertices and tags that make no sense are skipped with a
-// warning each. One warning counts the points and lines, one the free-form statements, one the
-// unknown ones. Anything else that would change the mesh is an error that names line and token.
-// Errors: IO, SYNTAX, INDEX, NOT_FINITE, EMPTY, TOO_LARGE.
+// ignored. Faces of fewer than three vertices, lines of fewer than two and tags that make no sense
+// are skipped with a warning each. One warning counts the points (p), one the free-form statements,
+// one the unknown ones. Anything else that would change the mesh is an error that names line and
+// token. Errors: IO, SYNTAX, INDEX, NOT_FINITE, EMPTY, TOO_LARGE.
 SUBDIV_DEF subdiv_result subdiv_load_obj_memory(subdiv_mesh *mesh, const void *text, size_t size,
                                                 const subdiv_options *opt);
 
@@ -904,9 +908,9 @@ typedef size_t (*subdiv_read)(void *user, void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read read, void *user,
                                                   const subdiv_options *opt);
 
-// Writes v (with colours), vt and vn, then f with the statements between, then tags unless there is
-// nothing but defaults. Faces without UVs have no vt. Numbers
-// have the fewest digits that read back as the same float, in any locale. Error IO.
+// Writes v (with colours), vt and vn, then f with the statements between, then l, then tags unless
+// there is nothing but defaults. Faces without UVs have no vt. Numbers have the fewest digits that
+// read back as the same float, in any locale. Error IO.
 //
 // To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
 // 0 to get the size alone; any other capacity that is too small is error TOO_LARGE, and text holds
@@ -1558,7 +1562,9 @@ static void sdv_check_arrays(sdv_context *context, const subdiv_mesh *mesh)
         { "uvs",              mesh->uv_count,                           mesh->uvs },
         { "face_uvs",         mesh->uv_count ? mesh->face_count : 0,    mesh->face_uvs },
         { "statement_faces",  mesh->statement_count,                    mesh->statement_faces },
-        { "statements",       mesh->statement_count,                    mesh->statements }
+        { "statements",       mesh->statement_count,                    mesh->statements },
+        { "line_sizes",       mesh->line_count,                         mesh->line_sizes },
+        { "line_vertices",    mesh->line_count,                         mesh->line_vertices }
     };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         if (arrays[i].count < 0 || (arrays[i].count > 0 && !arrays[i].array))
@@ -1672,6 +1678,20 @@ static void sdv_check_list(sdv_context *context, const char *what, int count, co
     }
 }
 
+static void sdv_check_lines(sdv_context *context, const subdiv_mesh *mesh)
+{
+    const int *v = mesh->line_vertices;
+    for (int i = 0; i < mesh->line_count && !context->result; i++) {
+        int size = mesh->line_sizes[i];
+        if (size < 2) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "polyline %d has %d vertices", i,
+                               size);
+        for (int k = 0; k < size; k++, v++)
+            if (*v < 0 || *v >= mesh->vertex_count)
+                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, -1, *v, "polyline %d: vertex %d does "
+                              "not exist (the mesh has %d)", i, *v, mesh->vertex_count);
+    }
+}
+
 static int sdv_ends_word(char c)
 {
     return c == 0 || c == ' ' || c == '\t';
@@ -1746,6 +1766,7 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
 
     sdv_check_faces(context, mesh);
     sdv_check_statements(context, mesh);
+    sdv_check_lines(context, mesh);
     sdv_check_list(context, "crease", mesh->crease_count, mesh->crease_vertices, 2,
                    mesh->vertex_count, mesh->crease_sharpness);
     sdv_check_list(context, "corner", mesh->corner_count, mesh->corner_vertices, 1,
@@ -5585,6 +5606,7 @@ static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const s
     const subdiv_mesh *cage = request->cage;
     const sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     *work = *cage;
+    work->line_count = 0;                               // see sdv_keep_data
     *values = request->alone ? request->values : uvs;
     if (values->count > 0) surface->uv = sdv_new_surface(context, request);
     surface->cage_vertex_count = cage->vertex_count;
@@ -5722,20 +5744,29 @@ static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
     }
 }
 
-// Copies the UVs, colours and statements that go with the surface.
+// Copies the UVs, colours and statements that go with the surface and, on level 0, the lines.
 static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage)
 {
+    subdiv_mesh *fine = &surface->fine;
+    size_t line_vertices = 0;
     size_t uvs = 2 * (size_t)cage->uv_count;
     size_t colors = cage->colors ? 3 * (size_t)cage->vertex_count : 0;
     sdv_arena *arena = &surface->arena;
     surface->uvs = (float *)sdv_duplicate(context, arena, cage->uvs, uvs, sizeof(float));
     surface->colors = (float *)sdv_duplicate(context, arena, cage->colors, colors, sizeof(float));
     if (context->result) return;
-    surface->fine.uv_count = surface->uv ? surface->uv->fine.vertex_count : 0;
-    surface->fine.uvs = surface->fine.normals = NULL;
-    surface->fine.face_uvs = surface->fine.face_normals = NULL;
-    surface->fine.colors = surface->colors;
+    fine->uv_count = surface->uv ? surface->uv->fine.vertex_count : 0;
+    fine->uvs = fine->normals = NULL;
+    fine->face_uvs = fine->face_normals = NULL;
+    fine->colors = surface->colors;
     sdv_keep_statements(context, surface, cage);
+    if (surface->levels != 0) return;
+    for (int i = 0; i < cage->line_count; i++) line_vertices += (size_t)cage->line_sizes[i];
+    fine->line_count = cage->line_count;
+    fine->line_sizes = (int *)sdv_duplicate(context, arena, cage->line_sizes,
+                                            (size_t)cage->line_count, sizeof(int));
+    fine->line_vertices = (int *)sdv_duplicate(context, arena, cage->line_vertices, line_vertices,
+                                               sizeof(int));
 }
 
 // May a vertex be smooth, or the end of a single crease, on this level or a later one?
@@ -7341,6 +7372,7 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     size_t normals = extras == SDV_LIMIT ? (size_t)model->normal_count
                                          : (size_t)sdv_normal_count(model);
     int split = extras == SDV_LIMIT && normals > vertices;
+    size_t lines = (size_t)model->line_count, line_vertices = 0;
     for (size_t i = 0; i < statements; i++) text += strlen(model->statements[i]) + 1;
     mesh->positions = SDV_CARVE(float, NULL, vertices, 3);
     mesh->face_vertices = SDV_CARVE(int, NULL, face_vertices, 1);
@@ -7357,6 +7389,9 @@ static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *
     mesh->normals = SDV_CARVE(float, extras ? NULL : model->normals, normals, 3);
     mesh->face_normals = SDV_CARVE(int, model->face_normals,
                                    split || model->face_normals ? face_vertices : 0, 1);
+    for (size_t i = 0; i < lines; i++) line_vertices += (size_t)model->line_sizes[i];
+    mesh->line_sizes = SDV_CARVE(int, model->line_sizes, lines, 1);
+    mesh->line_vertices = SDV_CARVE(int, model->line_vertices, line_vertices, 1);
     mesh->statement_faces = SDV_CARVE(int, model->statement_faces, statements, 1);
     mesh->statements = SDV_CARVE(char *, NULL, statements, 1);
     char *texts = SDV_CARVE(char, NULL, text, 1);
@@ -14456,8 +14491,8 @@ typedef struct sdv_ahead {              // a face that names a vertex or vt whic
 } sdv_ahead;
 
 typedef enum sdv_statement {
-    SDV_VERTEX, SDV_UV, SDV_FACE, SDV_TAG, SDV_KEPT, SDV_PASSED, SDV_ELEMENT, SDV_FREE_FORM,
-    SDV_UNKNOWN, SDV_BARE_FACE, SDV_MIXED_FACE, SDV_STATEMENT_KINDS
+    SDV_VERTEX, SDV_UV, SDV_FACE, SDV_LINE, SDV_TAG, SDV_KEPT, SDV_PASSED, SDV_POINT,
+    SDV_FREE_FORM, SDV_UNKNOWN, SDV_BARE_FACE, SDV_MIXED_FACE, SDV_STATEMENT_KINDS
 } sdv_statement;                        // bare faces have no vt, mixed ones some, others all
 
 typedef struct sdv_obj {
@@ -14471,7 +14506,7 @@ typedef struct sdv_obj {
     subdiv_mesh  mesh;                  // its face count and size, then all of it
     int          rules[SDV_RULES];
     sdv_arena    points[2], indices[2]; // series of vertices, of UVs, and of those of faces
-    sdv_array    colors, face_sizes;
+    sdv_array    colors, face_sizes, line_sizes, line_vertices;
     sdv_array    ahead[2];              // of vertices, of UVs
     sdv_array    skipped;               // numbers of the file's faces that are not in the mesh
     int          counts[SDV_STATEMENT_KINDS];   // of vertices, UVs, faces, and what is skipped
@@ -14809,6 +14844,27 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
     return p;
 }
 
+static const char *sdv_read_line(sdv_obj *obj, const char *p)
+{
+    size_t first = obj->line_vertices.count;
+    for (int v; !obj->context->result && sdv_find_token(obj, &p); ) {
+        const char *end = sdv_read_index(obj, p, 0, &v);
+        if (end && *end == '/') end = sdv_skip_integer(end + 1);        // UVs do not matter
+        if (end && sdv_ends_token(end)) sdv_push(obj->context, &obj->line_vertices, &v, sizeof v);
+        else sdv_refuse(obj, SUBDIV_ERROR_SYNTAX, p, "\"%t\" is not a vertex of a line");
+        p = end;
+    }
+    if (obj->context->result) return NULL;
+    size_t count = obj->line_vertices.count - first;
+    int size = count < INT_MAX ? (int)count : INT_MAX;
+    if (size == INT_MAX || obj->line_sizes.count == INT_MAX)
+        sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many lines");
+    if (size > 1) sdv_push(obj->context, &obj->line_sizes, &size, sizeof size);
+    else sdv_warn(obj->context, obj->line, "a line with %d vertices is skipped", size);
+    if (size < 2) obj->line_vertices.count = first;
+    return p;
+}
+
 // -------- tags
 
 // Notes a tag of creases, corners or holes. All share one sharpness or each has its own; creases
@@ -14925,8 +14981,8 @@ static const char *sdv_keep_statement(sdv_obj *obj, sdv_token keyword)
 
 static sdv_statement sdv_statement_kind(sdv_token keyword)
 {
-    static const char *const words[] = { "v", "vt", "f fo", "t", "g o s usemtl mtllib", "vn", "p l",
-        "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con ctech stech" };
+    static const char *const words[] = { "v", "vt", "f fo", "l", "t", "g o s usemtl mtllib", "vn",
+        "p", "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con ctech stech" };
     const char ctrl_z = 26;                         // ends the text of old editors
     if (keyword.begin == keyword.end || *keyword.begin == ctrl_z) return SDV_PASSED;
     for (int kind = SDV_VERTEX; kind < SDV_UNKNOWN; kind++) {
@@ -14965,6 +15021,8 @@ static const char *sdv_read_statement(sdv_obj *obj, const char *p)
         p = sdv_read_face(obj, p);
     } else if (kind == SDV_UV) {
         p = sdv_read_point(obj, p, 1);
+    } else if (kind == SDV_LINE) {
+        p = sdv_read_line(obj, p);
     } else if (kind == SDV_KEPT) {
         return sdv_keep_statement(obj, keyword);
     } else if (kind == SDV_TAG) {
@@ -15028,7 +15086,7 @@ static void sdv_warn_counted(sdv_obj *obj)
         { SDV_MIXED_FACE,
           "%d of %d faces have a vt at some of their vertices only: they get no UVs" },
         { SDV_BARE_FACE,  "%d of %d faces have no UVs" },
-        { SDV_ELEMENT,    "%d points and lines (p, l) are skipped" },
+        { SDV_POINT,      "%d points (p) are skipped" },
         { SDV_FREE_FORM,  "%d free-form statements (curves and surfaces) are skipped" },
         { SDV_UNKNOWN,    "%d statements with unknown keywords are skipped" } };
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
@@ -15111,6 +15169,9 @@ static void sdv_finish_obj(sdv_obj *obj, subdiv_mesh *out)
     // A mesh has UVs if any of its faces has. Only then are bare faces odd.
     if (obj->counts[SDV_FACE]) sdv_fill_uvs(obj, 0);
     else mesh->uv_count = obj->counts[SDV_BARE_FACE] = 0;
+    mesh->line_count = (int)obj->line_sizes.count;
+    mesh->line_sizes = (int *)sdv_items(&obj->line_sizes);
+    mesh->line_vertices = (int *)sdv_items(&obj->line_vertices);
     sdv_finish_statements(obj);
     sdv_warn_counted(obj);
     if (!obj->context->result) sdv_new_mesh(obj->context, out, mesh, SDV_PLAIN);
@@ -15145,7 +15206,8 @@ static subdiv_result sdv_load_text(sdv_context *context, subdiv_mesh *mesh, subd
         sdv_arena_free(&obj.points[uv]);
         sdv_arena_free(&obj.indices[uv]);
     }
-    sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.ahead[0], &obj.ahead[1],
+    sdv_array *arrays[] = { &obj.text, &obj.colors, &obj.face_sizes, &obj.line_sizes,
+        &obj.line_vertices, &obj.ahead[0], &obj.ahead[1],
         &obj.skipped, &obj.statement_faces, &obj.statement_text, &obj.statements, &obj.ints,
         &obj.floats, &obj.tags, &obj.lists[0], &obj.lists[1], &obj.lists[2], &obj.sharpness[0],
         &obj.sharpness[1], &obj.sharpness[2] };
@@ -15290,9 +15352,9 @@ static void sdv_write_lines(sdv_output *out, const char *keyword, int width, con
     }
 }
 
-// Writes faces of one size: f a, a/t, a//a or a/t/a. uvs may be NULL; a face with a -1 there has
-// none. normals: of all face-vertices, or NULL.
-static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs,
+// Writes faces, or lines, of one size: f a, a/t, a//a or a/t/a. uvs may be NULL; a face with a -1
+// there has none. normals: of all face-vertices, or NULL.
+static void sdv_write_faces(sdv_output *out, char keyword, const int *vertices, const int *uvs,
                             const int *normals, int size, int count)
 {
     const sdv_figures *figures = out->figures;
@@ -15302,7 +15364,7 @@ static void sdv_write_faces(sdv_output *out, const int *vertices, const int *uvs
         for (int i = 0; i < size && t; i++)
             if (t[i] < 0) t = NULL;
         char *p = sdv_room(out);
-        *p++ = 'f';
+        *p++ = keyword;
         for (int i = 0; i < size; i++) {
             if (p > full) {
                 sdv_end(out, p);
@@ -15349,13 +15411,16 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
                                                  : mesh->face_count;
         if (!mesh->face_size) next = f + 1;
         int size = sdv_face_size(mesh, f);
-        sdv_write_faces(out, vertices, uvs, normals, size, next - f);
+        sdv_write_faces(out, 'f', vertices, uvs, normals, size, next - f);
         size_t written = (size_t)(next - f) * (size_t)size;
         vertices += written;
         if (uvs) uvs += written;
         if (normals) normals += written;
     }
     sdv_write_statements(out, mesh, statement, mesh->face_count);
+    vertices = mesh->line_vertices;
+    for (int i = 0; i < mesh->line_count; vertices += mesh->line_sizes[i++])
+        sdv_write_faces(out, 'l', vertices, NULL, NULL, mesh->line_sizes[i], 1);
     sdv_write_tags(out, mesh);
 }
 
@@ -15426,7 +15491,7 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
                 int *last = sdv_grid_faces(&grid, i, i + 1, 0, grid.columns, row);
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, i + 1, 0, uv_grid.columns, uvs);
                 int count = (int)(last - row) / size;
-                sdv_write_faces(out, row, own >= 0 ? uvs : NULL, NULL, size, count);
+                sdv_write_faces(out, 'f', row, own >= 0 ? uvs : NULL, NULL, size, count);
             }
         }
     }

@@ -40,7 +40,8 @@ enum { MAX_THREADS = 256 };
 // ------------------------------------------------------------------------------ command line
 
 enum {
-    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, VERTEX_RULE, UV, LIMIT, TESSELLATE, THREADS,
+    SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, VERTEX_RULE, UV, LIMIT, TESSELLATE, CURVE,
+    THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
     EVAL, STREAM, TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
@@ -67,6 +68,8 @@ static const option options[OPTION_COUNT] = {
      "what happens to UVs at seams and boundaries"},
     {'L', "limit", NULL, "put the points on the limit surface, with normals"},
     {0, "tessellate", "N", "instead of levels: cut every edge into N pieces, on the limit surface"},
+    {0, "curve", "b-spline|chaikin",
+     "refine the polylines of the file instead, those whose last vertex is the first as closed"},
     {'j', "threads", "N", "how many threads refine, 1 when not given; the result is the same"},
     {0, "crease-angle", "DEG", "make edges sharp where faces meet at more than DEG degrees"},
     {0, "crease-smoothing-groups", NULL, "make the borders of smoothing groups sharp"},
@@ -213,6 +216,9 @@ static int read_command(command *cmd, int argc, char **argv)
         return misused("--stream writes no normals, so not with --limit");
     if (cmd->given[TESSELLATE] > 0 && (cmd->given[LEVELS] >= 0 || cmd->given[STREAM] == 1))
         return misused("--tessellate has no levels and is no stream");
+    if (cmd->given[CURVE] >= 0 && (cmd->given[TESSELLATE] > 0 || cmd->given[STREAM] == 1 ||
+                                   cmd->given[EXPLAIN] >= 0 || cmd->samples))
+        return misused("--curve is not for surfaces: no --tessellate, --stream, --explain, --eval");
     if (cmd->input == NULL) return misused("no INPUT.obj is named");
     if (cmd->given[CREASE_SHARPNESS] == 1 && cmd->given[CREASE_ANGLE] < 0 &&
         cmd->given[CREASE_GROUPS] < 0 && cmd->given[CREASE_SEAMS] < 0)
@@ -361,6 +367,7 @@ static int print_info(const subdiv_mesh *mesh, const subdiv_info *info, const fi
         {"creases that never fade", info->infinite_crease_count},
         {"corners", info->corner_count},
         {"holes", info->hole_count},
+        {"polylines", mesh->line_count},
         {"components", info->component_count},
         {"UVs", mesh->uv_count},
         {"vertices with colours", mesh->colors ? mesh->vertex_count : 0},
@@ -681,6 +688,8 @@ static int close_output(output *o, subdiv_result result, const command *cmd,
 typedef struct work {
     subdiv_mesh     cage, fine;
     subdiv_surface *surface;
+    float          *points, *colors;  // of curves, and the sizes and vertices of their polylines:
+    int            *numbers;          // fine has these arrays
     double          ms[4];            // of each step so far
     const char     *steps[4];
     int             step_count;
@@ -702,12 +711,93 @@ static void print_times(const work *w, int vertex_count)
                 1e6 * w->ms[i] / vertex_count);
 }
 
+static int levels_of(const command *cmd)
+{
+    return cmd->given[LEVELS] >= 0 ? cmd->given[LEVELS] : 1;
+}
+
+// A polyline of the cage is closed if it ends with its first vertex.
+typedef struct polyline {
+    subdiv_curve_ends ends;
+    int size, count;                  // its vertices, and the points that they become
+} polyline;
+
+static polyline polyline_of(const command *cmd, const int *vertices, int size)
+{
+    polyline line = { SUBDIV_ENDS_KEPT, size, 0 };
+    if (vertices[0] == vertices[size - 1]) line.ends = SUBDIV_ENDS_CLOSED, line.size--;
+    line.count = subdiv_curve_point_count((subdiv_curve_rule)cmd->given[CURVE], line.ends,
+                                          line.size, levels_of(cmd));
+    return line;
+}
+
+// Refines values of the cage's vertices in place: those of the polyline become those of its points.
+static void refine_polyline(const command *cmd, polyline line, const int *vertices,
+                            const float *values, float *points, const subdiv_options *opt)
+{
+    for (int i = 0; i < line.size; i++)
+        memcpy(points + 3 * i, values + 3 * (size_t)vertices[i], 3 * sizeof *points);
+    subdiv_curve((subdiv_curve_rule)cmd->given[CURVE], line.ends, levels_of(cmd), 3, line.size,
+                 points, 3, points, 3, opt);
+}
+
+// Gives fine arrays for so many points and polylines that have so many vertices.
+static subdiv_result make_room_for_curves(work *w, size_t points, size_t vertices,
+                                          const subdiv_options *opt)
+{
+    const subdiv_mesh *cage = &w->cage;
+    subdiv_error *error = opt->error;
+    if (cage->line_count == 0) strcpy(error->message, "there are no polylines (l) to refine");
+    if (cage->line_count == 0) return SUBDIV_ERROR_EMPTY;
+    w->points = points > INT_MAX ? NULL : (float *)malloc(3 * points * sizeof *w->points);
+    w->colors = w->points && cage->colors ? (float *)malloc(3 * points * sizeof *w->colors) : NULL;
+    w->numbers = (int *)malloc(((size_t)cage->line_count + vertices) * sizeof *w->numbers);
+    if (!w->points || !w->numbers || (cage->colors && !w->colors)) {
+        strcpy(error->message, "the curves have too many points");
+        return SUBDIV_ERROR_TOO_LARGE;
+    }
+    w->fine.vertex_count = (int)points;
+    w->fine.positions = w->points;
+    w->fine.colors = w->colors;
+    w->fine.line_count = cage->line_count;
+    w->fine.line_sizes = w->numbers;
+    w->fine.line_vertices = w->numbers + cage->line_count;
+    return SUBDIV_OK;
+}
+
+// Makes fine of the refined polylines.
+static subdiv_result refine_curves(work *w, const command *cmd, const subdiv_options *opt)
+{
+    const subdiv_mesh *cage = &w->cage;
+    const int *v = cage->line_vertices;
+    size_t points = 0, vertices = 0;
+    for (int i = 0; i < cage->line_count; v += cage->line_sizes[i++]) {
+        polyline line = polyline_of(cmd, v, cage->line_sizes[i]);
+        points += line.count ? (size_t)line.count : (size_t)INT_MAX + 1;
+        vertices += (size_t)line.count + (line.ends == SUBDIV_ENDS_CLOSED);
+    }
+    subdiv_result result = make_room_for_curves(w, points, vertices, opt);
+    int *to = w->fine.line_vertices, first = 0;
+    v = cage->line_vertices;
+    for (int i = 0; i < cage->line_count && !result; v += cage->line_sizes[i++]) {
+        polyline line = polyline_of(cmd, v, cage->line_sizes[i]);
+        size_t at = 3 * (size_t)first;
+        refine_polyline(cmd, line, v, cage->positions, w->points + at, opt);
+        if (w->colors) refine_polyline(cmd, line, v, cage->colors, w->colors + at, opt);
+        for (int k = 0; k < line.count; k++) *to++ = first + k;
+        if (line.ends == SUBDIV_ENDS_CLOSED) *to++ = first;
+        w->fine.line_sizes[i] = line.count + (line.ends == SUBDIV_ENDS_CLOSED);
+        first += line.count;
+    }
+    return result;
+}
+
 // Frees the cage and what was prepared as soon as they are no longer needed.
 static int refine_then_save(work *w, const command *cmd, const subdiv_options *opt)
 {
     subdiv_tessellation how = {0};
     how.rate = cmd->given[TESSELLATE];
-    subdiv_result result = how.rate > 0
+    subdiv_result result = cmd->given[CURVE] >= 0 ? refine_curves(w, cmd, opt) : how.rate > 0
         ? subdiv_surface_tessellate(&w->fine, w->surface, w->cage.positions, &how, opt)
         : subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
     subdiv_surface_free(w->surface);
@@ -902,7 +992,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
         if (timed) print_times(w, w->cage.vertex_count);
         return DONE;
     }
-    int levels = cmd->given[LEVELS] >= 0 ? cmd->given[LEVELS] : 1;
+    int levels = levels_of(cmd);
     if (cmd->given[TESSELLATE] > 0) levels = SUBDIV_EXACT;
     w->start = milliseconds();
     if (cmd->samples) {
@@ -910,6 +1000,14 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
         if (timed) print_times(w, w->cage.vertex_count);
         return DONE;
     }
+    if (cmd->given[CURVE] >= 0) {
+        if (refine_then_save(w, cmd, opt)) return FAILED;
+        if (timed) print_times(w, w->fine.vertex_count);
+        return DONE;
+    }
+    if (w->cage.line_count > 0 && levels != 0 && opt->error->warning_count++ == 0)
+        snprintf(opt->error->warning, sizeof opt->error->warning,
+                 "%d polylines are left out: --curve refines them", w->cage.line_count);
     if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report(cmd->input, opt);
     end_step(w, "prepare");
     int vertex_count = subdiv_surface_vertex_count(w->surface);
@@ -948,6 +1046,9 @@ int main(int argc, char **argv)
     result = run(&w, &cmd, &opt);
     end_threads(&threads);
     subdiv_mesh_free(&w.fine);
+    free(w.points);
+    free(w.colors);
+    free(w.numbers);
     subdiv_surface_free(w.surface);
     subdiv_mesh_free(&w.cage);
     if (result == DONE) print_warnings(&cmd, &error);

@@ -130,7 +130,7 @@ printf '# nothing\n' > empty.obj
 
 ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
-              --tessellate --vertex-rule \
+              --tessellate --curve --vertex-rule \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
               --stream --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
@@ -184,6 +184,37 @@ ends 2 -l x box.obj
 ends 2 -l2x box.obj
 ends 2 box.obj -l
 says "needs a value"
+
+# ----------------------------------------------------------------------------------------- curves
+
+{ printf 'v 0 0 0 1 0 0\nv 8 0 0\nv 0 8 0\nl 1 2 3\nf 1 2 3\nl 1 2 3 1\n'; } > lines.obj
+printf 'v 0 0 0 1 0 0\nv 4 0 0 1 0.5 0.5\nv 6 1 0 1 0.875 0.875\nv 4 4 0 1 1 1\nv 0 8 0 1 1 1\n' > curve
+printf 'v 1 1 0 1 0.25 0.25\nv 4 0 0 1 0.5 0.5\nv 6 1 0 1 0.875 0.875\n' >> curve
+printf 'v 4 4 0 1 1 1\nv 1 6 0 1 0.875 0.875\nv 0 4 0 1 0.5 0.5\n' >> curve
+printf 'l 1 2 3 4 5\nl 6 7 8 9 10 11 6\n' >> curve
+ends 0 --curve b-spline lines.obj curve.obj
+same curve.obj curve
+ends 0 --curve b-spline -l 2 lines.obj twice.obj
+ends 0 --curve b-spline curve.obj form.obj
+same form.obj twice.obj
+ends 0 --curve=chaikin -l 3 lines.obj chaikin.obj
+counts chaikin.obj 48 0
+ends 0 --curve=chaikin -l 3 --limit lines.obj form.obj
+differ form.obj chaikin.obj
+ends 0 --info lines.obj
+fine "--info counts polylines" grep -qx 'polylines  *2' out
+ends 0 lines.obj form.obj
+says "2 polylines are left out: --curve refines them"
+ends 0 -l0 lines.obj form.obj
+fine "level 0 keeps lines" test "$(grep -c '^l ' form.obj)" = 2 -a ! -s err
+ends 1 --curve chaikin box.obj
+says "no polylines"
+ends 1 --curve chaikin -l 31 lines.obj
+says "too many points"
+ends 2 --curve bezier lines.obj
+says "b-spline|chaikin"
+ends 2 --curve chaikin --stream lines.obj
+says "not for surfaces"
 
 # --------------------------------------------------------------------------------- scheme and rules
 

@@ -279,6 +279,28 @@ static void single_point(void)
     }
 }
 
+// Level 0 has the lines of its cage, other levels have none.
+static void lines_of_meshes(void)
+{
+    static test_cage cage;
+    int sizes[] = { 3, 2 }, vertices[] = { 0, 1, 2, 2, 3 };
+    build_grid(&cage, SUBDIV_CATMULL_CLARK, 1, 1);
+    cage.mesh.line_count = 2;
+    cage.mesh.line_sizes = sizes;
+    cage.mesh.line_vertices = vertices;
+    for (int k = 0; k < 4; k++) {
+        subdiv_mesh fine;
+        subdiv_options opt = {0};
+        opt.limit = k / 2;
+        CHECK_EQUAL(subdiv_refine(&fine, &cage.mesh, k % 2, &opt), SUBDIV_OK);
+        CHECK_EQUAL(fine.line_count, k % 2 ? 0 : 2);
+        CHECK(k % 2 || memcmp(fine.line_sizes, sizes, sizeof sizes) == 0);
+        CHECK(k % 2 || memcmp(fine.line_vertices, vertices, sizeof vertices) == 0);
+        CHECK(fine.line_sizes != sizes && fine.line_vertices != vertices);
+        subdiv_mesh_free(&fine);
+    }
+}
+
 // ---------------------------------------------------------------------------------------- errors
 
 static void errors(void)
@@ -349,6 +371,7 @@ int main(void)
     RUN(invariants);
     RUN(backwards);
     RUN(single_point);
+    RUN(lines_of_meshes);
     RUN(errors);
     RUN(counts);
     return test_end("curves");

@@ -20,6 +20,7 @@
 // normals and statements. All arrays are made anew for each case, so that a case may write to them.
 static float P[3 * 9], S[2], CS[2], UV[2 * 3], colors[3 * 9], N[3 * 9];
 static int   sizes[3], F[12], E[4], C[2], H[1], face_uvs[12], statement_faces[3];
+static int   line_sizes[2], L[5];
 static char *statements[3];
 
 static subdiv_mesh good_mesh(void)
@@ -38,6 +39,9 @@ static subdiv_mesh good_mesh(void)
     static char group[] = "g", material[] = "usemtl a b", smoothing[] = "s 1";
     memcpy(face_uvs, good_face_uvs, sizeof face_uvs);
     memcpy(statement_faces, good_faces, sizeof statement_faces);
+    static const int good_L[] = {8,3, 1,2,1};
+    memcpy(L, good_L, sizeof L);
+    line_sizes[0] = 2; line_sizes[1] = 3;
     statements[0] = group; statements[1] = material; statements[2] = smoothing;
     for (int i = 0; i < 6; i++) UV[i] = (float)i;
     for (int i = 0; i < 27; i++) colors[i] = N[i] = 0.5f;
@@ -51,6 +55,7 @@ static subdiv_mesh good_mesh(void)
     m.colors = colors;      m.normals = N;
     m.statement_count = 3;  m.statement_faces = statement_faces;
     m.statements = statements;
+    m.line_count = 2;       m.line_sizes = line_sizes;      m.line_vertices = L;
     return m;
 }
 
@@ -112,6 +117,12 @@ static char two_lines[] = "g a\nv 1 2 3", other_line[] = "v 1 2 3", near_line[] 
 static void line_is_two(subdiv_mesh *m)     { m->statements[1] = two_lines; }
 static void line_is_other(subdiv_mesh *m)   { m->statements[0] = other_line; }
 static void line_is_near(subdiv_mesh *m)    { m->statements[2] = near_line; }
+static void polyline_count(subdiv_mesh *m)  { m->line_count = -4; }
+static void null_polylines(subdiv_mesh *m)  { m->line_vertices = NULL; }
+static void null_line_sizes(subdiv_mesh *m) { m->line_sizes = NULL; }
+static void polyline_of_1(subdiv_mesh *m)   { m->line_sizes[1] = 1; }
+static void polyline_index(subdiv_mesh *m)  { m->line_vertices[4] = 9; }
+static void polyline_below(subdiv_mesh *m)  { m->line_vertices[0] = -1; }
 
 typedef struct broken {
     const char   *name;
@@ -182,6 +193,12 @@ static const broken broken_meshes[] = {
     BROKEN(uv_nan,          NOT_FINITE, -1, -1, "UV 1"),
     BROKEN(color_inf,       NOT_FINITE, -1, 7, "color 7"),
     BROKEN(normal_minus,    NOT_FINITE, -1, 8, "normal 8"),
+    BROKEN(polyline_count,  ARGUMENT,  -1, -1, "line_sizes"),
+    BROKEN(null_polylines,  ARGUMENT,  -1, -1, "line_vertices"),
+    BROKEN(null_line_sizes, ARGUMENT,  -1, -1, "line_sizes"),
+    BROKEN(polyline_of_1,   ARGUMENT,  -1, -1, "polyline 1 has 1 vertices"),
+    BROKEN(polyline_index,  INDEX,     -1, 9, "polyline 1: vertex 9"),
+    BROKEN(polyline_below,  INDEX,     -1, -1, "polyline 0: vertex -1"),
 };
 
 static void check_error(const subdiv_error *error, const broken *b)

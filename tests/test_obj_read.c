@@ -170,13 +170,14 @@ static void test_other_keywords(void)
 {
     static const other cases[] = {
         {QUAD "vn 0 0 1\nvn nan x\nvn\n", 0, ""},
-        {QUAD "l 1 2\np 1\nl 1/1 2/2\np 99\n", 1, "line 6: 4 points and lines"},
+        {QUAD "p 1\np 1 2\np 99\n", 1, "line 6: 3 points (p)"},
+        {QUAD "l 1\nl # 2 3\n", 2, "line 6: a line with 1 vertices is skipped"},
         {"vp 1 2\ncstype bspline\ndeg 3 3\n" V4 "curv 0 1 1 2\nsurf 0 1 0 1 9 9\nparm u 0 1\nend\n"
          "f 1 2 3 4\n", 1, "line 1: 7 free-form"},
         {V4 "vertex 1 2 3\ncall x.obj\nf 1 2 3 4\nfoo bar\nface 1 2\nlod 3\nbevel on\n", 1,
          "line 5: 6 statements with unknown"},
         {QUAD "V 1 2 3\nF 1 2 3\nT crease 2/1/0 0 1 2\ntrace_obj x\n", 1, "line 6: 4 statements"},
-        {"foo \\\nv 9 9 9\n" QUAD "l 1 2\nend\nfoo # \\\nend", 3, "line 8: 1 points"},
+        {"foo \\\nv 9 9 9\n" QUAD "p 1\nend\nfoo # \\\nend", 3, "line 8: 1 points"},
         {"vt 0 0\nvt 0\n" QUAD, 0, ""},
     };
     subdiv_mesh plain;
@@ -286,6 +287,32 @@ static void test_statements(void)
         test_context = cases[i].text;
         CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
         list_statements(&mesh, text);
+        CHECK_TEXT(text, cases[i].plain);
+        subdiv_mesh_free(&mesh);
+    }
+    test_context = "";
+}
+
+// The polylines of a mesh, a line each: "0 1\n2 3 2\n".
+static void test_polylines(void)
+{
+    static const same_text cases[] = {
+        {QUAD, ""},
+        {QUAD "l 1 2\n", "0 1\n"},
+        {V4 "l 1/1 -1/9 3/ # x\nl \\\n 4 +3\nl 3\nf 1 2 3 4\nl -4 -3 -2 -4",
+         "0 3 2\n3 2\n0 1 2 0\n"},
+        {"l 4 1 1\n" V4, "3 0 0\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        subdiv_mesh mesh;
+        subdiv_error error;
+        char text[64] = "";
+        test_context = cases[i].text;
+        CHECK_EQUAL(load(&mesh, cases[i].text, &error), SUBDIV_OK);
+        const int *v = mesh.line_vertices;
+        for (int k = 0; k < mesh.line_count; k++)
+            for (int j = 0; j < mesh.line_sizes[k]; j++, v++)
+                sprintf(text + strlen(text), "%d%c", *v, j + 1 < mesh.line_sizes[k] ? ' ' : '\n');
         CHECK_TEXT(text, cases[i].plain);
         subdiv_mesh_free(&mesh);
     }
@@ -623,6 +650,11 @@ static const refusal refusals[] = {
     {V4 "f 1 2 -18446744073709551615\n", SUBDIV_ERROR_INDEX, 5, {"-18446744073709551615", ""}},
     {V4 "f 1 2 \\\n 3\nf 1 2 9\n", SUBDIV_ERROR_INDEX, 7, {"9", "4"}},
     {V4 "f 1 \\\r\n2 \\\r\n9\r\n", SUBDIV_ERROR_INDEX, 5, {"9", "4"}},
+    {V4 "l 1 5\n", SUBDIV_ERROR_INDEX, 5, {"5", "4"}},
+    {"v 0 0 0\nl -1 -2\nv 1 0 0\n", SUBDIV_ERROR_INDEX, 2, {"-2", "1"}},
+    {V4 "l 1 2 x\n", SUBDIV_ERROR_SYNTAX, 5, {"x", "a line"}},
+    {V4 "l 1 2/x\n", SUBDIV_ERROR_SYNTAX, 5, {"2/x", "a line"}},
+    {V4 "l 1//2 2//2\n", SUBDIV_ERROR_SYNTAX, 5, {"1//2", "a line"}},
     {V4 "f 1.0 2 3\n", SUBDIV_ERROR_SYNTAX, 5, {"1.0", ""}},
     {V4 "f a b c\n", SUBDIV_ERROR_SYNTAX, 5, {"a", ""}},
     {V4 "f 1 2 x 3\n", SUBDIV_ERROR_SYNTAX, 5, {"x", ""}},
@@ -789,6 +821,7 @@ int main(void)
     RUN(test_other_keywords);
     RUN(test_faces_without_uvs);
     RUN(test_statements);
+    RUN(test_polylines);
     RUN(test_long_lines);
     RUN(test_block_borders);
     RUN(test_many_groups);

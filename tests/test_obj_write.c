@@ -26,6 +26,7 @@ static int    wavy_C[] = {0, 8, 4};
 static float  wavy_CS[] = {1.3f, 10.0f, 0.7f};
 static int    wavy_H[] = {1, 4};
 
+static int    wavy_line_sizes[] = {2, 4}, wavy_L[] = {8,0, 3,5,4,3};
 static float  wavy_UV[2 * 7], wavy_colors[3 * 9];
 static int    wavy_face_uvs[] = {0,1,2,3, 1,2,3, 2,4,3, 5,6,0,1,2, 6,6,6};
 static int    wavy_statement_faces[] = {0, 0, 2, 5};
@@ -48,6 +49,7 @@ static subdiv_mesh wavy_mesh(void)
     m.colors = wavy_colors;
     m.statement_count = 4;  m.statement_faces = wavy_statement_faces;
     m.statements = wavy_statements;
+    m.line_count = 2;       m.line_sizes = wavy_line_sizes; m.line_vertices = wavy_L;
     return m;
 }
 
@@ -104,15 +106,16 @@ static void test_round_trip_of_one_face_size(void)
     check_round_trip(&mesh);
 }
 
-// With and without UVs, colours, normals and statements, in all combinations.
+// With and without UVs, colours, normals, statements and lines, in all combinations.
 static void test_round_trip_of_data(void)
 {
-    for (int set = 0; set < 16; set++) {
+    for (int set = 0; set < 32; set++) {
         subdiv_mesh mesh = wavy_mesh();
         if (set & 1) mesh.uv_count = 0;
         if (set & 2) mesh.colors = NULL;
         if (set & 4) mesh.statement_count = 0;
         if (set & 8) mesh.normals = mesh.positions;
+        if (set & 16) mesh.line_count = 0;
         check_round_trip(&mesh);
     }
 }

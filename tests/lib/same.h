@@ -13,6 +13,7 @@ static inline int mesh_is_zero(const subdiv_mesh *m)
            !m->corner_count && !m->corner_vertices && !m->corner_sharpness && !m->hole_count &&
            !m->holes && !m->uv_count && !m->uvs && !m->face_uvs && !m->colors && !m->normals &&
            !m->statement_count && !m->statement_faces && !m->statements &&
+           !m->line_count && !m->line_sizes && !m->line_vertices &&
            m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
            m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
            m->uv_rule == (subdiv_uv_rule)0 && m->vertex_rule == (subdiv_vertex_rule)0 &&
@@ -44,11 +45,14 @@ static inline int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
 {
     if (a->vertex_count != b->vertex_count || a->face_count != b->face_count ||
         a->crease_count != b->crease_count || a->corner_count != b->corner_count ||
-        a->hole_count != b->hole_count || a->scheme != b->scheme || a->boundary != b->boundary ||
+        a->hole_count != b->hole_count || a->line_count != b->line_count ||
+        a->scheme != b->scheme || a->boundary != b->boundary ||
         a->creasing != b->creasing || a->triangles != b->triangles || a->uv_rule != b->uv_rule ||
         a->vertex_rule != b->vertex_rule || a->vertex_weights != b->vertex_weights)
         return 0;
-    int total = 0;
+    int total = 0, on_lines = 0;
+    if (!same_bytes(a->line_sizes, b->line_sizes, a->line_count, sizeof(int))) return 0;
+    for (int i = 0; i < a->line_count; i++) on_lines += a->line_sizes[i];
     for (int f = 0; f < a->face_count; f++) {
         if (size_of_face(a, f) != size_of_face(b, f)) return 0;
         total += size_of_face(a, f);
@@ -63,6 +67,7 @@ static inline int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
            same_bytes(a->uvs, b->uvs, 2 * a->uv_count, sizeof(float)) &&
            same_bytes(a->face_uvs, b->face_uvs, a->uv_count ? total : 0, sizeof(int)) &&
            same_bytes(a->colors, b->colors, a->colors ? 3 * a->vertex_count : 0, sizeof(float)) &&
+           same_bytes(a->line_vertices, b->line_vertices, on_lines, sizeof(int)) &&
            same_statements(a, b);
 }
 
