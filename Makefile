@@ -8,6 +8,8 @@
 # make platforms    the same bits on other platforms, with all cross compilers and emulators that
 #               are installed
 # make fuzz     the fuzzers under clang's sanitizers, each for SECONDS=60, with what they found before
+# make coverage what the tests reach of the header, with gcc and gcov
+# make mutate   what the tests notice of changes to the header; an hour or two
 # make clean
 #
 # Every program here holds the implementation, as a user would write it, and compiles alone: its
@@ -221,6 +223,22 @@ $(FUZZ_LOGS): $(FUZZ)/%.log: $(FUZZ)/% FORCE
 fuzz: $(FUZZ_LOGS)
 	@sh tests/lib/sum.sh $(FUZZ_LOGS)
 
+# --------------------------------------------------------------------- what the tests are worth
+
+# What the tests reach: lines, branches, and what they do not reach. gcc alone; functions that are
+# forced inline are counted once.
+COVER    = $(OUT)/coverage
+COVERAGE = -O0 --coverage -Dalways_inline=unused "-DSUBDIV_ASSERT(c)="
+
+coverage:
+	@+$(MAKE) --no-print-directory logs $(COVER)/subdiv OUT=$(COVER) CC=gcc \
+		CFLAGS='$(COVERAGE)' TESTS="$(OWN) $(PLAIN)"
+	@sh tests/coverage/coverage.sh $(COVER)
+
+# Are the tests good? Mutants of the header that no test notices. MUTANTS=n, SEED=n, JOBS=n.
+mutate:
+	@sh tests/mutate/mutate.sh
+
 # ------------------------------------------------------------------------------------------ bench
 
 BENCH = $(FLAGS) -O3 $(SHARED)
@@ -245,4 +263,5 @@ bench: $(OUT)/bench $(OUT)/bench_obj
 clean:
 	rm -rf $(OUT)
 
-.PHONY: all demo examples test logs check sanitize_own sanitize_plain platforms fuzz bench clean FORCE
+.PHONY: all demo examples test logs check sanitize_own sanitize_plain platforms fuzz coverage mutate \
+        bench clean FORCE

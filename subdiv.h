@@ -3136,7 +3136,8 @@ static int sdv_inside_point(int first, int columns, int triangle, int row, int c
 }
 
 // Returns the index of a point of a frame: the ring of points beside a grid's sides. Deep levels
-// keep no other points inside a grid. sdv_frame_rows makes them.
+// keep no other points inside a grid. sdv_frame_rows makes them. Only points beside the spokes of a
+// polygon are asked for: those in the last row or column of a quad's frame.
 //
 //     o . . . o
 //     . 6 5 4 .       the frame of a quad with n = 4: points 0 to 4 (n - 2) - 1, counter-clockwise
@@ -3145,13 +3146,8 @@ static int sdv_inside_point(int first, int columns, int triangle, int row, int c
 //     o . . . o
 static int sdv_frame_point(const sdv_grid *grid, int row, int column)
 {
-    int n = grid->columns, along = n - 2 - grid->triangle, corner = n - 1;
-    int end = grid->triangle ? corner - row : corner;          // the column beside the last side
-    if (row == 1) return grid->inside + column - 1;
-    if (column == end) return grid->inside + along + row - 1;
-    if (grid->triangle) return grid->inside + 2 * along + corner - 1 - row;
-    if (row == corner) return grid->inside + 2 * along + corner - column;
-    return grid->inside + 3 * along + corner - row;
+    int n = grid->columns;
+    return grid->inside + (column == n - 1 ? n - 3 + row : 3 * n - 5 - column);
 }
 
 static int sdv_inside_index(const sdv_grid *grid, int row, int column)

@@ -9,6 +9,7 @@ static size_t most_cell_polynomials = (size_t)1 << 24;
 #define SDV_CELL_POLYNOMIALS most_cell_polynomials
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
+#define CAGE_SCALE 2
 #include "lib/cages.h"
 #include "lib/random_cage.h"
 #include "lib/test.h"
@@ -615,6 +616,32 @@ static void test_passing_creases(void)
     CHECK(worst > 0);
 }
 
+// Creases that go straight on through a grid: on both sides of faces, of the same sharpness or not,
+// and across. Then as many of them as there are kinds of strips to number, and more.
+static void test_parallel_creases(void)
+{
+    static const double some[] = { 0.3, 0.5, 1, 1.5, 2, 2.75 };
+    static test_cage c;
+    subdiv_options opt = {0};
+    double worst = 0;
+    for (int i = 0; i < 2 * 6 * 6; i++) {
+        build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 5);
+        c.mesh.creasing = i % 2 ? SUBDIV_CREASING_CHAIKIN : SUBDIV_CREASING_UNIFORM;
+        for (int v = 0; v < c.mesh.vertex_count; v++) c.positions[3 * v + 2] = (float)(v * v % 5);
+        for (int k = 0; k < 3; k++) {
+            cage_crease(&c, 8 + k, 9 + k, some[i / 2 % 6]);
+            cage_crease(&c, 12 + k, 13 + k, some[(i / 2 + (i / 12 == 5)) % 6]);
+        }
+        for (int k = 0; k < 5 && i >= 12; k++)
+            cage_crease(&c, 4 * k + 1, 4 * k + 5, some[i / 12]);
+        compare_with_limit(&c.mesh, DEEP, opt, &worst);
+    }
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 1, 260);
+    for (int k = 2; k < 260; k += 2) cage_crease(&c, 2 * k, 2 * k + 1, k / 260.0);
+    compare_with_limit(&c.mesh, 2, opt, &worst);
+    CHECK(worst > 0);
+}
+
 // A grid that is flat and evenly spaced (by numbers that floats have) stays so with a straight
 // crease of any sharpness: its second derivatives are 0, also in the thousandth of a face beside
 // it.
@@ -741,11 +768,29 @@ static void run_backwards(void *user, void (*job)(void *context, int i), void *c
     for (int i = count; i-- > 0; ) job(context, i);
 }
 
+// Whatever is asked for alone, also from a surface of its own, has the same bits.
+static void check_alone(const subdiv_surface *surface, int channels, const void *scratch,
+                        const subdiv_location *at, float (*all)[11 * MANY])
+{
+    static float dense[8 * MANY];
+    for (int d = 0; d < 6 + (channels >= 3); d++) {
+        subdiv_derivatives out = {0};
+        float **asked[7] = { &out.points, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv,
+                             &out.normals };
+        *asked[d] = dense;
+        CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch, MANY, at, &out, NULL),
+                    SUBDIV_OK);
+        size_t count = d < 6 ? (size_t)channels : 3;
+        for (int i = 0; i < MANY; i++)
+            CHECK(memcmp(dense + count * (size_t)i, all[d] + 11 * i, sizeof(float) * count) == 0);
+    }
+}
+
 // Any number of channels, strides and order of jobs: the bits of one channel after the other.
 static void check_channels(random_cage *c, int channels)
 {
     static float in[8 * RANDOM_MAX_VERTICES], one[RANDOM_MAX_VERTICES];
-    static float out[6][11 * MANY], alone[6][MANY], dense[MANY * 8];
+    static float out[7][11 * MANY], alone[6][MANY], dense[8];
     static subdiv_location at[MANY];
     const subdiv_mesh *m = &c->mesh;
     subdiv_options opt;
@@ -756,14 +801,11 @@ static void check_channels(random_cage *c, int channels)
     CHECK_EQUAL(subdiv_prepare(&surface, m, SUBDIV_EXACT, NULL), SUBDIV_OK);
     char *scratch = (char *)malloc(subdiv_scratch_size(surface, channels) + 4);
     for (int i = 0; i < channels * m->vertex_count; i++) in[i] = random_real(c, -1, 1);
-    subdiv_derivatives to = { out[0], out[1], out[2], out[3], out[4], out[5], NULL, 11 };
+    subdiv_derivatives to = { out[0], out[1], out[2], out[3], out[4], out[5], out[6], 11 };
+    if (channels < 3) to.normals = NULL;
     CHECK_EQUAL(subdiv_evaluate_begin(surface, channels, in, 0, scratch + 4, &opt), SUBDIV_OK);
     CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch + 4, MANY, at, &to, &opt), SUBDIV_OK);
-    subdiv_derivatives points = { dense, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
-    CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch + 4, MANY, at, &points, NULL),
-                SUBDIV_OK);
-    for (int i = 0; i < MANY * channels; i++)
-        CHECK(memcmp(&dense[i], &out[0][i / channels * 11 + i % channels], sizeof(float)) == 0);
+    check_alone(surface, channels, scratch + 4, at, out);
     for (int i = 0; i < MANY; i++) {                            // one by one: the same bits
         subdiv_derivatives single = { dense, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
         CHECK_EQUAL(subdiv_evaluate_at(surface, channels, scratch + 4, 1, &at[i], &single, NULL),
@@ -801,7 +843,7 @@ static void check_first_refused(random_cage *c, const subdiv_surface *surface, c
 {
     static subdiv_location at[MANY];
     static float p[3 * MANY];
-    static const float odd[4] = { -0.001f, 1.001f, HUGE_VALF, -HUGE_VALF };
+    const float odd[4] = { -0.001f, 1.001f, HUGE_VALF, -HUGE_VALF };
     const float nan = HUGE_VALF - HUGE_VALF;
     const subdiv_derivatives out = { p, NULL, NULL, NULL, NULL, NULL, NULL, 0 };
     const subdiv_mesh *m = &c->mesh;
@@ -1099,6 +1141,7 @@ int main(void)
     RUN(test_continuous);
     RUN(test_shared);
     RUN(test_passing_creases);
+    RUN(test_parallel_creases);
     RUN(test_long_creases);
     RUN(test_sizes);
     RUN(test_single_faces);

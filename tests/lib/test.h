@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int test_passed, test_failed, test_bad;      // test_bad: failed checks of the running test
@@ -16,10 +17,17 @@ static const char *test_context = "";               // set it to say which case 
         if (test_bad) { test_failed++; printf("FAILED  %s\n", #test); } else test_passed++; \
     } while (0)
 
+// TEST_STOP: the first failure ends the program.
+#ifdef TEST_STOP
+#define TEST_END exit(1)
+#else
+#define TEST_END (void)0
+#endif
+
 #define TEST_REPORT(...) do {                                                           \
         if (test_bad++ < 5) {                                                           \
             printf("%s:%d: %s%s", __FILE__, __LINE__, test_context, *test_context ? ": " : ""); \
-            printf(__VA_ARGS__); printf("\n");                                          \
+            printf(__VA_ARGS__); printf("\n"); TEST_END;                                \
         }                                                                               \
     } while (0)
 

@@ -1,0 +1,137 @@
+#!/bin/sh
+# mutate.sh: are the tests good? Changes one place of subdiv.h after the other (see mutants.awk) and
+# runs the tests with each of these mutants. One that no test notices is a test that is missing, or
+# code that nobody needs, or it is equivalent: it computes the same. Those stand in equivalent.txt.
+#
+#     sh tests/mutate/mutate.sh             or: MUTANTS=1000 SEED=2 JOBS=4 sh tests/mutate/mutate.sh
+#
+# First come the tests that know most of the mutant's section, for SECONDS_EACH of processor time,
+# up to the first check that fails; tcc compiles the header for them in a tenth of a second. What
+# survives this is compared as an object at -O2 and then given to make test, unless QUICK is set.
+# Everything is in build/mutate. Stop and start it as you like: results.txt keeps what was found.
+MUTANTS=${MUTANTS:-320} SEED=${SEED:-1} JOBS=${JOBS:-2} SECONDS_EACH=${SECONDS_EACH:-3}
+out=build/mutate
+results=$out/results.txt
+quick_cc=${QUICK_CC:-$(command -v tcc || echo "cc -O0")}
+flags="-DTEST_STOP -ffp-contract=off"
+own="evaluate memory exact patches obj_numbers"
+linked="recorded order stencils limit creases errors obj_read obj_write check masks uv doors"
+linked="$linked partial_uvs vertex_rules exact_oracle tessellate"
+mkdir -p $out/0
+touch $results
+
+tests_of() {
+    case $1 in
+    memory|errors|validate) echo errors memory obj_read ;;
+    face-varying) echo recorded uv partial_uvs evaluate ;;
+    limit-rows|limit-surface|normals) echo limit evaluate vertex_rules exact ;;
+    platform|grids|evaluate|results*|calls) echo recorded order evaluate limit errors uv ;;
+    split|patches|nests|leaves|locations|cells|polynomials|samples|exact-surface)
+        echo exact exact_oracle patches vertex_rules ;;
+    stencils) echo stencils doors ;;
+    tile*|tessellator) echo tessellate doors errors ;;
+    generators) echo creases check ;;
+    inspection|oddities) echo check errors ;;
+    numbers|obj-read|obj-write) echo obj_numbers obj_read obj_write ;;
+    explain) echo masks vertex_rules ;;
+    *) echo recorded order masks creases limit evaluate uv errors ;;
+    esac
+}
+
+# build DIRECTORY TEST: links a test with the library of DIRECTORY, or compiles both.
+build() {
+    case " $own " in
+    *" $2 "*) $quick_cc $flags -DSUBDIV_STATIC -I"$1" tests/test_"$2".c -o "$1/test" -lm -lpthread ;;
+    *) $quick_cc $out/"$2".o "$1/subdiv.o" -o "$1/test" -lm ;;
+    esac > "$1/log" 2>&1
+}
+
+compile() {
+    (cd "$1" && $quick_cc $flags -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o subdiv.o) > "$1/log" 2>&1
+}
+
+# run DIRECTORY SECONDS: 0: passed; 137 or 152: it took longer. (Some meshes of test_errors are huge.)
+run() {
+    (ulimit -t "$2"; ulimit -v 40000000; ulimit -c 0; exec "$1/test") > "$1/log" 2>&1 < /dev/null
+}
+
+# The header itself must pass. Notes which tests take long: their time decides nothing.
+prepare() {
+    if ! cmp -s subdiv.h $out/0/subdiv.h; then
+        rm -f $out/0/* $out/tests
+        cp subdiv.h $out/0/subdiv.h
+    fi
+    compile $out/0 || return 1
+    for test in $linked $own; do
+        grep -q "^$test " $out/tests && continue
+        case " $linked " in
+        *" $test "*) $quick_cc $flags -DSUBDIV_IMPLEMENTED -I. -c tests/test_"$test".c \
+                         -o $out/"$test".o || return 1
+        esac
+        build $out/0 "$test" && run $out/0 "$SECONDS_EACH"
+        status=$?
+        [ $status = 0 ] && { run $out/0 $(((SECONDS_EACH + 1) / 2)) || status=$?; }
+        case $status in
+        0|137|152) echo "$test $status" >> $out/tests ;;
+        *) echo "$test fails without a mutation"; return 1 ;;
+        esac
+    done
+}
+
+# quick DIRECTORY SECTION: sets verdict and by.
+quick() {
+    verdict=survived by=-
+    compile "$1" || { verdict=invalid; return; }
+    cmp -s "$1/subdiv.o" $out/0/subdiv.o && { verdict=same; return; }
+    for test in $(tests_of "$2"); do
+        build "$1" "$test"
+        run "$1" "$SECONDS_EACH"
+        status=$?
+        case $status in
+        0) continue ;;
+        137|152) grep -q "^$test 0" $out/tests || continue ;;
+        esac
+        verdict=killed by=$test
+        return
+    done
+}
+
+# thorough DIRECTORY: the same object when optimised, or make test in a copy of everything.
+thorough() {
+    o2="${CC:-cc} -std=c99 -O2 -ffp-contract=off -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o O2.o"
+    [ -e $out/0/O2.o ] || (cd $out/0 && $o2)
+    (cd "$1" && $o2) && cmp -s "$1/O2.o" $out/0/O2.o && { verdict=same; return; }
+    rm -rf "$1/copy"
+    mkdir "$1/copy"
+    cp -r Makefile README.md LICENSE tests examples "$1/copy"
+    cp "$1/subdiv.h" "$1/copy"
+    timeout 1800 make -s -C "$1/copy" test HAVE_OSD=no > "$1/log" 2>&1 ||
+        { verdict=killed by="make test"; }
+}
+
+# worker NUMBER: every JOBS-th mutant.
+worker() {
+    dir=$out/$1
+    mkdir -p "$dir"
+    awk -v jobs="$JOBS" -v me="$1" 'NR % jobs == me - 1' $out/list > "$dir/list"
+    while IFS= read -r mutant; do
+        grep -qF -e "	$mutant" $results && continue
+        printf '%s\n' "$mutant" > "$dir/mutant"
+        awk -F '\t' 'FNR == NR { at = $2; line = $4; next } { print FNR == at ? line : $0 }' \
+            "$dir/mutant" subdiv.h > "$dir/subdiv.h"
+        quick "$dir" "${mutant%%	*}"
+        [ "$verdict" = survived ] && [ -z "$QUICK" ] && thorough "$dir"
+        printf '%s\t%s\t%s\n' "$verdict" "$by" "$mutant" >> $results
+    done < "$dir/list"
+}
+
+touch $out/tests
+prepare 2> $out/err || { cat $out/0/log $out/err; exit 1; }
+awk -v seed="$SEED" -v count="$MUTANTS" -f tests/mutate/mutants.awk subdiv.h > $out/list
+job=1
+while [ $job -le "$JOBS" ]; do
+    worker $job 2> $out/err$job &
+    job=$((job + 1))
+done
+wait
+awk -f tests/mutate/report.awk tests/mutate/equivalent.txt $out/list $results
