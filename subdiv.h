@@ -5370,15 +5370,15 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
                              int sharpness, sdv_arena *scratch)
 {
     int levels = surface->levels, limit = surface->rules.limit;
-    size_t n = (size_t)1 << levels;
+    size_t n = (size_t)1 << levels, line = cage->face_count ? n + 1 : 0;
     sdv_pieces pieces;
     sdv_filler fill;
     memset(&fill, 0, sizeof fill);
     sdv_writer_new(context, &surface->points, cage, &fill.writer);
-    fill.line = SDV_NEW(context, scratch, int, n + 1);
-    fill.left = SDV_NEW(context, scratch, int, n + 1);
-    fill.right = SDV_NEW(context, scratch, int, n + 1);
-    fill.made = SDV_NEW(context, scratch, int, n + 1);
+    fill.line = SDV_NEW(context, scratch, int, line);
+    fill.left = SDV_NEW(context, scratch, int, line);
+    fill.right = SDV_NEW(context, scratch, int, line);
+    fill.made = SDV_NEW(context, scratch, int, line);
     surface->refine = SDV_NEW(context, &surface->points, sdv_batches,
                               SDV_IS_PLAIN ? 2 * levels : levels);
     sdv_new_pieces(context, scratch, cage, (int)n << limit, &pieces);

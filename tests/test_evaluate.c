@@ -11,7 +11,7 @@ static int allocations, filling;      // each byte of what is allocated is this
 
 static void *count_malloc(size_t size)
 {
-    void *memory = malloc(size);
+    void *memory = size >> 30 ? NULL : malloc(size);       // no mesh here needs a gigabyte
     allocations++;
     if (memory) memset(memory, filling, size);
     return memory;
@@ -773,7 +773,7 @@ static void test_no_faces(void)
     memset(&p, 0, sizeof p);
     cage.vertex_count = 2;
     cage.positions = positions;
-    for (p.levels = 0; p.levels <= 3; p.levels++) {
+    for (p.levels = 0; p.levels <= 30; p.levels += p.levels < 3 ? 1 : 9) {
         p.surface = NULL;
         CHECK_EQUAL(subdiv_prepare(&p.surface, &cage, p.levels, NULL), SUBDIV_OK);
         if (!p.surface) return;
