@@ -15500,8 +15500,8 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
     sdv_context *context = out->context;
     subdiv_mesh fine = surface->fine;
     float factor = sdv_shrink_huge(context, arena, surface, &positions);
-    int *row = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
-    int *uvs = SDV_NEW(context, arena, int, 8 * (size_t)surface->order.n);
+    size_t size = fine.face_count ? 8 * (size_t)surface->order.n : 0;
+    int *row = SDV_NEW(context, arena, int, size), *uvs = SDV_NEW(context, arena, int, size);
     fine.holes = SDV_NEW(context, arena, int, fine.hole_count);
     const float *values = sdv_join_colors(context, arena, surface, positions);
     if (context->result) return;
