@@ -75,6 +75,9 @@ static void for_cages(unsigned count, cage_check check)
         random_cage *c = random_cage_new(seed, RANDOM_ALL);
         if (!c) abort();
         sprintf(context, "random cage %u", seed);
+        static float colors[3 * RANDOM_MAX_VERTICES];
+        for (int i = 0; i < 3 * c->mesh.vertex_count; i++) colors[i] = random_real(c, 0, 1);
+        if (seed % 3 == 0) c->mesh.colors = colors;
         check_prepared(&c->mesh, seed, check);
         random_cage_free(c);
     }
@@ -681,24 +684,27 @@ static text new_text(size_t capacity)
 
 static void check_stream(const subdiv_mesh *m, const prepared *p)
 {
-    subdiv_mesh fine = {0};
+    subdiv_mesh fine = {0}, cage = *m;
+    float factor = below(4) ? 1 : 0x1p122f;                     // sums would overflow
     subdiv_options opt = p->opt;
     text saved = {0}, streamed = {0};
     crew c;
+    cage.positions = blank(3 * (size_t)m->vertex_count);
+    for (int i = 0; i < 3 * m->vertex_count; i++) cage.positions[i] = factor * m->positions[i];
     saved = new_text(1 << 22), streamed = new_text(1 << 22);
     opt.no_tags = below(4) == 0;
-    CHECK_EQUAL(subdiv_refine(&fine, m, p->levels, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_refine(&fine, &cage, p->levels, &opt), SUBDIV_OK);
     fine.normals = NULL;              // they are not streamed
     CHECK_EQUAL(subdiv_save_obj_callback(&fine, keep_text, &saved, &opt), SUBDIV_OK);
     CHECK(saved.bytes && streamed.bytes && saved.size <= saved.capacity);
     start_crew(&c, below(3), &opt);
-    CHECK_EQUAL(subdiv_stream_obj_callback(p->surface, m->positions, keep_text, &streamed, &opt),
+    CHECK_EQUAL(subdiv_stream_obj_callback(p->surface, cage.positions, keep_text, &streamed, &opt),
                 SUBDIV_OK);
     pthread_mutex_destroy(&c.lock);
     CHECK_EQUAL(saved.size, streamed.size);
     if (saved.size == streamed.size)
         CHECK(same_bytes(saved.bytes, streamed.bytes, (int)saved.size, 1));
-    free(saved.bytes), free(streamed.bytes);
+    free(saved.bytes), free(streamed.bytes), free(cage.positions);
     subdiv_mesh_free(&fine);
 }
 
