@@ -318,6 +318,33 @@ static void test_broken_positions(void)
 }
 
 // The writer refuses what could not be read again, before it writes anything.
+// However many there are, the first one that is wrong is named.
+static void test_first_of_many(void)
+{
+    enum { VERTICES = 400, FACES = 300, LAST = 4 * FACES - 1 };
+    static float positions[3 * VERTICES];
+    static int faces[4 * FACES];
+    subdiv_mesh fine, m = {0};
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    opt.error = &error;
+    m.vertex_count = VERTICES;      m.positions = positions;
+    m.face_count = FACES;           m.face_vertices = faces;        m.face_size = 4;
+    for (int i = 0; i <= LAST; i++) faces[i] = i % VERTICES;
+    for (int at = 0; at <= LAST; at += 1 + at % 20) {
+        faces[LAST] = at % 2 ? VERTICES : -1;
+        faces[at] = at % 3 ? -1 : VERTICES;
+        CHECK_EQUAL(subdiv_refine(&fine, &m, 0, &opt), SUBDIV_ERROR_INDEX);
+        CHECK_EQUAL(error.face, at / 4);
+        faces[at] = at % VERTICES;
+        faces[LAST] = LAST % VERTICES;
+        positions[3 * VERTICES - 1] = positions[at] = HUGE_VALF;
+        CHECK_EQUAL(subdiv_refine(&fine, &m, 0, &opt), SUBDIV_ERROR_NOT_FINITE);
+        CHECK_EQUAL(error.vertex, at / 3);
+        positions[3 * VERTICES - 1] = positions[at] = 0;
+    }
+}
+
 static void test_broken_meshes_are_not_saved(void)
 {
     const broken *lists[] = {broken_meshes, broken_positions};
@@ -502,6 +529,7 @@ static void test_result_strings(void)
     CHECK_TEXT(subdiv_result_string(SUBDIV_ERROR_INDEX), "index out of range");
     CHECK(subdiv_result_string(SUBDIV_RESULT_COUNT) != NULL);
     CHECK(subdiv_result_string((subdiv_result)0x7fffffff) != NULL);
+    CHECK(subdiv_result_string((subdiv_result)-1) != NULL);
 }
 
 static void test_crease_without_an_edge_is_a_warning(void)
@@ -581,6 +609,7 @@ int main(void)
 {
     RUN(test_broken_meshes);
     RUN(test_broken_positions);
+    RUN(test_first_of_many);
     RUN(test_broken_meshes_are_not_saved);
     RUN(test_loop_needs_triangles);
     RUN(test_levels);

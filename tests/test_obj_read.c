@@ -631,6 +631,9 @@ typedef struct refusal {
     const char *tokens[2];            // which the message holds
 } refusal;
 
+// As much as a message holds of what it is about.
+#define DIGITS40 "9876543210987654321098765432109876543210"
+
 static const refusal refusals[] = {
     {V4 "f 1 2 3 4\nf 1 2 9\n", SUBDIV_ERROR_INDEX, 6, {"9", "4"}},
     {V4 "f 1 2 5\n", SUBDIV_ERROR_INDEX, 5, {"5", "4"}},
@@ -648,6 +651,8 @@ static const refusal refusals[] = {
     {V4 "f 1 2 -99999999999999999999\n", SUBDIV_ERROR_INDEX, 5, {"-99999999999999999999", ""}},
     {V4 "f 1 2 18446744073709551617\n", SUBDIV_ERROR_INDEX, 5, {"18446744073709551617", ""}},
     {V4 "f 1 2 -18446744073709551615\n", SUBDIV_ERROR_INDEX, 5, {"-18446744073709551615", ""}},
+    {"v " DIGITS40 "x 0 0\n", SUBDIV_ERROR_SYNTAX, 1, {"\"" DIGITS40 "...\" is", ""}},
+    {"v " DIGITS40 "\n", SUBDIV_ERROR_NOT_FINITE, 1, {"\"" DIGITS40 "\" is", ""}},
     {V4 "f 1 2 \\\n 3\nf 1 2 9\n", SUBDIV_ERROR_INDEX, 7, {"9", "4"}},
     {V4 "f 1 \\\r\n2 \\\r\n9\r\n", SUBDIV_ERROR_INDEX, 5, {"9", "4"}},
     {V4 "l 1 5\n", SUBDIV_ERROR_INDEX, 5, {"5", "4"}},
@@ -764,24 +769,29 @@ static void test_refusals(void)
     test_context = "";
 }
 
-// From a file, the message begins with its name and line.
+// From a file, the message begins with its name and line: with the last 100 bytes of a long name.
 static void test_refusals_of_a_file(void)
 {
+    char long_path[256] = "build/";
+    while (strlen(long_path) < 140) strcat(long_path, "./");
+    strcat(long_path, "test_obj_read.obj");
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         subdiv_mesh mesh;
         subdiv_error error = {0};
         subdiv_options opt = {0};
-        char place[128];
+        char place[256];
+        const char *path = i % 2 ? long_path : scratch, *cut = i % 2 ? "..." : "";
+        const char *name = i % 2 ? path + strlen(path) - 100 : path;
         opt.error = &error;
         test_context = refusals[i].text;
-        CHECK(write_file(scratch, refusals[i].text, strlen(refusals[i].text)));
+        CHECK(write_file(path, refusals[i].text, strlen(refusals[i].text)));
         memset(&mesh, 0x55, sizeof mesh);
-        CHECK_EQUAL(subdiv_load_obj(&mesh, scratch, &opt), refusals[i].code);
+        CHECK_EQUAL(subdiv_load_obj(&mesh, path, &opt), refusals[i].code);
         CHECK(mesh_is_zero(&mesh));
         subdiv_mesh_free(&mesh);
         check_message(&error, &refusals[i]);
-        if (refusals[i].line) sprintf(place, "%s:%d: ", scratch, refusals[i].line);
-        else sprintf(place, "%s: ", scratch);
+        if (refusals[i].line) sprintf(place, "%s%s:%d: ", cut, name, refusals[i].line);
+        else sprintf(place, "%s%s: ", cut, name);
         if (strncmp(error.message, place, strlen(place)) != 0)
             TEST_REPORT("\"%s\" does not begin with \"%s\"", error.message, place);
     }
@@ -794,10 +804,11 @@ static void test_binary_is_refused(void)
     static const char nul_in_line[] = "v 0 0 0\nv 1 0\0 0\n", nuls[64] = {0};
     static const char in_comment[] = "v 0 0 0\n# \0\n", at_end[] = "v 0 0 0\nv 1 1 1\0";
     static const char utf16[] = "\xff\xfe" "v\0 \0" "0\0 \0" "0\0 \0" "0\0\n\0";
+    static const char big_endian[] = "\xfe\xff" "\0v\0 \0" "0\0 \0" "0\0 \0" "0\0\n";
     const struct { const char *text; size_t size; int line; } cases[] = {
         {nul_in_line, sizeof nul_in_line - 1, 2}, {nuls, sizeof nuls, 1},
         {in_comment, sizeof in_comment - 1, 2}, {at_end, sizeof at_end - 1, 2},
-        {utf16, sizeof utf16 - 1, 1},
+        {utf16, sizeof utf16 - 1, 1}, {big_endian, sizeof big_endian - 1, 1},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         subdiv_mesh mesh;
@@ -806,7 +817,7 @@ static void test_binary_is_refused(void)
                      : i == 3 ? "0 at the end" : "UTF-16";
         CHECK_EQUAL(load_bytes(&mesh, cases[i].text, cases[i].size, &error), SUBDIV_ERROR_SYNTAX);
         CHECK_EQUAL(error.line, cases[i].line);
-        CHECK(strstr(error.message, "not an OBJ file") != NULL);
+        CHECK(strstr(error.message, i < 4 ? "not an OBJ file" : "UTF-16") != NULL);
         subdiv_mesh_free(&mesh);
     }
     test_context = "";
