@@ -1,5 +1,5 @@
 # awk -v seed=N -v count=N -f mutants.awk subdiv.h: a list of about so many mutants, one in each
-# line: section, number of the line, the line, what it becomes, with tabs between them. A mutant
+# line: number of the line, section, the line, what it becomes, with tabs between them. A mutant
 # changes one place: a sign, a weight, a bound, a comparison, a condition; or drops a statement.
 #
 # Each section gets its share, at least 4. Which ones depends on seed and on the line's text alone,
@@ -15,13 +15,13 @@ function hash(text,    i, h) {
 
 function mutant(line,    key) {
     key = section "\t" $0 "\t" line
-    while (key in seen) key = key "'"
+    if (key in seen) return
     seen[key] = 1
     all++
     in_section[section]++
     sections[all] = section
     hashes[all] = hash(key)
-    texts[all] = section "\t" FNR "\t" $0 "\t" line
+    texts[all] = FNR "\t" key
 }
 
 # The line with another token, which stands after before.
@@ -148,6 +148,6 @@ END {
         if (share[s] < 4) share[s] = 4
     }
     for (i = 1; i <= all; i++) printf "%s\t%.0f\t%s\n", share[sections[i]], hashes[i], texts[i] | \
-        "LC_ALL=C sort -t '\t' -k 3,3 -k 2,2n | awk -F '\t' '$3 != s { s = $3; n = 0 } " \
+        "LC_ALL=C sort -t '\t' -k 4,4 -k 2,2n | awk -F '\t' '$4 != s { s = $4; n = 0 } " \
         "n++ < $1' | cut -f 3-"
 }

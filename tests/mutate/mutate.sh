@@ -117,11 +117,12 @@ worker() {
     mkdir -p "$dir"
     awk -v jobs="$JOBS" -v me="$1" 'NR % jobs == me - 1' $out/list > "$dir/list"
     while IFS= read -r mutant; do
-        grep -qF -e "	$mutant" $results && continue
+        grep -qF -e "${mutant#*	}" $results && continue
         printf '%s\n' "$mutant" > "$dir/mutant"
-        awk -F '\t' 'FNR == NR { at = $2; line = $4; next } { print FNR == at ? line : $0 }' \
+        awk -F '\t' 'FNR == NR { at = $1; line = $4; next } { print FNR == at ? line : $0 }' \
             "$dir/mutant" subdiv.h > "$dir/subdiv.h"
-        quick "$dir" "${mutant%%	*}"
+        section=${mutant#*	}
+        quick "$dir" "${section%%	*}"
         [ "$verdict" = survived ] && [ -z "$QUICK" ] && thorough "$dir"
         printf '%s\t%s\t%s\n' "$verdict" "$by" "$mutant" >> $results
     done < "$dir/list"
