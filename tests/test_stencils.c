@@ -540,6 +540,9 @@ static void check_words(int point)
     const char *formula = strstr(text, "\n\n    "), *mask = strstr(text, "\n\nIts mask");
     CHECK(formula && (formula[-1] == '.' || formula[-1] == ':'));
     CHECK(mask && mask > formula);
+    int parts = 0;                                  // a picture at most, the table, papers
+    for (const char *p = mask; p && (p = strstr(p + 1, "\n\n")) != NULL; ) parts++;
+    CHECK(parts <= 3);
     check_lines();
 }
 
@@ -639,6 +642,10 @@ static void test_explained_shapes(void)
     check_says("is a crease, sharp forever.");
 
     build_bipyramid(&c, SUBDIV_CATMULL_CLARK, 5);
+    explain(&c.mesh, 7);
+    check_says("E = (a + b + f + g) / 4  [CC78]");
+    explain(&c.mesh, 22);
+    check_says("\n         1/3\n         / \\\n");
     c.mesh.triangles = SUBDIV_TRIANGLES_SMOOTH;
     explain(&c.mesh, 7);
     check_says("E = 3/100 (a + b) + 47/100 (f + g)  [OSD]");

@@ -33,7 +33,7 @@ tests_of() {
     generators) echo creases check ;;
     inspection|oddities) echo check errors ;;
     numbers|obj-read|obj-write) echo obj_numbers obj_read obj_write ;;
-    explain) echo masks vertex_rules ;;
+    explain) echo stencils vertex_rules ;;
     *) echo recorded order masks creases limit evaluate uv errors ;;
     esac
 }
