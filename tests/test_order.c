@@ -334,6 +334,31 @@ static void test_regular_grids(void)
     }
 }
 
+// The edges of the cage, as the faces meet them.
+static void check_edges(const subdiv_mesh *m)
+{
+    edge_list e = edges_make(m);
+    int *ends = int_array(2 * e.count, -1);
+    subdiv_surface *surface;
+    CHECK_EQUAL(subdiv_prepare(&surface, m, 1, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_surface_edge_count(surface), e.count);
+    subdiv_surface_edges(surface, ends);
+    CHECK(memcmp(ends, e.ends, sizeof *ends * 2 * (size_t)e.count) == 0);
+    subdiv_surface_free(surface);
+    free(ends);
+    edges_free(&e);
+}
+
+static void test_edges(void)
+{
+    for (unsigned seed = 0; seed < 100; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL & ~RANDOM_DEGENERATE);
+        if (!c) abort();
+        check_edges(&c->mesh);
+        random_cage_free(c);
+    }
+}
+
 // Without its faces a hole leaves a gap in the faces and none in the points.
 static void test_holes(void)
 {
@@ -392,6 +417,7 @@ int main(void)
     RUN(test_bilinear_points);
     RUN(test_loop_points);
     RUN(test_regular_grids);
+    RUN(test_edges);
     RUN(test_holes);
     RUN(test_triangulate);
     return test_end("order");
