@@ -92,22 +92,34 @@ static void check_tessellate(const pair *p, int rate)
     subdiv_mesh_free(&b);
 }
 
-// What a surface of values makes, and its faces.
-static float *evaluate_values(const pair *p, const int *indices, int levels, int *count)
+// What a surface of values makes, and its faces. There are so many unused values before the others;
+// what becomes of these is left out.
+static float *evaluate_values(const pair *p, const int *indices, int unused, int levels, int *count)
 {
     subdiv_surface *surface;
+    int total = 0, uvs = p->partial.uv_count;
+    for (int f = 0; f < p->partial.face_count; f++) total += size_of_face(&p->partial, f);
+    int *moved = (int *)malloc(((size_t)total + 1) * sizeof(int));
+    for (int i = 0; i < total; i++) moved[i] = indices[i] < 0 ? -1 : indices[i] + unused;
+    subdiv_result result = subdiv_prepare_face_varying(&surface, &p->partial, uvs + unused, moved,
+                                                       p->partial.uv_rule, levels, NULL);
+    free(moved);
     *count = 0;
-    if (subdiv_prepare_face_varying(&surface, &p->partial, p->partial.uv_count, indices,
-                                    p->partial.uv_rule, levels, NULL)) return NULL;
+    if (result) return NULL;
     int points = subdiv_surface_vertex_count(surface);
     int faces = subdiv_surface_face_size(surface) * subdiv_surface_face_count(surface);
-    *count = 2 * points + faces;
-    float *values = (float *)malloc(((size_t)*count + 1) * sizeof(float));
+    float *in = (float *)calloc((size_t)(uvs + unused) + 1, 2 * sizeof(float));
+    memcpy(in + 2 * unused, p->partial.uvs, sizeof(float) * 2 * (size_t)uvs);
+    *count = 2 * (points - unused) + faces;
+    float *values = (float *)malloc(((size_t)(2 * points + faces) + 1) * sizeof(float));
     int *vertices = (int *)malloc(((size_t)faces + 1) * sizeof(int));
-    subdiv_evaluate(surface, 2, p->partial.uvs, 0, values, 0, NULL, NULL);
+    subdiv_evaluate(surface, 2, in, 0, values, 0, NULL, NULL);
+    memmove(values, values + 2 * unused, sizeof(float) * 2 * (size_t)(points - unused));
     subdiv_surface_faces(surface, vertices, NULL, NULL);
-    for (int i = 0; i < faces; i++) values[2 * points + i] = (float)vertices[i];
+    for (int i = 0; i < faces; i++)
+        values[2 * (points - unused) + i] = (float)(vertices[i] < 0 ? -1 : vertices[i] - unused);
     free(vertices);
+    free(in);
     subdiv_surface_free(surface);
     return values;
 }
@@ -115,8 +127,8 @@ static float *evaluate_values(const pair *p, const int *indices, int levels, int
 static void check_values(const pair *p, int levels)
 {
     int first, second;
-    float *a = evaluate_values(p, p->partial.face_uvs, levels, &first);
-    float *b = evaluate_values(p, p->indices, levels, &second);
+    float *a = evaluate_values(p, p->partial.face_uvs, 0, levels, &first);
+    float *b = evaluate_values(p, p->indices, levels, levels, &second);
     CHECK_EQUAL(first, second);
     CHECK(first != second || same_bytes(a, b, first, sizeof(float)));
     free(a);
