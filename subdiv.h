@@ -1379,6 +1379,16 @@ static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *a
     return kept;
 }
 
+// Hands the block of a growing array to an arena, at the size that it has, and returns its items.
+static void *sdv_adopt(sdv_arena *arena, sdv_array *array)
+{
+    void *items = sdv_items(array);
+    if (items) array->block->next = arena->blocks;
+    if (items) arena->blocks = array->block;
+    array->block = NULL;
+    return items;
+}
+
 // Copies count items to an arena. NULL if from is NULL or there is no memory.
 static void *sdv_duplicate(sdv_context *context, sdv_arena *arena, const void *from, size_t count,
                            size_t item)
@@ -8272,17 +8282,13 @@ typedef struct sdv_patch {
     unsigned char sharp;                // bit i: edge i is sharp
     unsigned char fan[3];               // Loop: how the fan at vertex i goes on, an sdv_fan
     unsigned char up, along;            // quads: the strips it is cut into, see sdv_strips; or 0
-    int polynomial;                     // of SUBDIV_EXACT: the number of its first polynomial
-} sdv_patch;
+    unsigned char level;                // of its face
+    int polynomial;                     // the number of its first polynomial
+    int points[16];                     // its control points, as work points (Loop has 12 of them);
+} sdv_patch;                            //      for those that are mirrored, any
 
 // The places of a face's own vertices among the control points of its patch.
 static const int sdv_quad_own[4] = { 5, 6, 10, 9 }, sdv_triangle_own[3] = { 4, 5, 8 };
-
-typedef struct sdv_patches {            // of one level
-    int        count;
-    sdv_patch *items;                   // [count] in the order of cage faces
-    int       *points;                  // [16 * count], Loop [12 * count]: their control points, as
-} sdv_patches;                          //      work points; for those that are mirrored, any
 
 static int sdv_control_points(const sdv_rules *rules)
 {
@@ -8312,8 +8318,7 @@ enum { SDV_STRIP_LEVELS = 10 };
 typedef struct sdv_strip {
     int    from, to;                    // segments that it covers
     int    origin, unit;                // its own segment: where it starts, how long it is
-    int    smooth;                      // beside a crease that is smooth by then; others: mirrored
-    double rows[4][4];                  // smooth: its control rows, as sums of the patch's
+    double rows[4][4];                  // its control rows, as sums of the patch's
 } sdv_strip;
 
 typedef struct sdv_strips {
@@ -8381,12 +8386,14 @@ static void sdv_add_strip(sdv_strips *strips, int c, int first, int last, int sm
 {
     sdv_strip *strip = &strips->items[strips->count++];
     int length = 1 << (SDV_STRIP_LEVELS - c);
-    strip->smooth = smooth;
     strip->from = first * length;
     strip->to = (last + 1) * length;
     strip->unit = smooth ? length : 1 << SDV_STRIP_LEVELS;
     strip->origin = smooth ? strip->from : 0;
-    for (int j = 0; j < 4 && smooth; j++) sdv_strip_row(strips, c, first + j - 1, strip->rows[j]);
+    for (int j = 0; j < 4; j++) {
+        if (smooth) sdv_strip_row(strips, c, first + j - 1, strip->rows[j]);
+        else sdv_sharp_row(strips, 0, j - 1, strip->rows[j]);
+    }
 }
 
 static sdv_strips sdv_cut_strips(float low, float high)
@@ -8522,12 +8529,12 @@ static int sdv_point_at(const sdv_level *level, int h)
 //      8  9 10 11
 //      4  5  6  7
 //      0  1  2  3
-static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, int *points)
+static inline void sdv_gather_quad(const sdv_level *level, int h, sdv_patch *patch)
 {
     static const signed char diagonal[4] = { 0, 3, 15, 12 };
     static const signed char beside[4] = { 1, 7, 14, 8 }, next[4] = { 2, 11, 13, 4 };
     const int *vertices = level->face_vertices, *across = level->across;
-    int first = level->first_point;
+    int first = level->first_point, closed = patch->sharp, *points = patch->points;
     for (int i = 0; i < 16 && closed; i++) points[i] = first + vertices[h];
     points[5] = first + vertices[h];
     points[6] = first + vertices[h + 1];
@@ -8559,11 +8566,11 @@ static inline void sdv_gather_quad(const sdv_level *level, int h, int closed, in
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
-static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *patch, int *points)
+static void sdv_gather_triangle(const sdv_level *level, int h, sdv_patch *patch)
 {
     const unsigned char *fan = patch->fan;
     const int *vertices = level->face_vertices, *across = level->across;
-    const int first = level->first_point;
+    int first = level->first_point, *points = patch->points;
     for (int i = 0; i < 12; i++) points[i] = first + vertices[h];
     for (int i = 0; i < 3; i++) {
         int after = i < 2 ? i + 1 : 0, q = across[h + i];
@@ -8580,20 +8587,20 @@ static void sdv_gather_triangle(const sdv_level *level, int h, const sdv_patch *
 }
 
 // Bilinear: the vertices of the face; the other control points have no weight.
-static void sdv_gather_linear(const sdv_level *level, int h, int size, int *points)
+static void sdv_gather_linear(const sdv_level *level, int h, int size, sdv_patch *patch)
 {
     const int *own = size == 4 ? sdv_quad_own : sdv_triangle_own;
-    for (int i = 0; i < (size == 4 ? 16 : 12); i++) points[i] = sdv_point_at(level, h);
-    for (int i = 0; i < size; i++) points[own[i]] = sdv_point_at(level, h + i);
+    for (int i = 0; i < 16; i++) patch->points[i] = sdv_point_at(level, h);
+    for (int i = 0; i < size; i++) patch->points[own[i]] = sdv_point_at(level, h + i);
 }
 
-// The control points of a patch, whose face starts with face-vertex h.
-static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules,
-                              const sdv_patch *patch, int h, int *points)
+// Finds the control points of a patch, whose face starts with face-vertex h.
+static inline void sdv_gather(const sdv_level *level, const sdv_rules *rules, int h,
+                              sdv_patch *patch)
 {
-    if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, points);
-    else if (rules->loop) sdv_gather_triangle(level, h, patch, points);
-    else sdv_gather_quad(level, h, patch->sharp, points);
+    if (rules->linear) sdv_gather_linear(level, h, rules->loop ? 3 : 4, patch);
+    else if (rules->loop) sdv_gather_triangle(level, h, patch);
+    else sdv_gather_quad(level, h, patch);
 }
 
 // Returns the number of the strips between two edges of these sharpnesses; 0 if both are semi-sharp
@@ -8666,27 +8673,26 @@ static inline int sdv_face_kinds(const sdv_level *level, int f, int size)
     return size == 4 ? found | kinds[v[3]] : found;
 }
 
-// Finds the patches of a level, and marks faces of the core without a patch as rough. There are at
-// most as many patches as faces whose vertices are not rough.
-static void sdv_find_patches(sdv_writer *writer, sdv_arena *arena, sdv_level *level,
-                             const sdv_rules *rules, sdv_patches *patches)
+// Adds the patches of a level, in the order of its faces, and marks faces of the core without one as
+// rough. There are at most as many patches as faces whose vertices are not rough.
+static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rules *rules,
+                             sdv_array *patches)
 {
     sdv_context *context = writer->context;
-    int size = rules->loop ? 3 : 4, most = level->face_count;
-    size_t width = (size_t)sdv_control_points(rules);
+    int size = rules->loop ? 3 : 4;
+    size_t most = patches->count + (size_t)level->face_count;
     memcpy(level->rough, level->core, (size_t)level->face_count);
     for (int v = 0; v < level->vertex_count; v++)
         level->kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
     for (int f = 0; f < level->face_count; f++)
         most -= !level->core[f] || (sdv_face_kinds(level, f, size) & SDV_ROUGH);
-    patches->items = SDV_NEW(context, arena, sdv_patch, most);
-    patches->points = SDV_NEW(context, arena, int, width * (size_t)most);
+    if (most > patches->count) sdv_grow(context, patches, most, sizeof(sdv_patch));
     for (int f = 0; f < level->face_count && !context->result; f++) {
         int h = sdv_face_start(level, f), found = sdv_face_kinds(level, f, size);
-        sdv_patch *patch = &patches->items[patches->count];
         if (!level->core[f] || (found & SDV_ROUGH)) continue;
+        sdv_patch *patch = (sdv_patch *)sdv_items(patches) + patches->count;
         if (!sdv_make_patch(writer, level, rules, f, found == SDV_FREE, patch)) continue;
-        sdv_gather(level, rules, patch, h, patches->points + width * (size_t)patches->count);
+        sdv_gather(level, rules, h, patch);
         level->rough[f] = 0;
         patches->count++;
     }
@@ -8734,8 +8740,7 @@ typedef struct sdv_nest_kind {
     int      work_count;                // the points, and those of the next level
     sdv_batches refine[2];              // the rows: to face points, to the others
     int     *below;                     // [points] the same points of the next level's nest
-    int      width;                     // control points of a patch
-    sdv_patches patches;                // for each turn of the faces: three of each face
+    sdv_patch *patches;                 // for each turn of the faces: three of each face
     double  *limit;                     // [3 * points] weights of the limit and of two tangents
 } sdv_nest_kind;
 
@@ -8751,7 +8756,7 @@ typedef struct sdv_nest_face {
 } sdv_nest_face;
 
 typedef struct sdv_exact {
-    sdv_patches *patches;               // [levels]
+    sdv_patch *patches;                 // [patch_count] level by level
     sdv_strips *strips;                 // of semi-sharp patches, counted from 1
     int patch_count;
     int polynomial_count;               // of patches; those of nests' faces come behind
@@ -8770,7 +8775,7 @@ typedef struct sdv_exact {
 typedef struct sdv_exact_maker {
     sdv_writer     *writer;
     subdiv_surface *surface;
-    sdv_array kinds, nests, nest_points, nest_faces;
+    sdv_array patches, kinds, nests, nest_points, nest_faces;
 } sdv_exact_maker;
 
 // Makes the point of a row, in doubles: points of fine levels differ in their last digits alone.
@@ -8931,35 +8936,26 @@ static const unsigned char sdv_turned_points[2][16] = {
     { 12, 8, 4, 0, 13, 9, 5, 1, 14, 10, 6, 2, 15, 11, 7, 3 },
     { 9, 6, 3, 10, 8, 4, 11, 0, 5, 7, 2, 1, 0, 0, 0, 0 } };
 
-static void sdv_turn_patch(const sdv_rules *rules, const sdv_patch *from, const int *points,
-                           sdv_patch *patch, int *out)
+static sdv_patch sdv_turn_patch(const sdv_rules *rules, const sdv_patch *from)
 {
     const unsigned char *turned = sdv_turned_points[rules->loop];
     int sides = rules->loop ? 3 : 4, sharp = from->sharp;
-    *patch = *from;
-    for (int i = 0; i < sdv_control_points(rules); i++) out[i] = points[turned[i]];
-    patch->sharp = (unsigned char)((sharp << 1 | sharp >> (sides - 1)) & ((1 << sides) - 1));
-    for (int i = 0; i < 3; i++) patch->fan[(i + 1) % 3] = from->fan[i];
+    sdv_patch patch = *from;
+    for (int i = 0; i < sdv_control_points(rules); i++) patch.points[i] = from->points[turned[i]];
+    patch.sharp = (unsigned char)((sharp << 1 | sharp >> (sides - 1)) & ((1 << sides) - 1));
+    for (int i = 0; i < 3; i++) patch.fan[(i + 1) % 3] = from->fan[i];
+    return patch;
 }
 
-// Adds to the patches of a nest, which are as seen from its vertex, all that faces see which have
-// the vertex as their number 1, 2 or 3.
+// Keeps the patches of a nest, which are as seen from its vertex, and adds all that faces see which
+// have the vertex as their number 1, 2 or 3.
 static void sdv_nest_turns(sdv_context *context, sdv_arena *arena, const sdv_rules *rules,
-                           sdv_nest_kind *kind)
+                           const sdv_patch *seen, sdv_nest_kind *kind)
 {
-    sdv_patches made = kind->patches;
-    size_t width = (size_t)sdv_control_points(rules), count = (size_t)made.count;
-    kind->width = (int)width;
-    made.count *= rules->loop ? 3 : 4;
-    made.items = SDV_NEW(context, arena, sdv_patch, made.count);
-    made.points = SDV_NEW(context, arena, int, width * (size_t)made.count);
-    if (context->result) return;
-    sdv_copy(made.items, kind->patches.items, count, sizeof(sdv_patch));
-    sdv_copy(made.points, kind->patches.points, width * count, sizeof(int));
-    for (size_t i = count; i < (size_t)made.count; i++)
-        sdv_turn_patch(rules, &made.items[i - count], made.points + width * (i - count),
-                       &made.items[i], made.points + width * i);
-    kind->patches = made;
+    int count = 3 * kind->faces, all = count * (rules->loop ? 3 : 4);
+    kind->patches = SDV_NEW(context, arena, sdv_patch, all);
+    for (int i = 0; i < all && kind->patches; i++)
+        kind->patches[i] = i < count ? seen[i] : sdv_turn_patch(rules, &kind->patches[i - count]);
 }
 
 // Parts the two triangles around a vertex of valence 2: gives each an edge of its own across from
@@ -9008,6 +9004,7 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
     sdv_context *context = maker->writer->context;
     sdv_arena *arena = &maker->surface->arena;
     const sdv_rules *rules = &maker->surface->rules;
+    sdv_array patches = { NULL, 0, 0 };
     sdv_cage cage;
     sdv_split split;
     sdv_level next;
@@ -9019,11 +9016,12 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
                    scratch);
     if (context->result) return;
     kind->work_count = next.first_point + next.vertex_count;
-    sdv_find_patches(maker->writer, scratch, &next, rules, &kind->patches);
+    sdv_find_patches(maker->writer, &next, rules, &patches);
     if (context->result) return;
+    SUBDIV_ASSERT((int)patches.count == 3 * kind->faces);
     sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
-    SUBDIV_ASSERT(kind->patches.count == 3 * kind->faces);
-    sdv_nest_turns(context, arena, rules, kind);
+    sdv_nest_turns(context, arena, rules, (const sdv_patch *)sdv_items(&patches), kind);
+    sdv_array_free(&patches);
     sdv_nest_limit(context, rules, kind, arena, scratch);
 }
 
@@ -9168,16 +9166,16 @@ static int sdv_patch_parts(const sdv_strips *strips, const sdv_patch *patch)
 // Finds the patches of a level and numbers their polynomials.
 static void sdv_exact_patches(sdv_exact_maker *maker, int depth, sdv_level *level)
 {
-    subdiv_surface *surface = maker->surface;
-    sdv_exact *exact = surface->exact;
-    sdv_patches *patches = &exact->patches[depth];
-    sdv_find_patches(maker->writer, &surface->points, level, &surface->rules, patches);
+    sdv_exact *exact = maker->surface->exact;
+    sdv_find_patches(maker->writer, level, &maker->surface->rules, &maker->patches);
     const sdv_strips *strips = (const sdv_strips *)sdv_items(&maker->writer->strips);
-    for (int i = 0; i < patches->count; i++) {
-        patches->items[i].polynomial = exact->polynomial_count;
-        exact->polynomial_count += sdv_patch_parts(strips, &patches->items[i]);
+    sdv_patch *patches = (sdv_patch *)sdv_items(&maker->patches);
+    for (; exact->patch_count < (int)maker->patches.count; exact->patch_count++) {
+        sdv_patch *patch = &patches[exact->patch_count];
+        patch->level = (unsigned char)depth;
+        patch->polynomial = exact->polynomial_count;
+        exact->polynomial_count += sdv_patch_parts(strips, patch);
     }
-    exact->patch_count += patches->count;
 }
 
 // Turns the patches and nests of a level into leaves, and makes the next level of the faces that
@@ -9208,6 +9206,7 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     subdiv_surface *surface = maker->surface;
     sdv_exact *exact = surface->exact;
     sdv_arena *arena = &surface->arena;
+    exact->patches = (sdv_patch *)sdv_adopt(&surface->points, &maker->patches);
     exact->kind_count = (int)maker->kinds.count;
     exact->nest_count = (int)maker->nests.count;
     exact->nest_point_count = (int)maker->nest_points.count;
@@ -9276,37 +9275,9 @@ SDV_INLINE float sdv_on_face(float u)
     return u < 1 ? u : 1;
 }
 
-// A patch: number i of its level. Patches of all levels are numbered one level after the other.
-typedef struct sdv_patch_at {
-    int level, i;
-} sdv_patch_at;
-
-// Goes on to the level that has the patch, if i is behind the patches of its level.
-static void sdv_next_level(const subdiv_surface *surface, sdv_patch_at *at)
-{
-    while (at->level < surface->levels && at->i >= surface->exact->patches[at->level].count)
-        at->i -= surface->exact->patches[at->level++].count;
-}
-
-static sdv_patch_at sdv_find_patch(const subdiv_surface *surface, int number)
-{
-    sdv_patch_at at = { 0, number };
-    sdv_next_level(surface, &at);
-    return at;
-}
-
-static const sdv_patch *sdv_patch_of(const subdiv_surface *surface, sdv_patch_at at,
-                                     const int **points)
-{
-    const sdv_patches *patches = &surface->exact->patches[at.level];
-    *points = patches->points + (size_t)sdv_control_points(&surface->rules) * (size_t)at.i;
-    return &patches->items[at.i];
-}
-
 // The leaf that a location is on, and the polynomial of the leaf.
 typedef struct sdv_leaf {
-    const sdv_patch *patch;             // its leaf is a patch of these control points,
-    const int       *points;
+    const sdv_patch *patch;             // its leaf is a patch
     int    nest_face;                   // or a face of a nest, or -1: its face has no surface
     int    below_kept;                  // levels down in a nest, if that is below polynomials kept:
                                         // x, y are on that level, as seen from the vertex
@@ -9582,16 +9553,15 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     const subdiv_surface *surface = maker->surface;
     const sdv_exact *exact = surface->exact;
     unsigned leaf = SDV_CELL_LEAF;
-    for (int level = 0; level < SDV_EXACT_LEVELS; level++)
-        for (int i = 0; i < exact->patches[level].count && !maker->context->result; i++) {
-            const sdv_patch *p = &exact->patches[level].items[i];
-            sdv_square square = sdv_square_at(surface, level, p->h, p->column, p->row, p->step);
-            int at = square.level;
-            if (at > SDV_CELL_LEVELS) sdv_set_cell(maker, &square, leaf);
-            else if (p->up) sdv_set_cut(maker, &square, p, at, leaf);
-            else sdv_set_polynomial(maker, &square, (size_t)p->polynomial, at, at, leaf);
-            leaf += 2;
-        }
+    for (int i = 0; i < exact->patch_count && !maker->context->result; i++) {
+        const sdv_patch *p = &exact->patches[i];
+        sdv_square square = sdv_square_at(surface, p->level, p->h, p->column, p->row, p->step);
+        int at = square.level;
+        if (at > SDV_CELL_LEVELS) sdv_set_cell(maker, &square, leaf);
+        else if (p->up) sdv_set_cut(maker, &square, p, at, leaf);
+        else sdv_set_polynomial(maker, &square, (size_t)p->polynomial, at, at, leaf);
+        leaf += 2;
+    }
     for (int i = 0; i < exact->nest_face_count && !maker->context->result; i++) {
         const sdv_nest_face *face = &exact->nest_faces[i];
         const sdv_place *place = &face->place;
@@ -9817,20 +9787,16 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
     return found;
 }
 
-// The patch that has a polynomial.
-static sdv_patch_at sdv_find_patch_of(const sdv_exact *exact, int polynomial)
+// Returns the patch that has a polynomial.
+static const sdv_patch *sdv_find_patch(const sdv_exact *exact, int polynomial)
 {
-    sdv_patch_at at = { 0, 0 };
-    for (int level = 1; level < SDV_EXACT_LEVELS; level++) {
-        const sdv_patches *patches = &exact->patches[level];
-        if (patches->count && patches->items[0].polynomial <= polynomial) at.level = level;
-    }
-    for (int end = exact->patches[at.level].count; at.i + 1 < end; ) {
-        int middle = at.i + (end - at.i) / 2;
-        if (exact->patches[at.level].items[middle].polynomial <= polynomial) at.i = middle;
+    int i = 0;
+    for (int end = exact->patch_count; i + 1 < end; ) {
+        int middle = i + (end - i) / 2;
+        if (exact->patches[middle].polynomial <= polynomial) i = middle;
         else end = middle;
     }
-    return at;
+    return &exact->patches[i];
 }
 
 // Sets the leaf of a cell, by the leaf's number or the polynomial's. Returns the leaf's level.
@@ -9844,10 +9810,9 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
     if (is_leaf && number >= exact->patch_count) leaf->nest_face = number - exact->patch_count;
     else if (!is_leaf && kept >= 0) leaf->nest_face = kept / 3 % exact->nest_face_count;
     if (leaf->nest_face >= 0) return exact->nest_faces[leaf->nest_face].level;
-    sdv_patch_at at = is_leaf ? sdv_find_patch(surface, number) : sdv_find_patch_of(exact, number);
-    leaf->patch = sdv_patch_of(surface, at, &leaf->points);
+    leaf->patch = is_leaf ? &exact->patches[number] : sdv_find_patch(exact, number);
     leaf->polynomial = (size_t)leaf->patch->polynomial;
-    return at.level;
+    return leaf->patch->level;
 }
 
 // A place on a face of the cage, or on the quad of an n-gon.
@@ -9951,14 +9916,11 @@ static sdv_leaf sdv_locate(const subdiv_surface *surface, const sdv_spot *at)
 static void sdv_new_exact(sdv_context *context, subdiv_surface *surface)
 {
     sdv_exact *exact = SDV_NEW(context, &surface->arena, sdv_exact, 1);
-    sdv_patches *patches = SDV_NEW(context, &surface->arena, sdv_patches, SDV_EXACT_LEVELS);
     surface->levels = SDV_EXACT_LEVELS;
     surface->refine = SDV_NEW(context, &surface->points, sdv_batches, 2 * SDV_EXACT_LEVELS);
     if (context->result) return;
     memset(exact, 0, sizeof *exact);
-    memset(patches, 0, SDV_EXACT_LEVELS * sizeof *patches);
     memset(surface->refine, 0, 2 * SDV_EXACT_LEVELS * sizeof *surface->refine);
-    exact->patches = patches;
     surface->exact = exact;
 }
 
@@ -9992,29 +9954,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 
 // --------------------------------------------------------------------------- >>polynomials
 // What an evaluation of the exact surface begins with: the polynomials of all leaves.
-
-// The limit curve of the control points p0 p1 p2 p3 around a segment of a uniform cubic B-spline,
-// from t = 0 to 1. a[i] becomes the coefficient of t^i.
-//
-//     p1 + s / 6  +  (p2 - p0) / 2 t  +  s / 2 t^2  +  c t^3
-//     s = p0 - 2 p1 + p2       c = (p3 - 3 p2 + 3 p1 - p0) / 6
-static void sdv_cubic(sdv_four p0, sdv_four p1, sdv_four p2, sdv_four p3, sdv_four *a)
-{
-    sdv_four d0 = sdv_minus(p1, p0), d1 = sdv_minus(p2, p1), d2 = sdv_minus(p3, p2);
-    sdv_four s = sdv_minus(d1, d0), sixth = sdv_all(1.0f / 6);
-    a[0] = sdv_plus(p1, sdv_times(sixth, s));
-    a[1] = sdv_times(sdv_all(0.5f), sdv_plus(d0, d1));
-    a[2] = sdv_times(sdv_all(0.5f), s);
-    a[3] = sdv_times(sixth, sdv_minus(sdv_minus(d2, d1), s));
-}
-
-// Bilinear: from p1 to p2 straight on.
-SDV_INLINE void sdv_line(sdv_four p1, sdv_four p2, sdv_four *a)
-{
-    a[0] = p1;
-    a[1] = sdv_minus(p2, p1);
-    a[2] = a[3] = sdv_all(0);
-}
 
 // a0 + a1 t + a2 t^2 + a3 t^3
 SDV_INLINE sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
@@ -10056,268 +9995,187 @@ SDV_INLINE void sdv_horner(const sdv_four *c, int step, int degree, sdv_four t, 
     if (degree == 4) sdv_horner_step(p, t, c[0]);
 }
 
-// The surface of a patch: origin + the sum of c[i][j] x^i y^j, where x runs along the rows from 0
-// to 1, and y from row to row. Degree 3: i, j <= 3, a quad. Degree 4: i + j <= 4, a triangle.
-typedef struct sdv_polynomial {
-    sdv_four origin, c[5][5];
-    int degree;
-} sdv_polynomial;
-
 // A row of a surface, a polynomial in x alone, and its derivatives in x and y; or, turned, a
 // column.
 typedef struct sdv_curve {
     sdv_four a[5], along[4], across[4];
-    int degree;
 } sdv_curve;
 
-// Makes the row at y = at or, turned, the column at x = at. degree, turned and tangents are
-// constants: what is not asked for, the compiler leaves out. The coefficient of x^i y^j is c[5 i +
-// j].
-SDV_INLINE void sdv_make_curve(const sdv_polynomial *q, int degree, int turned, int tangents,
-                              float at, sdv_curve *curve)
+// Makes the row at y = at or, turned, the column at x = at. c[i + n j] is the coefficient of x^i
+// y^j, n = 4 or, under Loop, 5. loop, turned and tangents are constants: what is not asked for, the compiler leaves out.
+SDV_INLINE void sdv_make_curve(const sdv_four *c, int loop, int turned, int tangents, float at,
+                               sdv_curve *curve)
 {
-    const sdv_four *c = (const sdv_four *)(const void *)q->c;
-    int step = turned ? 5 : 1, next = turned ? 1 : 5, quad = degree == 3;
+    int n = 4 + loop, step = turned ? 1 : n, next = turned ? n : 1;
     sdv_four p[5][3], t = sdv_all(at);
-    sdv_horner(c, step, degree, t, p[0]);
+    sdv_horner(c, step, 3 + loop, t, p[0]);
     sdv_horner(c + next, step, 3, t, p[1]);
-    sdv_horner(c + 2 * next, step, quad ? 3 : 1, t, p[2]);
-    sdv_horner(c + 3 * next, step, quad ? 3 : 1, t, p[3]);
-    p[4][0] = quad ? sdv_all(0) : c[4 * next];
-    curve->degree = degree;
-    curve->a[0] = sdv_plus(q->origin, p[0][0]);
-    for (int i = 1; i < 5; i++) curve->a[i] = p[i][0];
+    sdv_horner(c + 2 * next, step, loop ? 1 : 3, t, p[2]);
+    sdv_horner(c + 3 * next, step, loop ? 1 : 3, t, p[3]);
+    p[4][0] = loop ? c[4 * next] : sdv_all(0);
+    for (int i = 0; i < 5; i++) curve->a[i] = p[i][0];
     for (int i = 0; i < 4 && tangents; i++) {
         curve->along[i] = sdv_times(sdv_all((float)(i + 1)), p[i + 1][0]);
         curve->across[i] = p[i][1];
     }
 }
 
-// Beyond a sharp edge: outside = 2 edge - inside.
-SDV_INLINE sdv_four sdv_mirror(sdv_four edge, sdv_four inside)
+// Finds the strips, along the rows and up the columns, that cross in a part of a patch.
+static void sdv_find_strips_of(const sdv_strips *strips, const sdv_patch *patch, int part,
+                               const sdv_strip *cross[2])
 {
-    return sdv_minus(sdv_plus(edge, edge), inside);
+    int columns = strips[patch->along - 1].count;
+    cross[0] = &strips[patch->along - 1].items[part % columns];
+    cross[1] = &strips[patch->up - 1].items[part / columns];
 }
 
-// Mirrors control points over sharp edges: first to the left and right in all rows that are known,
-// then below and above.
-static void sdv_mirror_quad(const sdv_patch *patch, sdv_four *p)
+// Mirrors a point over a sharp edge: p[to] = p[a] + p[b] - p[inside].
+static void sdv_mirror(double (*p)[4], int to, int a, int b, int inside)
 {
-    for (int i = 0; i < 16; i += 4) {
-        if (patch->sharp & 8) p[i] = sdv_mirror(p[i + 1], p[i + 2]);
-        if (patch->sharp & 2) p[i + 3] = sdv_mirror(p[i + 2], p[i + 1]);
-    }
-    for (int i = 0; i < 4; i++) {
-        if (patch->sharp & 1) p[i] = sdv_mirror(p[4 + i], p[8 + i]);
-        if (patch->sharp & 4) p[12 + i] = sdv_mirror(p[8 + i], p[4 + i]);
-    }
+    for (int c = 0; c < 4; c++) p[to][c] = p[a][c] + p[b][c] - p[inside][c];
 }
 
-// The polynomial of a quad: cubics up the columns of control points, then, of their coefficients,
-// along the rows.
-static void sdv_quad_polynomial(const sdv_four *p, int linear, sdv_polynomial *q)
+// Mirrors the control points of a quad over its sharp edges: first to the left and right in all
+// rows that are known, then below and above.
+static void sdv_mirror_quad(int sharp, double (*p)[4])
 {
-    sdv_four up[4][4], x[4];
-    q->degree = 3;
-    for (int i = 0; i < 4; i++) {
-        if (linear) sdv_line(p[4 + i], p[8 + i], up[i]);
-        else sdv_cubic(p[i], p[4 + i], p[8 + i], p[12 + i], up[i]);
+    for (int i = 0; i < 16 && sharp; i += 4) {
+        if (sharp & 8) sdv_mirror(p, i, i + 1, i + 1, i + 2);
+        if (sharp & 2) sdv_mirror(p, i + 3, i + 2, i + 2, i + 1);
     }
-    for (int j = 0; j < 4; j++) {
-        if (linear) sdv_line(up[1][j], up[2][j], x);
-        else sdv_cubic(up[0][j], up[1][j], up[2][j], up[3][j], x);
-        for (int i = 0; i < 4; i++) q->c[i][j] = x[i];
+    for (int i = 0; i < 4 && sharp; i++) {
+        if (sharp & 1) sdv_mirror(p, i, 4 + i, 4 + i, 8 + i);
+        if (sharp & 4) sdv_mirror(p, 12 + i, 8 + i, 8 + i, 4 + i);
     }
 }
 
-// Mirrors control points over sharp edges: beyond edge a-b lies a + b - the vertex inside. Around
-// vertex v, counter-clockwise, stand r[0] and r[1], the other vertices of the face; r[2] across the
-// edge before; r[3], r[4]; r[5] across the edge after.
-static void sdv_mirror_triangle(const sdv_patch *patch, sdv_four *p)
+// Mirrors the control points of a triangle. Around vertex v, counter-clockwise, stand r[0] and r[1],
+// the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across the edge
+// after.
+static void sdv_mirror_triangle(const sdv_patch *patch, double (*p)[4])
 {
     for (int i = 0; i < 3; i++) {
-        const int *r = sdv_triangle_ring[i];
-        sdv_four v = p[sdv_triangle_own[i]];
-        if (patch->fan[i] == SDV_FAN_RING) continue;
-        if (patch->sharp >> i & 1) p[r[5]] = sdv_minus(sdv_plus(v, p[r[0]]), p[r[1]]);
-        if (patch->sharp >> (i + 2) % 3 & 1) p[r[2]] = sdv_minus(sdv_plus(v, p[r[1]]), p[r[0]]);
-        if (patch->fan[i] == SDV_FAN_FIRST) p[r[4]] = sdv_minus(sdv_plus(v, p[r[3]]), p[r[2]]);
-        if (patch->fan[i] == SDV_FAN_LAST) p[r[3]] = sdv_minus(sdv_plus(v, p[r[4]]), p[r[5]]);
-        if (patch->fan[i] == SDV_FAN_MIDDLE) {
-            p[r[3]] = sdv_minus(sdv_plus(v, p[r[2]]), p[r[1]]);
-            p[r[4]] = sdv_minus(sdv_plus(v, p[r[5]]), p[r[0]]);
-        }
-        if (patch->fan[i] == SDV_FAN_CORNER) {
-            p[r[3]] = sdv_mirror(v, p[r[0]]);
-            p[r[4]] = sdv_mirror(v, p[r[1]]);
-        }
+        const int *r = sdv_triangle_ring[i], v = sdv_triangle_own[i], fan = patch->fan[i];
+        if (fan == SDV_FAN_RING) continue;
+        if (patch->sharp >> i & 1) sdv_mirror(p, r[5], v, r[0], r[1]);
+        if (patch->sharp >> (i + 2) % 3 & 1) sdv_mirror(p, r[2], v, r[1], r[0]);
+        if (fan == SDV_FAN_FIRST) sdv_mirror(p, r[4], v, r[3], r[2]);
+        if (fan == SDV_FAN_LAST) sdv_mirror(p, r[3], v, r[4], r[5]);
+        if (fan == SDV_FAN_MIDDLE) sdv_mirror(p, r[3], v, r[2], r[1]);
+        if (fan == SDV_FAN_MIDDLE) sdv_mirror(p, r[4], v, r[5], r[0]);
+        if (fan == SDV_FAN_CORNER) sdv_mirror(p, r[3], v, v, r[0]);
+        if (fan == SDV_FAN_CORNER) sdv_mirror(p, r[4], v, v, r[1]);
     }
 }
 
-// Sums for the formulas below: 2a, a + b, ...
-SDV_INLINE sdv_four sdv_twice(sdv_four a)
+// Replaces the points of a line by sums of them.
+static void sdv_combine(double (*p)[4], int step, const double (*rows)[4])
 {
-    return sdv_plus(a, a);
+    for (int c = 0; c < 4; c++) {
+        double a[4] = { p[0][c], p[step][c], p[2 * step][c], p[3 * step][c] };
+        for (int j = 0; j < 4; j++)
+            p[j * step][c] = rows[j][0] * a[0] + rows[j][1] * a[1] + rows[j][2] * a[2] +
+                             rows[j][3] * a[3];
+    }
 }
 
-SDV_INLINE sdv_four sdv_sum3(sdv_four a, sdv_four b, sdv_four c)
+// Replaces the control points around a segment of a uniform cubic B-spline by the coefficients of
+// the limit curve, from t = 0 to 1:
+//
+//     p1 + s / 6  +  (p2 - p0) / 2 t  +  s / 2 t^2  +  (p3 - 3 p2 + 3 p1 - p0) / 6 t^3
+//     s = p0 - 2 p1 + p2
+//
+// Bilinear: p1 + (p2 - p1) t.
+SDV_INLINE void sdv_cubic(double (*p)[4], int step, int linear)
 {
-    return sdv_plus(sdv_plus(a, b), c);
+    for (int c = 0; c < 4; c++) {
+        double p0 = p[0][c], p1 = p[step][c], p2 = p[2 * step][c], p3 = p[3 * step][c];
+        double d0 = p1 - p0, d1 = p2 - p1, d2 = p3 - p2, s = d1 - d0;
+        p[0][c] = linear ? p1 : p1 + s * (1.0 / 6);
+        p[step][c] = linear ? d1 : 0.5 * (d0 + d1);
+        p[2 * step][c] = linear ? 0 : 0.5 * s;
+        p[3 * step][c] = linear ? 0 : (d2 - d1 - s) * (1.0 / 6);
+    }
 }
 
-SDV_INLINE sdv_four sdv_sum4(sdv_four a, sdv_four b, sdv_four c, sdv_four d)
+// Replaces the control points of a quad by the coefficients of its polynomial.
+SDV_INLINE void sdv_bicubic(double (*p)[4], int linear)
 {
-    return sdv_plus(sdv_plus(a, b), sdv_plus(c, d));
+    for (int i = 0; i < 4; i++) sdv_cubic(p + i, 4, linear);
+    for (int i = 0; i < 16; i += 4) sdv_cubic(p + i, 1, linear);
 }
 
 // The limit surface of a regular triangle is a quartic box spline [Stam98], a polynomial of its 12
-// control points, numbered as in sdv_gather_triangle; here relative to point 4, which is 0.
-static void sdv_box_spline(const sdv_four *p, sdv_polynomial *q)
+// control points, numbered as in sdv_gather_triangle.
+SDV_INLINE void sdv_box_spline(const double (*p)[4], double (*c)[4])
 {
-    sdv_four half = sdv_all(0.5f), sixth = sdv_all(1.0f / 6), twelfth = sdv_all(1.0f / 12);
-    sdv_four (*c)[5] = q->c;
-    q->degree = 4;
-    sdv_four p35 = sdv_plus(p[3], p[5]), p08 = sdv_plus(p[0], p[8]), p16 = sdv_plus(p[1], p[6]);
-    sdv_four d53 = sdv_minus(p[5], p[3]), d80 = sdv_minus(p[8], p[0]), d16 = sdv_minus(p[1], p[6]);
-    c[0][0] = sdv_times(twelfth, sdv_sum3(p35, p08, p16));
-    c[1][0] = sdv_times(sixth, sdv_sum3(sdv_twice(d53), d80, d16));
-    c[0][1] = sdv_times(sixth, sdv_minus(sdv_plus(sdv_twice(d80), d53), d16));
-    c[2][0] = sdv_times(half, p35);
-    c[0][2] = sdv_times(half, p08);
-    c[1][1] = sdv_times(half, sdv_minus(sdv_plus(p35, p08), p16));
-    c[3][0] = sdv_times(sixth, sdv_minus(sdv_sum4(p[0], p[2], p[6], p[11]),
-                                         sdv_twice(sdv_sum3(p[1], p35, p[8]))));
-    c[2][1] = sdv_times(half, sdv_minus(sdv_plus(p[6], p[11]), sdv_plus(p35, sdv_twice(p[8]))));
-    c[1][2] = sdv_times(half, sdv_minus(sdv_plus(p[1], p[11]), sdv_plus(p08, sdv_twice(p[5]))));
-    c[0][3] = sdv_times(sixth, sdv_minus(sdv_sum4(p[1], p[3], p[9], p[11]),
-                                         sdv_twice(sdv_sum3(p[6], p[5], p08))));
-    sdv_four minus = sdv_plus(sdv_sum3(p[0], p[2], p[5]), sdv_plus(p[6], p[11]));
-    sdv_four plus = sdv_sum3(sdv_twice(sdv_plus(p[1], p[8])), p[3], p[7]);
-    c[4][0] = sdv_times(twelfth, sdv_minus(plus, minus));
-    minus = sdv_plus(sdv_sum3(p[1], p[3], p[8]), sdv_plus(p[9], p[11]));
-    plus = sdv_sum3(sdv_twice(sdv_plus(p[5], p[6])), p[0], p[10]);
-    c[0][4] = sdv_times(twelfth, sdv_minus(plus, minus));
-    c[3][1] = sdv_twice(c[4][0]);
-    c[1][3] = sdv_twice(c[0][4]);
-}
-
-// Makes the polynomial of a linear triangle, which is 0 at vertex 0.
-static void sdv_plane(const sdv_four *p, sdv_polynomial *q)
-{
-    q->degree = 4;
-    for (int i = 0; i < 5; i++)
-        for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
-    q->c[1][0] = p[5];
-    q->c[0][1] = p[8];
-}
-
-// A patch, its control points among work points in doubles, and the strips that it is cut into.
-typedef struct sdv_double_patch {
-    const sdv_rules  *rules;
-    const sdv_patch  *patch;
-    const int        *points;
-    const double     *work;
-    const sdv_strips *along, *up;       // or NULL
-} sdv_double_patch;
-
-static sdv_double_patch sdv_double_patch_of(const subdiv_surface *surface, const sdv_patch *patch,
-                               const int *points, const double *work)
-{
-    sdv_double_patch from = { &surface->rules, patch, points, work, NULL, NULL };
-    if (patch->up) from.along = &surface->exact->strips[patch->along - 1];
-    if (patch->up) from.up = &surface->exact->strips[patch->up - 1];
-    return from;
-}
-
-// How many polynomials a patch has.
-static int sdv_double_parts(const sdv_double_patch *from)
-{
-    return from->along ? from->along->count * from->up->count : 1;
-}
-
-// Replaces the points of four lines by sums of the points of their line: step from point to point,
-// next from line to line.
-static void sdv_combine(double (*p)[4], int step, int next, const double (*rows)[4])
-{
-    for (int line = 0; line < 4; line++, p += next) {
-        double sums[4][4];
-        for (int j = 0; j < 4; j++)
-            for (int c = 0; c < 4; c++)
-                sums[j][c] = rows[j][0] * p[0][c] + rows[j][1] * p[step][c] +
-                             rows[j][2] * p[2 * step][c] + rows[j][3] * p[3 * step][c];
-        for (int j = 0; j < 4; j++) memcpy(p[j * step], sums[j], sizeof sums[j]);
+    for (int k = 0; k < 4; k++) {
+        double p0 = p[0][k], p1 = p[1][k], p2 = p[2][k], p3 = p[3][k], p4 = p[4][k], p5 = p[5][k];
+        double p6 = p[6][k], p7 = p[7][k], p8 = p[8][k], p9 = p[9][k], p11 = p[11][k];
+        double x = p3 + p5, y = p0 + p8, z = p1 + p6, dx = p5 - p3, dy = p8 - p0, dz = p1 - p6;
+        c[0][k] = (6 * p4 + x + y + z) * (1.0 / 12);
+        c[1][k] = (2 * dx + dy + dz) * (1.0 / 6);
+        c[2][k] = x * 0.5 - p4;
+        c[3][k] = (p0 + p2 + p6 + p11 + 4 * p4 - 2 * (p1 + x + p8)) * (1.0 / 6);
+        c[4][k] = (2 * dy + dx - dz) * (1.0 / 6);
+        c[5][k] = (x + y - z) * 0.5 - p4;
+        c[6][k] = (p6 + p11 - x) * 0.5 + p4 - p8;
+        c[8][k] = y * 0.5 - p4;
+        c[9][k] = (p1 + p11 - y) * 0.5 + p4 - p5;
+        c[10][k] = (p1 + p3 + p9 + p11 + 4 * p4 - 2 * (p6 + p5 + y)) * (1.0 / 6);
+        c[12][k] = (2 * (p5 + p6) + p0 + p[10][k] - (p1 + p3 + p4 + p8 + p9 + p11)) * (1.0 / 12);
+        c[13][k] = (2 * (p1 + p8) + p3 + p7 - (p0 + p2 + p4 + p5 + p6 + p11)) * (1.0 / 12);
+        c[7][k] = 2 * c[13][k];
+        c[11][k] = 2 * c[12][k];
+        c[14][k] = c[15][k] = 0;
     }
 }
 
-// Mirrors and cuts points along one axis, as sdv_mirror_quad and sdv_strip_row do.
-static void sdv_cut_points(double (*p)[4], int step, int next, int low, int high,
-                           const sdv_strips *strips, const sdv_strip *strip)
+// Makes the coefficients of a linear triangle.
+static void sdv_plane(const double (*p)[4], double (*c)[4])
 {
-    double mirror[4][4] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } };
-    const double below[4] = { 0, 2, -1, 0 }, above[4] = { 0, -1, 2, 0 };
-    if (low || (!strip->smooth && strips->low > 0)) memcpy(mirror[0], below, sizeof below);
-    if (high || (!strip->smooth && strips->high > 0)) memcpy(mirror[3], above, sizeof above);
-    sdv_combine(p, step, next, (const double (*)[4])mirror);
-    if (strip->smooth) sdv_combine(p, step, next, (const double (*)[4])strip->rows);
-}
-
-// From control points to the coefficients of the limit's polynomial, see sdv_cubic.
-static void sdv_cut_cubic(double (*p)[4], int step, int next)
-{
-    static const double rows[4][4] = {
-        { 1.0 / 6, 2.0 / 3, 1.0 / 6, 0 }, { -0.5, 0, 0.5, 0 }, { 0.5, -1, 0.5, 0 },
-        { -1.0 / 6, 0.5, -0.5, 1.0 / 6 } };
-    sdv_combine(p, step, next, rows);
-}
-
-// The part of a patch where two strips cross, from its control points around origin. It may be a
-// thousandth of the patch, so it is made in doubles. The polynomial starts where the strips' own
-// segments do, which are its units.
-static void sdv_cut_polynomial(const sdv_double_patch *from, int part, double (*p)[4],
-                               sdv_polynomial *q, double *origin)
-{
-    int sharp = from->patch->sharp, columns = from->along->count;
-    sdv_cut_points(p, 1, 4, sharp & 8, sharp & 2, from->along, &from->along->items[part % columns]);
-    sdv_cut_points(p, 4, 1, sharp & 1, sharp & 4, from->up, &from->up->items[part / columns]);
-    sdv_cut_cubic(p, 1, 4);
-    sdv_cut_cubic(p, 4, 1);
-    for (int c = 0; c < 4; c++) {
-        origin[c] += p[0][c];
-        p[0][c] = 0;
+    memset(c, 0, SDV_SLOTS * sizeof *c);
+    for (int k = 0; k < 4; k++) {
+        c[0][k] = p[4][k];
+        c[1][k] = p[5][k] - p[4][k];
+        c[4][k] = p[8][k] - p[4][k];
     }
-    for (int i = 0; i < 16; i++)
-        q->c[i % 4][i / 4] = sdv_of((float)p[i][0], (float)p[i][1], (float)p[i][2], (float)p[i][3]);
-    q->degree = 3;
 }
 
-// Makes the polynomial of part number i around an origin: a control point, or where the part
-// starts.
-static void sdv_make_polynomial(const sdv_double_patch *from, int i, sdv_polynomial *q,
-                                double *origin)
+// Loads the control points of a patch.
+SDV_INLINE void sdv_load_points(const sdv_patch *patch, const double *work, int count,
+                                double (*p)[4])
 {
-    int loop = from->rules->loop, linear = from->rules->linear;
-    int count = sdv_control_points(from->rules), first = from->points[loop ? 4 : 5];
-    double p[16][4];
-    sdv_four f[16];
-    q->origin = sdv_all(0);
-    memcpy(origin, from->work + 4 * (size_t)first, 4 * sizeof *origin);
     for (int k = 0; k < count; k++)
-        for (int c = 0; c < 4; c++)
-            p[k][c] = from->work[4 * (size_t)from->points[k] + (size_t)c] - origin[c];
-    if (from->along) {
-        sdv_cut_polynomial(from, i, p, q, origin);
+        memcpy(p[k], work + 4 * (size_t)patch->points[k], 4 * sizeof *work);
+}
+
+// Makes the polynomial of a patch, or of a part of it: four channels of the coefficients of
+// sdv_powers, from work points. The coordinates of a part are those of its strips' own segments. In
+// doubles, as a part may be a thousandth of the patch.
+static void sdv_make_polynomial(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                                const double *work, double (*c)[4])
+{
+    int linear = surface->rules.linear;
+    double p[12][4];
+    if (surface->rules.loop) {
+        sdv_load_points(patch, work, 12, p);
+        sdv_mirror_triangle(patch, p);
+        if (linear) sdv_plane((const double (*)[4])p, c);
+        else sdv_box_spline((const double (*)[4])p, c);
         return;
     }
-    for (int k = 0; k < count; k++)
-        f[k] = sdv_of((float)p[k][0], (float)p[k][1], (float)p[k][2], (float)p[k][3]);
-    if (loop) {
-        sdv_mirror_triangle(from->patch, f);
-        if (linear) sdv_plane(f, q);
-        else sdv_box_spline(f, q);
-        return;
+    sdv_load_points(patch, work, 16, c);
+    sdv_mirror_quad(patch->sharp, c);
+    if (patch->up) {
+        const sdv_strip *cross[2];
+        sdv_find_strips_of(surface->exact->strips, patch, part, cross);
+        for (int i = 0; i < 16; i += 4)
+            sdv_combine(c + i, 1, (const double (*)[4])cross[0]->rows);
+        for (int i = 0; i < 4; i++) sdv_combine(c + i, 4, (const double (*)[4])cross[1]->rows);
     }
-    if (from->patch->sharp) sdv_mirror_quad(from->patch, f);
-    sdv_quad_polynomial(f, linear, q);
+    if (linear) sdv_bicubic(c, 1);
+    else sdv_bicubic(c, 0);
 }
 
 // A nest's points, four channels at a time, as seen from its vertex: base + shrink w.
@@ -10367,13 +10225,10 @@ static void sdv_nest_descend(sdv_nest_state *s)
     s->shrink /= 2;
 }
 
-// The patch of a child of a nest's face, after a refinement, and its control points.
-static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int child, int turn,
-                                       const int **points)
+// The patch of a child of a nest's face, after a refinement.
+static const sdv_patch *sdv_nest_patch(const sdv_nest_kind *kind, int face, int child, int turn)
 {
-    int i = 3 * (turn * kind->faces + face) + child - 1;
-    *points = kind->patches.points + (size_t)kind->width * (size_t)i;
-    return &kind->patches.items[i];
+    return &kind->patches[3 * (turn * kind->faces + face) + child - 1];
 }
 
 // The scratch memory of an evaluation. Work points are doubles, as points of a fine level differ in
@@ -10450,23 +10305,17 @@ typedef struct sdv_exact_evaluation {
     const subdiv_options *opt;
 } sdv_exact_evaluation;
 
-// Keeps the coefficients of so many channels of a polynomial [lanes * SDV_SLOTS], shrunk and moved
-// to origin.
-static void sdv_keep_polynomial(const sdv_polynomial *q, const double *origin, double shrink,
-                                int lanes, float *out)
+// Keeps the coefficients of so many channels of a polynomial: out [lanes * SDV_SLOTS]. nest: they
+// are as seen from its vertex; or NULL.
+static void sdv_keep_polynomial(const double *c, const sdv_nest_state *nest, int lanes, float *out)
 {
-    const unsigned char (*powers)[2] = sdv_powers[q->degree == 4];
-    sdv_four slots[SDV_SLOTS], times = sdv_all((float)shrink);
-    float first[4];
-    slots[14] = slots[15] = sdv_all(0);
-    for (int k = 0; k < (q->degree == 4 ? 14 : SDV_SLOTS); k++)
-        slots[k] = sdv_times(times, q->c[powers[k][0]][powers[k][1]]);
-    sdv_store(first, slots[0]);
-    for (int l = 0; l < 4; l++) first[l] = (float)(origin[l] + (double)first[l]);
-    slots[0] = sdv_load(first);
-    for (int k = 0; k < SDV_SLOTS; k++) {       // what four lanes are too many is overwritten
-        if (k + 4 <= SDV_SLOTS) sdv_store(out + lanes * k, slots[k]);
-        else sdv_store_some(out + lanes * k, slots[k], lanes);
+    double shrink = nest ? nest->shrink : 1;
+    float slots[4 * SDV_SLOTS];
+    for (int i = 0; i < 4 * SDV_SLOTS; i++) slots[i] = (float)(shrink * c[i]);
+    for (int l = 0; l < 4 && nest; l++) slots[l] = (float)(nest->base[l] + shrink * c[l]);
+    for (int k = 0; k < SDV_SLOTS; k++, out += lanes) {         // too many lanes are overwritten
+        if (k + 4 <= SDV_SLOTS) sdv_store(out, sdv_load(slots + 4 * k));
+        else sdv_store_some(out, sdv_load(slots + 4 * k), lanes);
     }
 }
 
@@ -10490,34 +10339,27 @@ static int sdv_lanes_from(int channels, int c)
 }
 
 // Makes the polynomials of a patch.
-static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch,
-                                  const int *points)
+static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch *patch)
 {
-    sdv_polynomial q;
-    double origin[4];
-    for (int c = 0; c < e->channels; c += 4) {
-        const double *work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
-        sdv_double_patch from = sdv_double_patch_of(e->surface, patch, points, work);
-        for (int k = 0; k < sdv_double_parts(&from); k++) {
-            sdv_make_polynomial(&from, k, &q, origin);
-            sdv_keep_polynomial(&q, origin, 1, sdv_lanes_from(e->channels, c),
+    const subdiv_surface *surface = e->surface;
+    int parts = sdv_patch_parts(surface->exact->strips, patch);
+    double made[SDV_SLOTS][4];
+    for (int c = 0; c < e->channels; c += 4)
+        for (int k = 0; k < parts; k++) {
+            sdv_make_polynomial(surface, patch, k,
+                                e->memory.work + (size_t)c * (size_t)surface->work_count, made);
+            sdv_keep_polynomial(made[0], NULL, sdv_lanes_from(e->channels, c),
                                 sdv_polynomial_at(e, (size_t)patch->polynomial + (size_t)k, c));
         }
-    }
 }
 
 // Makes the polynomial of a child of a nest's face, number `face` of its own, after a refinement.
 static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, int turn, int lanes,
                                  float *out)
 {
-    const int *points;
-    const sdv_patch *patch = sdv_nest_patch(s->kind, face, child, turn, &points);
-    sdv_double_patch from = sdv_double_patch_of(s->surface, patch, points, s->w);
-    sdv_polynomial q;
-    double origin[4];
-    sdv_make_polynomial(&from, 0, &q, origin);
-    for (int c = 0; c < 4; c++) origin[c] = s->base[c] + s->shrink * origin[c];
-    sdv_keep_polynomial(&q, origin, s->shrink, lanes, out);
+    double c[SDV_SLOTS][4];
+    sdv_make_polynomial(s->surface, sdv_nest_patch(s->kind, face, child, turn), 0, s->w, c);
+    sdv_keep_polynomial(c[0], s, lanes, out);
 }
 
 // Makes the polynomials of a nest: on each of SDV_NEST_DEPTH levels those of the three children of
@@ -10552,13 +10394,7 @@ static void sdv_exact_patches_job(void *context, int job)
     const subdiv_surface *surface = e->surface;
     int first = sdv_share(surface->exact->patch_count, job, e->jobs);
     int end = sdv_share(surface->exact->patch_count, job + 1, e->jobs);
-    sdv_patch_at at = sdv_find_patch(surface, first);
-    for (int i = first; i < end; i++, at.i++) {
-        const int *points;
-        sdv_next_level(surface, &at);
-        const sdv_patch *patch = sdv_patch_of(surface, at, &points);
-        sdv_patch_polynomials(e, patch, points);
-    }
+    for (int i = first; i < end; i++) sdv_patch_polynomials(e, &surface->exact->patches[i]);
 }
 
 static int sdv_nest_work(const sdv_exact *exact, int nest)
@@ -10675,31 +10511,41 @@ SDV_INLINE void sdv_polynomial_values(const float *data, int loop, int lanes, co
 
 // Makes the polynomial of unit vectors: lane i is what control point first + i weighs in it.
 static void sdv_unit_polynomial(const subdiv_surface *surface, const sdv_patch *patch, int part,
-                                int first, float *data)
+                                int first, double (*c)[4])
 {
-    static const int same[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    double unit[16][4] = { { 0 } }, origin[4];
-    sdv_polynomial q;
-    sdv_double_patch from = sdv_double_patch_of(surface, patch, same, unit[0]);
-    for (int i = 0; i < 4; i++) unit[first + i][i] = 1;
-    sdv_make_polynomial(&from, part, &q, origin);
-    sdv_keep_polynomial(&q, origin, 1, 4, data);
+    double units[16][4] = { { 0 } };
+    sdv_patch unit = *patch;
+    for (int i = 0; i < 16; i++) unit.points[i] = i;
+    for (int i = 0; i < 4; i++) units[first + i][i] = 1;
+    sdv_make_polynomial(surface, &unit, part, units[0], c);
 }
 
-// Finds how a part of a patch weighs its control points, in values and derivatives. weights [16],
-// of which Loop has 12.
-static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
-                              const sdv_where *at, double (*weights)[6])
+// The powers of a coordinate, and their derivatives times those of the coordinate.
+static void sdv_find_powers(double x, double scale, double (*powers)[5])
 {
-    float data[4 * SDV_SLOTS], w[4];
-    for (int first = 0; first < sdv_control_points(&surface->rules); first += 4) {
-        sdv_four values[6];
-        sdv_unit_polynomial(surface, patch, part, first, data);
-        sdv_polynomial_values(data, surface->rules.loop, 4, at, 2, values);
-        for (int d = 0; d < 6; d++) {
-            sdv_store(w, values[d]);
-            for (int i = 0; i < 4; i++) weights[first + i][d] = (double)w[i];
+    for (int d = 0; d < 3; d++) powers[d][0] = d == 0;
+    for (int i = 0; i < 4; i++)
+        for (int d = 0; d < 3; d++)
+            powers[d][i + 1] = x * powers[d][i] + (d ? d * scale * powers[d - 1][i] : 0);
+}
+
+// Evaluates a polynomial and its derivatives in doubles.
+static void sdv_sum_powers(const double (*c)[4], int loop, double x, double y, double sx, double sy,
+                           int order, double (*out)[4])
+{
+    static const unsigned char derivatives[6][2] = { {0,0}, {1,0}, {0,1}, {2,0}, {1,1}, {0,2} };
+    const unsigned char (*powers)[2] = sdv_powers[loop];
+    double across[3][5], up[3][5];
+    sdv_find_powers(x, sx, across);
+    sdv_find_powers(y, sy, up);
+    for (int d = 0; d < (order + 1) * (order + 2) / 2; d++) {
+        const double *xs = across[derivatives[d][0]], *ys = up[derivatives[d][1]];
+        double sum[4] = { 0, 0, 0, 0 };
+        for (int k = 0; k < SDV_SLOTS; k++) {
+            double weight = xs[powers[k][0]] * ys[powers[k][1]];
+            for (int l = 0; l < 4; l++) sum[l] += weight * c[k][l];
         }
+        memcpy(out[d], sum, sizeof sum);
     }
 }
 
@@ -10736,7 +10582,7 @@ typedef struct sdv_nest_sample {
     sdv_nest_state state;
     int     nest, face, vertex;         // vertex: the sample is there
     const sdv_patch *like;              // a patch whose sharp edges are those of the units; or NULL
-    float   units[16 * SDV_SLOTS];      // from sdv_unit_polynomial
+    double  units[4][SDV_SLOTS][4];     // from sdv_unit_polynomial
     int     made;                       // 4 face + child, whose polynomial is here; or -1: not even
     double  c[SDV_SLOTS][4];            // the points of the next level are made
     double  values[6][4];               // what comes out; derivatives are those in x and y
@@ -10758,69 +10604,37 @@ static void sdv_nest_masks(const sdv_nest_state *s, double (*limit)[4])
         }
 }
 
-// Makes the polynomial of a patch of a nest from points in doubles. On an edge the points beside it
-// weigh nothing at all, or cancel out: as seen from the vertex, the surface may grow without bound
-// there, while along the edge it does not.
-static void sdv_nest_polynomial(sdv_nest_sample *s, const sdv_patch *patch, const int *points)
+// Makes the polynomial of a patch of a nest from what each point weighs. On an edge the points
+// beside it weigh nothing at all, or cancel out: as seen from the vertex, the surface may grow
+// without bound there, while along the edge it does not.
+static void sdv_nest_polynomial(sdv_nest_sample *s, const sdv_patch *patch)
 {
-    const sdv_nest_state *state = &s->state;
+    const subdiv_surface *surface = s->state.surface;
+    int count = sdv_control_points(&surface->rules);
     if (!s->like || s->like->sharp != patch->sharp ||
         memcmp(s->like->fan, patch->fan, sizeof patch->fan) != 0)
-        for (int i = 0; i < state->kind->width; i += 4)
-            sdv_unit_polynomial(state->surface, patch, 0, i, s->units + SDV_SLOTS * i);
+        for (int i = 0; i < count; i += 4) sdv_unit_polynomial(surface, patch, 0, i, s->units[i / 4]);
     s->like = patch;
     for (int k = 0; k < SDV_SLOTS; k++) {
         double sum[4] = { 0, 0, 0, 0 };
-        for (int i = 0; i < state->kind->width; i++) {
-            double unit = (double)s->units[SDV_SLOTS * (i & ~3) + 4 * k + (i & 3)];
-            for (int c = 0; c < 4; c++) sum[c] += unit * state->w[4 * points[i] + c];
-        }
+        for (int i = 0; i < count; i++)
+            for (int c = 0; c < 4; c++)
+                sum[c] += s->units[i / 4][k][i % 4] * s->state.w[4 * patch->points[i] + c];
         memcpy(s->c[k], sum, sizeof sum);
     }
-}
-
-// The powers of a coordinate, and their derivatives times those of the coordinate.
-static void sdv_find_powers(double x, double scale, double (*powers)[5])
-{
-    for (int d = 0; d < 3; d++) powers[d][0] = d == 0;
-    for (int i = 0; i < 4; i++)
-        for (int d = 0; d < 3; d++)
-            powers[d][i + 1] = x * powers[d][i] + (d ? d * scale * powers[d - 1][i] : 0);
-}
-
-// Sums the coefficients of a polynomial times powers of x and y.
-static void sdv_sum_powers(const double (*coefficients)[4], int loop, const double *x,
-                           const double *y, double *out)
-{
-    const unsigned char (*powers)[2] = sdv_powers[loop];
-    double sum[4] = { 0, 0, 0, 0 };
-    for (int k = 0; k < SDV_SLOTS; k++) {
-        double weight = x[powers[k][0]] * y[powers[k][1]];
-        for (int c = 0; c < 4; c++) sum[c] += weight * coefficients[k][c];
-    }
-    memcpy(out, sum, sizeof sum);
 }
 
 // Evaluates the child of a nest's face at (x, y), which is not in the next nest.
 static void sdv_nest_child(sdv_nest_sample *s, double x, double y, int order)
 {
-    static const unsigned char derivatives[6][2] = { {0,0}, {1,0}, {0,1}, {2,0}, {1,1}, {0,2} };
     const sdv_nest_state *state = &s->state;
     int loop = state->surface->rules.loop;
-    double scale = 1, across[3][5], up[3][5];
+    double scale = 1;
     int child = sdv_descend(loop, &x, &y, &scale), number = 4 * s->face + child;
     if (s->made < 0) sdv_nest_refine(&s->state);
-    if (s->made != number) {
-        const int *points;
-        const sdv_patch *patch = sdv_nest_patch(state->kind, s->face, child, 0, &points);
-        sdv_nest_polynomial(s, patch, points);
-        s->made = number;
-    }
-    sdv_find_powers(x, scale, across);
-    sdv_find_powers(y, scale, up);
-    for (int d = 0; d < (order + 1) * (order + 2) / 2; d++)
-        sdv_sum_powers((const double (*)[4])s->c, loop, across[derivatives[d][0]],
-                       up[derivatives[d][1]], s->values[d]);
+    if (s->made != number) sdv_nest_polynomial(s, sdv_nest_patch(state->kind, s->face, child, 0));
+    s->made = number;
+    sdv_sum_powers((const double (*)[4])s->c, loop, x, y, scale, scale, order, s->values);
     for (int c = 0; c < 4; c++) {
         s->values[0][c] = state->base[c] + state->shrink * s->values[0][c];
         for (int d = 3; d < 6 && order > 1; d++) s->values[d][c] /= state->shrink;
@@ -11811,27 +11625,40 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 }
 
 #ifndef SUBDIV_NO_EXACT
-// Adds work points with weights [stride * count] that are rounded to floats. They have to add up
-// before they are multiplied: then their errors shrink with the distances between the points.
-static void sdv_add_rounded(sdv_stencil_maker *make, const int *points, int count, double *weights,
-                            int stride)
+// Finds how a part of a patch weighs its control points in a point and its derivatives. weights
+// [16], of which Loop has 12.
+static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
+                              const sdv_leaf *at, double (*weights)[3])
 {
-    for (int k = 0; k < make->parts; k++) sdv_balance(weights + k, count, stride, k == 0 ? 1 : 0);
+    double c[SDV_SLOTS][4], values[3][4];
+    for (int i = 0; i < sdv_control_points(&surface->rules); i++) {
+        if (i % 4 == 0) {
+            sdv_unit_polynomial(surface, patch, part, i, c);
+            sdv_sum_powers((const double (*)[4])c, surface->rules.loop, at->x, at->y, at->sx,
+                           at->sy, 1, values);
+        }
+        for (int k = 0; k < 3; k++) weights[i][k] = values[k][i % 4];
+    }
+}
+
+// Adds work points, weights [3 * count] times.
+static void sdv_add_work_points(sdv_stencil_maker *make, const int *points, int count,
+                                const double *weights)
+{
     sdv_compose(make, points, count);
-    for (int i = 0; i < count && !make->context->result; i++, weights += stride)
-        sdv_add_work_point(make, points[i], weights);
+    for (int i = 0; i < count && !make->context->result; i++)
+        sdv_add_work_point(make, points[i], weights + 3 * i);
 }
 
 // Adds the control points of a patch, or of the part of it that a location is on.
 static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
-    double weights[16][6];
+    double weights[16][3];
     sdv_find_polynomial(surface, &leaf);
-    sdv_where at = { (float)leaf.x, (float)leaf.y, (float)leaf.sx, (float)leaf.sy };
-    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &at,
+    sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &leaf,
                       weights);
-    sdv_add_rounded(make, leaf.points, sdv_control_points(&surface->rules), weights[0], 6);
+    sdv_add_work_points(make, leaf.patch->points, sdv_control_points(&surface->rules), weights[0]);
 }
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
@@ -11887,14 +11714,13 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                             double x, double y, double *w)
 {
-    double weights[16][6], scale = 1;
+    double weights[16][3], scale = 1;
     int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
-    sdv_where at = { (float)x, (float)y, (float)scale, (float)scale };
-    const int *points;
-    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0, &points);
+    const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0);
+    sdv_leaf at = { patch, -1, 0, 0, x, y, scale, scale };
     sdv_patch_weights(surface, patch, 0, &at, weights);
-    for (int i = 0; i < kind->width; i++)
-        for (int k = 0; k < 3; k++) w[3 * points[i] + k] += weights[i][k];
+    for (int i = 0; i < sdv_control_points(&surface->rules); i++)
+        for (int k = 0; k < 3; k++) w[3 * patch->points[i] + k] += weights[i][k];
 }
 
 // Sets the weights of the vertex of a nest, as sdv_nest_vertex does.
@@ -11944,7 +11770,7 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
         w[3 * i + 2] = t[1] * dx + t[3] * dy;
     }
-    sdv_add_rounded(make, exact->nest_points + nest->first, kind->points, w, 3);
+    sdv_add_work_points(make, exact->nest_points + nest->first, kind->points, w);
 }
 
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
@@ -12369,11 +12195,11 @@ typedef struct sdv_leaf_points {
     int      corner;                    // whose quad of an n-gon it is
     sdv_grid grid;
     sdv_area area;
-    sdv_double_patch patch;
+    const sdv_patch *patch;
     const sdv_nest_state *nest;         // whose points the patch has, or NULL
     sdv_nest_sample *vertex;            // not NULL: the last face of a nest, instead of a patch
     int      part, ready;               // part: its number, if the patch is cut into strips
-    sdv_polynomial polynomial;          // made for the first line: then it is ready
+    sdv_four polynomial[25];            // made for the first line: then it is ready
 } sdv_leaf_points;
 
 static int64_t sdv_units(const sdv_area *area)
@@ -12392,11 +12218,9 @@ static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
 }
 
 // The part of a quad where two strips cross.
-static sdv_area sdv_area_of_part(sdv_area area, const sdv_double_patch *patch, int part)
+static sdv_area sdv_area_of_part(sdv_area area, const sdv_strip *along, const sdv_strip *up)
 {
     const int64_t whole = 1 << SDV_STRIP_LEVELS;
-    const sdv_strip *along = &patch->along->items[part % patch->along->count];
-    const sdv_strip *up = &patch->up->items[part / patch->along->count];
     int64_t x = area.left * whole, y = area.bottom * whole;
     sdv_area made = { area.bits + SDV_STRIP_LEVELS, x + along->from, x + along->to, y + up->from,
                       y + up->to, area.step, area.sx * ((double)whole / along->unit),
@@ -12407,36 +12231,28 @@ static sdv_area sdv_area_of_part(sdv_area area, const sdv_double_patch *patch, i
 }
 
 // Makes the polynomial of a nest's innermost faces: the plane of its vertex.
-static void sdv_vertex_plane(sdv_nest_sample *vertex, sdv_polynomial *q)
+static void sdv_vertex_plane(sdv_nest_sample *vertex, double (*c)[4])
 {
     sdv_nest_vertex(vertex);
-    for (int i = 0; i < 5; i++)
-        for (int j = 0; j < 5; j++) q->c[i][j] = sdv_all(0);
-    q->degree = vertex->state.surface->rules.loop ? 4 : 3;
-    sdv_four *to[3] = { &q->origin, &q->c[1][0], &q->c[0][1] };
-    for (int i = 0; i < 3; i++) {
-        const double *p = i ? vertex->tangents[i - 1] : vertex->values[0];
-        *to[i] = sdv_of((float)p[0], (float)p[1], (float)p[2], (float)p[3]);
-    }
+    memset(c, 0, SDV_SLOTS * sizeof *c);
+    memcpy(c[0], vertex->values[0], sizeof *c);
+    memcpy(c[1], vertex->tangents[0], sizeof *c);
+    memcpy(c[4], vertex->tangents[1], sizeof *c);
 }
 
+// Makes the polynomial of the leaf at hand.
 static void sdv_make_leaf_polynomial(sdv_leaf_points *l)
 {
-    const sdv_nest_state *nest = l->nest;
-    sdv_polynomial *q = &l->polynomial;
-    double start[4], shrink = nest ? nest->shrink : 1;
-    float origin[4];
-    if (l->vertex) {
-        sdv_vertex_plane(l->vertex, q);
-        return;
-    }
-    sdv_make_polynomial(&l->patch, l->part, q, start);
-    for (int c = 0; c < 4; c++)
-        origin[c] = (float)((nest ? nest->base[c] : 0) + shrink * start[c]);
-    q->origin = sdv_load(origin);
-    for (int i = 0; i <= q->degree && shrink < 1; i++)
-        for (int j = 0; j + (q->degree == 4 ? i : 0) <= q->degree; j++)
-            q->c[i][j] = sdv_times(sdv_all((float)shrink), q->c[i][j]);
+    int loop = l->tile.loop;
+    const double *work = l->nest ? l->nest->w : l->source->points;
+    double c[SDV_SLOTS][4];
+    float slots[4 * SDV_SLOTS];
+    if (l->vertex) sdv_vertex_plane(l->vertex, c);
+    else sdv_make_polynomial(l->source->surface, l->patch, l->part, work, c);
+    sdv_keep_polynomial(c[0], l->vertex ? NULL : l->nest, 4, slots);
+    for (int k = 0; k < (loop ? 14 : SDV_SLOTS); k++)
+        l->polynomial[loop ? sdv_powers[1][k][0] + 5 * sdv_powers[1][k][1] : k] =
+            sdv_load(slots + 4 * k);
 }
 
 // Points k from first to last on a line of the grid, at (u + k du, v + k dv).
@@ -12453,7 +12269,7 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     const sdv_window *out = &l->out;
     sdv_curve curve;
     int index = points->index;
-    sdv_make_curve(&l->polynomial, loop ? 4 : 3, turned, tangents, t, &curve);
+    sdv_make_curve(l->polynomial, loop, turned, tangents, t, &curve);
     for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
         sdv_four x = sdv_all((float)(from + (double)k * by));
         if (index < l->points)
@@ -12601,17 +12417,18 @@ static int sdv_begin_leaf(sdv_leaf_points *l, int h)
     return 1;
 }
 
-static void sdv_put_patch_points(sdv_leaf_points *l, sdv_patch_at at)
+static void sdv_put_patch_points(sdv_leaf_points *l, const sdv_patch *patch)
 {
-    const sdv_exact_work *source = l->source;
-    const int *points;
-    const sdv_patch *patch = sdv_patch_of(source->surface, at, &points);
+    const sdv_strips *strips = l->source->surface->exact->strips;
+    const sdv_strip *cross[2];
     if (!sdv_begin_leaf(l, patch->h)) return;
-    sdv_area area = sdv_area_at(at.level - l->tile.ngon, patch->column, patch->row, patch->step);
-    l->patch = sdv_double_patch_of(source->surface, patch, points, source->points);
-    int parts = sdv_double_parts(&l->patch);
+    sdv_area area = sdv_area_at(patch->level - l->tile.ngon, patch->column, patch->row,
+                                patch->step);
+    int parts = sdv_patch_parts(strips, patch);
+    l->patch = patch;
     for (l->part = 0; l->part < parts; l->part++) {
-        l->area = patch->up ? sdv_area_of_part(area, &l->patch, l->part) : area;
+        if (patch->up) sdv_find_strips_of(strips, patch, l->part, cross);
+        l->area = patch->up ? sdv_area_of_part(area, cross[0], cross[1]) : area;
         sdv_put_area(l);
     }
 }
@@ -12658,8 +12475,6 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
     const sdv_nest_face *faces = surface->exact->nest_faces + surface->exact->nests[number].face;
     sdv_nest_sample vertex;
     sdv_nest_state *nest = &vertex.state;
-    const sdv_patch *patch;
-    const int *points;
     int most = 0;
     sdv_nest_load(nest, surface, number, l->source->points, w);
     for (int i = 0; i < nest->kind->faces; i++) {
@@ -12680,8 +12495,7 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
             if (!sdv_begin_leaf(l, faces[i].place.h)) continue;
             for (int child = last ? 0 : 1; child <= (last ? 0 : 3); child++) {
                 l->area = sdv_nest_area(&l->tile, &faces[i], depth, child);
-                if (child) patch = sdv_nest_patch(nest->kind, i, child, faces[i].turn, &points);
-                if (child) l->patch = sdv_double_patch_of(surface, patch, points, w);
+                if (child) l->patch = sdv_nest_patch(nest->kind, i, child, faces[i].turn);
                 sdv_put_area(l);
             }
         }
@@ -12701,11 +12515,7 @@ static void sdv_tile_points_job(void *context, int job)
     sdv_arena arena = sdv_new_arena(0);
     double *w = NULL;
     if (l.tangents.normals) l.out.tangents = &l.tangents;
-    sdv_patch_at at = sdv_find_patch(surface, i);
-    for (; i < end && i < patches; i++, at.i++) {
-        sdv_next_level(surface, &at);
-        sdv_put_patch_points(&l, at);
-    }
+    for (; i < end && i < patches; i++) sdv_put_patch_points(&l, &exact->patches[i]);
     for (; i < end && !here.result; i++) {
         if (!w) w = SDV_NEW(&here, &arena, double, 4 * (size_t)exact->most_work);
         if (w) sdv_put_nest_points(&l, i - patches, w);
