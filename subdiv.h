@@ -9268,6 +9268,53 @@ SDV_INLINE size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, i
            3 * ((size_t)depth * (size_t)exact->nest_face_count + (size_t)face) + (size_t)child - 1;
 }
 
+// The vertices of a grid: row, column.
+static const int sdv_corners[2][5][2] = {
+    { {0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0} }, { {0, 0}, {0, 1}, {1, 0}, {0, 0}, {0, 0} } };
+
+// What a leaf of the exact surface, or one of its polynomials, covers of the grid of its face: a
+// rectangle or, under Loop, the lower half of a square or, turned, the upper half.
+typedef struct sdv_area {
+    int     bits;                       // 2^bits units are a side of the grid: it is, in these,
+    int64_t left, right, bottom, top;   // from left to right and from bottom to top
+    int     step;                       // -1: turned
+    double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
+} sdv_area;                             // where t is from 0 to 1 along a side of the grid
+
+// The square (or triangle) whose vertex 0 is at (x, y).
+static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
+{
+    int64_t left = step > 0 ? x : x - 1, bottom = step > 0 ? y : y - 1;
+    double scale = (double)((int64_t)1 << bits);
+    sdv_area area = { bits, left, left + 1, bottom, bottom + 1, step, scale, scale,
+                      (double)x, (double)y };
+    return area;
+}
+
+// The quarter of an area at its vertex i, or in Loop the middle one, number 3, which is turned.
+static sdv_area sdv_child_area(const sdv_area *area, int loop, int i)
+{
+    int middle = loop && i == 3, step = area->step, turned = step < 0;
+    int right = middle ? 1 : sdv_corners[loop][i][1], up = middle ? 1 : sdv_corners[loop][i][0];
+    return sdv_area_at(area->bits + 1, 2 * (area->left + turned) + step * right,
+                       2 * (area->bottom + turned) + step * up, middle ? -step : step);
+}
+
+// The area of a face of a nest after so many levels, as seen from the vertex of the nest (child 0);
+// or of one of its other children on the next level.
+static sdv_area sdv_nest_area(int loop, int ngon, const sdv_nest_face *face, int depth, int child)
+{
+    const int *at = sdv_corners[loop][face->turn];
+    const sdv_place *place = &face->place;
+    sdv_area area = sdv_area_at(face->level - ngon, place->column, place->row, place->step);
+    for (; depth > 0; depth--) area = sdv_child_area(&area, loop, face->turn);
+    int middle = loop && child == 3, i = middle ? 3 : (child + face->turn) % (loop ? 3 : 4);
+    if (child) return sdv_child_area(&area, loop, i);
+    area.x += area.step * at[1];
+    area.y += area.step * at[0];
+    return area;
+}
+
 // A coordinate, clamped to [0, 1].
 SDV_INLINE float sdv_on_face(float u)
 {
@@ -9388,16 +9435,12 @@ static const unsigned char sdv_grid_cells[2][16] = {
     { 0, 1, 5, 4, 2, 3, 7, 6, 10, 11, 15, 14, 8, 9, 13, 12 },
     { 0, 1, 4, 15, 2, 3, 6, 13, 8, 9, 12, 7, 10, 11, 14, 5 } };
 
-// A square of a face after so many splits; Loop: the triangle below its diagonal, or above.
-typedef struct sdv_square {
-    size_t root;                        // the cell of the whole face
-    int level, x, y, above;             // number x along a row of 2^level, in row y
-} sdv_square;
-
 typedef struct sdv_cell_maker {
     sdv_context *context;
     const subdiv_surface *surface;
     sdv_array cells;
+    size_t    root;                     // the cell of the whole face that the leaf at hand is on,
+    unsigned  leaf;                     // and the cell of the leaf
 } sdv_cell_maker;
 
 // The cell of the face, or of the quad of an n-gon, that has the grid of face-vertex h.
@@ -9417,38 +9460,12 @@ static int sdv_grid_of(const sdv_level *cage, int loop, int h)
     return sdv_in_ngon(cage, loop, h) ? h : sdv_face_start(cage, sdv_face_of(cage, h));
 }
 
-// The square of a face after so many levels of refinement, which is at a place of a grid. The quads
-// of an n-gon are there after one.
-static sdv_square sdv_square_at(const subdiv_surface *surface, int level, int h, int column,
-                                int row, int step)
-{
-    const sdv_level *cage = &surface->order.cage;
-    int loop = surface->rules.loop, above = step < 0;
-    sdv_square square = { (size_t)sdv_root_cell(cage, loop, h),
-                          level - sdv_in_ngon(cage, loop, h), column - above,
-                          row - above, above };
-    return square;
-}
-
-// Returns part number k of the four that a split makes of a square. They are numbered as its
-// vertices are; the triangle in the middle comes last.
-static sdv_square sdv_split_square(sdv_square square, int loop, int k)
-{
-    int middle = loop && k == 3, right = loop ? k == 1 : k == 1 || k == 2;
-    int up = loop ? k == 2 : k >= 2;
-    square.level++;
-    square.x = 2 * square.x + (square.above ? 1 - right : right);
-    square.y = 2 * square.y + (square.above ? 1 - up : up);
-    square.above ^= middle;
-    return square;
-}
-
-// Returns which cell of a grid has a square; the grid is that of a face so many levels up.
-static size_t sdv_cell_in_grid(const sdv_square *square, int loop, int levels)
+// Returns which cell of a grid has an area; the grid is that of a face so many levels up.
+static size_t sdv_cell_in_grid(const sdv_area *area, int loop, int levels)
 {
     int shift = levels - 2, rest = (1 << shift) - 1;
-    int x = square->x, y = square->y, i = (y >> shift & 3) << 2 | (x >> shift & 3);
-    return (size_t)(loop && (x & rest) + (y & rest) + square->above > rest ? 15 - i : i);
+    int x = (int)area->left, y = (int)area->bottom, i = (y >> shift & 3) << 2 | (x >> shift & 3);
+    return (size_t)(loop && (x & rest) + (y & rest) + (area->step < 0) > rest ? 15 - i : i);
 }
 
 // The first cell of the grid that cell number i is, or becomes.
@@ -9465,32 +9482,32 @@ static size_t sdv_open_grid(sdv_cell_maker *maker, size_t i)
     return first;
 }
 
-// Sets the cell of a square, in a grid for every two levels; after an odd number of levels it has
+// Sets the cell of an area, in a grid for every two levels; after an odd number of levels it has
 // four cells.
-static void sdv_set_cell(sdv_cell_maker *maker, const sdv_square *square, unsigned cell)
+static void sdv_set_cell(sdv_cell_maker *maker, const sdv_area *area, unsigned cell)
 {
-    int loop = maker->surface->rules.loop, levels = square->level;
-    size_t i = square->root, first;
+    int loop = maker->surface->rules.loop, levels = area->bits;
+    size_t i = maker->root, first;
     for (; levels > 1; levels -= 2)
-        i = sdv_open_grid(maker, i) + sdv_cell_in_grid(square, loop, levels);
+        i = sdv_open_grid(maker, i) + sdv_cell_in_grid(area, loop, levels);
     first = levels ? sdv_open_grid(maker, i) : i;
     if (maker->context->result) return;
     unsigned *cells = (unsigned *)sdv_items(&maker->cells);
     if (levels == 0) cells[i] = cell;
     for (int k = 0; k < 4 && levels; k++) {
-        sdv_square part = sdv_split_square(*square, loop, k);
+        sdv_area part = sdv_child_area(area, loop, k);
         cells[first + sdv_cell_in_grid(&part, loop, 2)] = cell;
     }
 }
 
-// Sets the cell of a square with one polynomial, or leaves it to its leaf. From the lowest bit on:
+// Sets the cell of an area with one polynomial, or leaves it to its leaf. From the lowest bit on:
 // 0, as it is no grid; 3 bits across; 3 up; turned; the number.
-static void sdv_set_polynomial(sdv_cell_maker *maker, const sdv_square *square, size_t polynomial,
-                               int across, int up, unsigned leaf)
+static void sdv_set_polynomial(sdv_cell_maker *maker, const sdv_area *area, size_t polynomial,
+                               int across, int up)
 {
-    unsigned cell = (unsigned)polynomial << SDV_CELL_BITS | (unsigned)square->above << 7 |
+    unsigned cell = (unsigned)polynomial << SDV_CELL_BITS | (unsigned)(area->step < 0) << 7 |
                     (unsigned)up << 4 | (unsigned)across << 1;
-    sdv_set_cell(maker, square, polynomial < SDV_CELL_POLYNOMIALS ? cell : leaf);
+    sdv_set_cell(maker, area, polynomial < SDV_CELL_POLYNOMIALS ? cell : maker->leaf);
 }
 
 // The strip that reaches from one segment to another, or -1.
@@ -9501,74 +9518,73 @@ static int sdv_strip_over(const sdv_strips *strips, int from, int to)
     return -1;
 }
 
-// Sets the cells of a square that is on a patch cut into strips, of a level: one cell, if one part
-// of the patch is all over the square.
-static void sdv_set_cut(sdv_cell_maker *maker, const sdv_square *square, const sdv_patch *patch,
-                        int level, unsigned leaf)
+// Sets the cells of an area that is on a patch cut into strips, of a level: one cell, if one part of
+// the patch is all over the area.
+static void sdv_set_cut(sdv_cell_maker *maker, const sdv_area *area, const sdv_patch *patch,
+                        int level)
 {
     const sdv_strips *along = &maker->surface->exact->strips[patch->along - 1];
     const sdv_strips *up = &maker->surface->exact->strips[patch->up - 1];
-    int parts = 1 << (square->level - level), size = (1 << SDV_STRIP_LEVELS) / parts;
-    int x = (square->x % parts) * size, y = (square->y % parts) * size;
+    int parts = 1 << (area->bits - level), size = (1 << SDV_STRIP_LEVELS) / parts;
+    int x = (int)(area->left % parts) * size, y = (int)(area->bottom % parts) * size;
     int i = sdv_strip_over(along, x, x + size), j = sdv_strip_over(up, y, y + size);
     if (i >= 0 && j >= 0) {
         int columns = level, rows = level;
         for (int n = 1 << SDV_STRIP_LEVELS; n > along->items[i].unit; n /= 2) columns++;
         for (int n = 1 << SDV_STRIP_LEVELS; n > up->items[j].unit; n /= 2) rows++;
-        if (columns <= square->level && rows <= square->level) {
+        if (columns <= area->bits && rows <= area->bits) {
             size_t polynomial = (size_t)patch->polynomial + (size_t)(j * along->count + i);
-            sdv_set_polynomial(maker, square, polynomial, columns, rows, leaf);
+            sdv_set_polynomial(maker, area, polynomial, columns, rows);
             return;
         }
     }
-    for (int k = 0; k < 4 && square->level < SDV_CELL_LEVELS; k++) {
-        sdv_square part = sdv_split_square(*square, 0, k);
-        sdv_set_cut(maker, &part, patch, level, leaf);
+    for (int k = 0; k < 4 && area->bits < SDV_CELL_LEVELS; k++) {
+        sdv_area part = sdv_child_area(area, 0, k);
+        sdv_set_cut(maker, &part, patch, level);
     }
-    if (square->level == SDV_CELL_LEVELS) sdv_set_cell(maker, square, leaf);
+    if (area->bits == SDV_CELL_LEVELS) sdv_set_cell(maker, area, maker->leaf);
 }
 
-// Sets the cells of what is left of a nest's face after so many levels.
-static void sdv_set_nest_face(sdv_cell_maker *maker, const sdv_square *square, int face, int depth,
-                              unsigned leaf)
+static void sdv_set_patch(sdv_cell_maker *maker, const sdv_patch *patch, int ngon)
+{
+    int level = patch->level - ngon;
+    sdv_area area = sdv_area_at(level, patch->column, patch->row, patch->step);
+    if (level > SDV_CELL_LEVELS) sdv_set_cell(maker, &area, maker->leaf);
+    else if (patch->up) sdv_set_cut(maker, &area, patch, level);
+    else sdv_set_polynomial(maker, &area, (size_t)patch->polynomial, level, level);
+}
+
+// Sets the cells of a nest's face: level by level those of the children that are patches.
+static void sdv_set_nest_face(sdv_cell_maker *maker, int i, int ngon)
 {
     const sdv_exact *exact = maker->surface->exact;
-    int loop = maker->surface->rules.loop, sides = loop ? 3 : 4;
-    if (square->level >= SDV_CELL_LEVELS || depth == SDV_NEST_DEPTH) {
-        sdv_set_cell(maker, square, leaf);
-        return;
+    int loop = maker->surface->rules.loop, depth = 0;
+    sdv_area area = sdv_nest_area(loop, ngon, &exact->nest_faces[i], 0, 0);
+    while (area.bits < SDV_CELL_LEVELS && depth < SDV_NEST_DEPTH) {
+        for (int child = 1; child < 4; child++) {
+            area = sdv_nest_area(loop, ngon, &exact->nest_faces[i], depth, child);
+            sdv_set_polynomial(maker, &area, sdv_nest_polynomial_number(exact, i, depth, child),
+                               area.bits, area.bits);
+        }
+        area = sdv_nest_area(loop, ngon, &exact->nest_faces[i], ++depth, 0);
     }
-    for (int k = 0; k < 4; k++) {
-        int child = k < sides ? (k + sides - exact->nest_faces[face].turn) % sides : k;
-        size_t polynomial = sdv_nest_polynomial_number(exact, face, depth, child);
-        sdv_square part = sdv_split_square(*square, loop, k);
-        if (child == 0) sdv_set_nest_face(maker, &part, face, depth + 1, leaf);
-        else sdv_set_polynomial(maker, &part, polynomial, part.level, part.level, leaf);
-    }
+    sdv_set_cell(maker, &area, maker->leaf);
 }
 
 // Sets the cells of all leaves, whose numbers are those of patches, then those of nests' faces.
 static void sdv_set_leaves(sdv_cell_maker *maker)
 {
-    const subdiv_surface *surface = maker->surface;
-    const sdv_exact *exact = surface->exact;
-    unsigned leaf = SDV_CELL_LEAF;
-    for (int i = 0; i < exact->patch_count && !maker->context->result; i++) {
-        const sdv_patch *p = &exact->patches[i];
-        sdv_square square = sdv_square_at(surface, p->level, p->h, p->column, p->row, p->step);
-        int at = square.level;
-        if (at > SDV_CELL_LEVELS) sdv_set_cell(maker, &square, leaf);
-        else if (p->up) sdv_set_cut(maker, &square, p, at, leaf);
-        else sdv_set_polynomial(maker, &square, (size_t)p->polynomial, at, at, leaf);
-        leaf += 2;
-    }
-    for (int i = 0; i < exact->nest_face_count && !maker->context->result; i++) {
-        const sdv_nest_face *face = &exact->nest_faces[i];
-        const sdv_place *place = &face->place;
-        sdv_square square = sdv_square_at(surface, face->level, place->h, place->column,
-                                          place->row, place->step);
-        sdv_set_nest_face(maker, &square, i, 0, leaf);
-        leaf += 2;
+    const sdv_level *cage = &maker->surface->order.cage;
+    const sdv_exact *exact = maker->surface->exact;
+    int loop = maker->surface->rules.loop, patches = exact->patch_count;
+    maker->leaf = SDV_CELL_LEAF;
+    for (int i = 0; i < patches + exact->nest_face_count && !maker->context->result; i++) {
+        int h = i < patches ? exact->patches[i].h : exact->nest_faces[i - patches].place.h;
+        int ngon = sdv_in_ngon(cage, loop, h);
+        maker->root = (size_t)sdv_root_cell(cage, loop, h);
+        if (i < patches) sdv_set_patch(maker, &exact->patches[i], ngon);
+        else sdv_set_nest_face(maker, i - patches, ngon);
+        maker->leaf += 2;
     }
 }
 
@@ -9594,7 +9610,7 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
 {
     const sdv_level *cage = &surface->order.cage;
     sdv_exact *exact = surface->exact;
-    sdv_cell_maker maker = { context, surface, { NULL, 0, 0 } };
+    sdv_cell_maker maker = { context, surface, { NULL, 0, 0 }, 0, 0 };
     int loop = surface->rules.loop, roots = cage->face_vertex_count + 1;
     unsigned *cells = (unsigned *)sdv_append(context, &maker.cells, (size_t)roots, sizeof *cells);
     for (int i = 0; i < roots && cells; i++) cells[i] = SDV_CELL_NONE;
@@ -10190,8 +10206,9 @@ typedef struct sdv_nest_state {
 
 enum { SDV_NEST_STACK = 256 };          // work points; nests with more take memory
 
-static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int number,
-                          const double *work, double *w)
+// Takes a nest, in which w has no points yet.
+static void sdv_nest_begin(sdv_nest_state *s, const subdiv_surface *surface, int number,
+                           const double *work, double *w)
 {
     const sdv_nest *nest = &surface->exact->nests[number];
     s->surface = surface;
@@ -10200,10 +10217,14 @@ static void sdv_nest_load(sdv_nest_state *s, const subdiv_surface *surface, int 
     s->work = work;
     s->w = w;
     s->shrink = 1;
-    memcpy(s->base, work + 4 * (size_t)s->points[0], sizeof s->base);
+}
+
+static void sdv_nest_load(sdv_nest_state *s)
+{
+    memcpy(s->base, s->work + 4 * (size_t)s->points[0], sizeof s->base);
     for (int i = 0; i < s->kind->points; i++)
         for (int c = 0; c < 4; c++)
-            w[4 * i + c] = work[4 * (size_t)s->points[i] + (size_t)c] - s->base[c];
+            s->w[4 * i + c] = s->work[4 * (size_t)s->points[i] + (size_t)c] - s->base[c];
 }
 
 // Makes the points of a nest's next level.
@@ -10267,13 +10288,11 @@ static size_t sdv_carve_exact(const subdiv_surface *surface, int channels, char 
     size_t size = 0, fours = ((size_t)channels + 3) / 4, line = SDV_CACHE_LINE;
     size_t polynomials = (size_t)channels * sdv_exact_polynomial_count(exact);
     if (base) base += (line - (uintptr_t)base % line) % line;
-    memory->work = (double *)sdv_carve(base, &size, sdv_exact_work_size(surface, channels), 1);
-    memory->nest = (double *)sdv_carve(base, &size, 4 * (size_t)exact->most_work, sizeof(double));
-    memory->kept = (double *)sdv_carve(base, &size, 4 * fours * sdv_exact_kept_count(exact),
-                                       sizeof(double));
+    memory->work = SDV_CARVE(double, NULL, 4 * fours, (size_t)surface->work_count);
+    memory->nest = SDV_CARVE(double, NULL, 4, (size_t)exact->most_work);
+    memory->kept = SDV_CARVE(double, NULL, 4 * fours, sdv_exact_kept_count(exact));
     size = (size + line - 1) / line * line;
-    memory->polynomials = (float *)sdv_carve(base, &size, SDV_SLOTS * polynomials + 4,
-                                             sizeof(float));
+    memory->polynomials = SDV_CARVE(float, NULL, SDV_SLOTS * polynomials + 4, 1);
     return size + line;
 }
 
@@ -10310,10 +10329,10 @@ typedef struct sdv_exact_evaluation {
 static void sdv_keep_polynomial(const double *c, const sdv_nest_state *nest, int lanes, float *out)
 {
     double shrink = nest ? nest->shrink : 1;
-    float slots[4 * SDV_SLOTS];
+    float room[4 * SDV_SLOTS], *slots = lanes == 4 ? out : room;
     for (int i = 0; i < 4 * SDV_SLOTS; i++) slots[i] = (float)(shrink * c[i]);
     for (int l = 0; l < 4 && nest; l++) slots[l] = (float)(nest->base[l] + shrink * c[l]);
-    for (int k = 0; k < SDV_SLOTS; k++, out += lanes) {         // too many lanes are overwritten
+    for (int k = 0; k < SDV_SLOTS && lanes < 4; k++, out += lanes) {    // overwrites other lanes
         if (k + 4 <= SDV_SLOTS) sdv_store(out, sdv_load(slots + 4 * k));
         else sdv_store_some(out, sdv_load(slots + 4 * k), lanes);
     }
@@ -10370,8 +10389,9 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
     int first = exact->nests[number].face;
     for (int c = 0; c < e->channels; c += 4) {
         sdv_nest_state s;
-        sdv_nest_load(&s, e->surface, number,
-                      e->memory.work + (size_t)c * (size_t)e->surface->work_count, w);
+        sdv_nest_begin(&s, e->surface, number,
+                       e->memory.work + (size_t)c * (size_t)e->surface->work_count, w);
+        sdv_nest_load(&s);
         for (int depth = 0; depth < SDV_NEST_DEPTH; depth++) {
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
@@ -10718,15 +10738,12 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
 // Starts where sdv_nest_polynomials has ended.
 static void sdv_load_kept(const sdv_exact_evaluation *e, int nest, int c, sdv_nest_sample *s)
 {
-    const sdv_exact *exact = e->surface->exact;
     const double *kept = sdv_kept_nest(e, nest, c);
     sdv_nest_state *state = &s->state;
     s->nest = nest;
     s->made = -1;
-    state->surface = e->surface;
-    state->kind = &exact->kinds[exact->nests[nest].kind];
-    state->points = exact->nest_points + exact->nests[nest].first;
-    state->work = e->memory.work + (size_t)c * (size_t)e->surface->work_count;
+    sdv_nest_begin(state, e->surface, nest,
+                   e->memory.work + (size_t)c * (size_t)e->surface->work_count, state->w);
     state->shrink = ldexp(1, -SDV_NEST_DEPTH);
     memcpy(state->base, kept, sizeof state->base);
     memcpy(state->w, kept + 4, 4 * sizeof(double) * (size_t)state->kind->points);
@@ -11197,7 +11214,7 @@ static void sdv_note_rows(sdv_stencil_maker *make)
 }
 
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
-                                  const subdiv_surface *surface, int points)
+                                  const subdiv_surface *surface, int points, int longest)
 {
     int parts = surface->rules.limit || surface->exact ? 3 : 1;
     memset(make, 0, sizeof *make);
@@ -11221,7 +11238,7 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     memset(make->sizes, 0, work * sizeof(int));
     for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
-    make->longest = 9;
+    make->longest = longest;
     make->masks = sdv_regular_masks(&surface->rules);
     if (surface->rules.limit) make->limit = sdv_regular_limit(&surface->rules);
     for (int f = 0; f < surface->order.cage.face_count; f++) {
@@ -11606,7 +11623,7 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
     if (context.result) return context.result;
     sdv_stencil_maker make;
-    sdv_stencil_maker_new(&context, &make, sdv_maker(surface), point_count);
+    sdv_stencil_maker_new(&context, &make, sdv_maker(surface), point_count, 9);
     for (int i = 0; i < point_count && !context.result; i++) {
         sdv_add_point(&make, first_point + i);
         if (!context.result) sdv_write_stencil(&make, i);
@@ -11666,31 +11683,21 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // w [3 * work_count] are those of a point and its derivatives as seen from the vertex: of the
 // nest's points, then of the points of the next level.
 
-// Gives the weights of a row's point to the points that the row sums.
-static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
-{
-    const sdv_shape *shape = &batch->shape;
-    const int *point = row + sdv_row_points(shape);         // the last one
-    const void *own = point + 1;
-    const float *weights = shape->own ? (const float *)own : shape->weight;
-    const double *from = w + 3 * (size_t)row[0];
-    double left = 1;
-    for (int k = 3; k-- > 0; ) {
-        for (int i = 0; i < shape->count[k]; i++, point--)
-            for (int c = 0; c < 3; c++) w[3 * *point + c] += (double)weights[k] * from[c];
-        left -= shape->count[k] * (double)weights[k];
-    }
-    for (int c = 0; c < 3; c++) w[3 * *point + c] += left * from[c];
-}
-
-static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
+// Gives the weights of the points of a nest's next level to the points that rows make them of.
+static void sdv_unrefine_nest(sdv_stencil_maker *make, const sdv_nest_kind *kind, double *w)
 {
     for (int k = 2; k-- > 0; )
         for (int b = 0; b < kind->refine[k].starts[kind->refine[k].blocks]; b++) {
             const sdv_batch *batch = &kind->refine[k].items[b];
-            int stride = 1 + sdv_row_points(&batch->shape) + batch->shape.own;
-            for (int i = 0; i < batch->rows; i++)
-                sdv_unrefine_row(batch, batch->items + (size_t)stride * (size_t)i, w);
+            const int *row = batch->items;
+            for (int i = 0; i < batch->rows; i++) {
+                sdv_batch_row(make, batch, row, make->room);
+                for (int j = 0; j < make->room->count; j++)
+                    for (int c = 0; c < 3; c++)
+                        w[3 * make->room->points[j] + c] +=
+                            make->room->weights[j] * w[3 * (size_t)row[0] + (size_t)c];
+                row += 1 + make->room->count + batch->shape.own;
+            }
         }
 }
 
@@ -11736,9 +11743,10 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 }
 
 // Weighs the points of a nest at (x, y) on a face of it, as sdv_sample_nest does.
-static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
-                           double x, double y, double *w)
+static void sdv_weigh_nest(sdv_stencil_maker *make, const sdv_nest_kind *kind, int face, double x,
+                           double y, double *w)
 {
+    const subdiv_surface *surface = make->surface;
     int down = sdv_nest_levels(surface->rules.loop, x, y);
     if (x <= 0 && y <= 0) {
         sdv_weigh_masks(kind, face, w);
@@ -11746,10 +11754,10 @@ static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *k
     }
     for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
     sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), w);
-    sdv_unrefine_nest(kind, w);
+    sdv_unrefine_nest(make, kind, w);
     for (int i = 0; i < down; i++) {
         sdv_ascend_nest(kind, w);
-        sdv_unrefine_nest(kind, w);
+        sdv_unrefine_nest(make, kind, w);
     }
 }
 
@@ -11764,7 +11772,7 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
     double x, y;
     sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
-    sdv_weigh_nest(surface, kind, leaf->nest_face - nest->face, x, y, w);
+    sdv_weigh_nest(make, kind, leaf->nest_face - nest->face, x, y, w);
     for (int i = 0; i < kind->points; i++) {
         double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
@@ -11787,7 +11795,7 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (!context.result) sdv_check_locations(&context, surface, count, locations);
     if (context.result) return context.result;
     sdv_stencil_maker make;
-    sdv_stencil_maker_new(&context, &make, surface, count);
+    sdv_stencil_maker_new(&context, &make, surface, count, 9 + surface->exact->most_work);
     double *w = SDV_NEW(&context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context.result; i++) {
         sdv_spot spot = sdv_spot_of(surface, &locations[i]);
@@ -12024,10 +12032,6 @@ static void sdv_put_inside(const sdv_tile *tile, sdv_faces_at *out)
     out->face_vertices += size * pieces;
 }
 
-// The vertices of a grid: row, column.
-static const int sdv_corners[2][5][2] = {
-    { {0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0} }, { {0, 0}, {0, 1}, {1, 0}, {0, 0}, {0, 0} } };
-
 // Point j of the ring along a side, from the ring's corner at vertex 0 of that side on. Of an n-gon
 // the grids are those at the side's two vertices.
 static int sdv_ring_point(const sdv_tile *tile, int side, const sdv_grid grids[2], int j)
@@ -12173,12 +12177,6 @@ static sdv_exact_work sdv_begin_source(sdv_context *context, sdv_arena *arena,
 //     +---+---+       middle is where u, v and 1 - u - v are 1/3: no line between areas, which
 //     | > | < |       are at multiples of 2^-bits, is there.
 //     +---+---+
-typedef struct sdv_area {
-    int     bits;                       // 2^bits units are a side of the grid: it is, in these,
-    int64_t left, right, bottom, top;   // from left to right and from bottom to top
-    int     step;                       // -1: turned
-    double  sx, sy, x, y;               // coordinates of its polynomial: step (sx t - x),
-} sdv_area;                             // where t is from 0 to 1 along a side of the grid
 
 // The maker of a tiling's points. Each job has a copy.
 typedef struct sdv_leaf_points {
@@ -12205,16 +12203,6 @@ typedef struct sdv_leaf_points {
 static int64_t sdv_units(const sdv_area *area)
 {
     return (int64_t)1 << area->bits;
-}
-
-// The square (or triangle) whose vertex 0 is at (x, y).
-static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
-{
-    int64_t left = step > 0 ? x : x - 1, bottom = step > 0 ? y : y - 1;
-    double scale = (double)((int64_t)1 << bits);
-    sdv_area area = { bits, left, left + 1, bottom, bottom + 1, step, scale, scale,
-                      (double)x, (double)y };
-    return area;
 }
 
 // The part of a quad where two strips cross.
@@ -12250,9 +12238,9 @@ static void sdv_make_leaf_polynomial(sdv_leaf_points *l)
     if (l->vertex) sdv_vertex_plane(l->vertex, c);
     else sdv_make_polynomial(l->source->surface, l->patch, l->part, work, c);
     sdv_keep_polynomial(c[0], l->vertex ? NULL : l->nest, 4, slots);
-    for (int k = 0; k < (loop ? 14 : SDV_SLOTS); k++)
-        l->polynomial[loop ? sdv_powers[1][k][0] + 5 * sdv_powers[1][k][1] : k] =
-            sdv_load(slots + 4 * k);
+    if (!loop) memcpy(l->polynomial, slots, sizeof slots);
+    for (int k = 0; k < 14 && loop; k++)
+        l->polynomial[sdv_powers[1][k][0] + 5 * sdv_powers[1][k][1]] = sdv_load(slots + 4 * k);
 }
 
 // Points k from first to last on a line of the grid, at (u + k du, v + k dv).
@@ -12433,33 +12421,13 @@ static void sdv_put_patch_points(sdv_leaf_points *l, const sdv_patch *patch)
     }
 }
 
-// The area of a face of a nest after so many levels, as seen from the vertex of the nest (child 0);
-// or of one of its other children on the next level.
-static sdv_area sdv_nest_area(const sdv_tile *tile, const sdv_nest_face *face, int depth, int child)
-{
-    const int (*at)[2] = sdv_corners[tile->loop];
-    int step = face->place.step, bits = face->level - tile->ngon + depth;
-    int right = step * at[face->turn][1], up = step * at[face->turn][0];
-    int64_t size = (int64_t)1 << depth, x = (face->place.column + right) * size;
-    int64_t y = (face->place.row + up) * size;
-    if (child == 0) {
-        sdv_area area = sdv_area_at(bits, x - right, y - up, step);
-        area.x = (double)x;
-        area.y = (double)y;
-        return area;
-    }
-    int middle = tile->loop && child == 3, i = (child + face->turn) % (tile->loop ? 3 : 4);
-    return sdv_area_at(bits + 1, 2 * (x - right) + step * (middle ? 1 : at[i][1]),
-                       2 * (y - up) + step * (middle ? 1 : at[i][0]), middle ? -step : step);
-}
-
 // Counts the levels after which a face of a nest has no points but its vertex: it is smaller than
 // all pieces, or as large as the smallest one and in a corner of the grid, where other points
 // belong to areas that are nearer to the middle.
 static int sdv_nest_depth(const sdv_tile *tile, const sdv_nest_face *face)
 {
     int most = tile->grid->most;
-    sdv_area area = sdv_nest_area(tile, face, 0, 0);
+    sdv_area area = sdv_nest_area(tile->loop, tile->ngon, face, 0, 0);
     int64_t units = sdv_units(&area), x = (int64_t)area.x, y = (int64_t)area.y;
     int corner = (x == 0 || x == units) && (y == 0 || y == units), depth = 0;
     // The middle of an edge belongs to one of its two halves.
@@ -12476,7 +12444,8 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
     sdv_nest_sample vertex;
     sdv_nest_state *nest = &vertex.state;
     int most = 0;
-    sdv_nest_load(nest, surface, number, l->source->points, w);
+    sdv_nest_begin(nest, surface, number, l->source->points, w);
+    sdv_nest_load(nest);
     for (int i = 0; i < nest->kind->faces; i++) {
         sdv_tile tile = sdv_tile_at(l->tiling, sdv_face_of(l->tiling->cage, faces[i].place.h));
         int depth = sdv_nest_depth(&tile, &faces[i]);
@@ -12494,7 +12463,7 @@ static void sdv_put_nest_points(sdv_leaf_points *l, int number, double *w)
             vertex.face = i;
             if (!sdv_begin_leaf(l, faces[i].place.h)) continue;
             for (int child = last ? 0 : 1; child <= (last ? 0 : 3); child++) {
-                l->area = sdv_nest_area(&l->tile, &faces[i], depth, child);
+                l->area = sdv_nest_area(l->tile.loop, l->tile.ngon, &faces[i], depth, child);
                 if (child) l->patch = sdv_nest_patch(nest->kind, i, child, faces[i].turn);
                 sdv_put_area(l);
             }
