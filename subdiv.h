@@ -9282,7 +9282,7 @@ typedef struct sdv_area {
 } sdv_area;                             // where t is from 0 to 1 along a side of the grid
 
 // The square (or triangle) whose vertex 0 is at (x, y).
-static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
+SDV_INLINE sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
 {
     int64_t left = step > 0 ? x : x - 1, bottom = step > 0 ? y : y - 1;
     double scale = (double)((int64_t)1 << bits);
@@ -9292,7 +9292,7 @@ static sdv_area sdv_area_at(int bits, int64_t x, int64_t y, int step)
 }
 
 // The quarter of an area at its vertex i, or in Loop the middle one, number 3, which is turned.
-static sdv_area sdv_child_area(const sdv_area *area, int loop, int i)
+SDV_INLINE sdv_area sdv_child_area(const sdv_area *area, int loop, int i)
 {
     int middle = loop && i == 3, step = area->step, turned = step < 0;
     int right = middle ? 1 : sdv_corners[loop][i][1], up = middle ? 1 : sdv_corners[loop][i][0];
@@ -9558,15 +9558,18 @@ static void sdv_set_patch(sdv_cell_maker *maker, const sdv_patch *patch, int ngo
 static void sdv_set_nest_face(sdv_cell_maker *maker, int i, int ngon)
 {
     const sdv_exact *exact = maker->surface->exact;
-    int loop = maker->surface->rules.loop, depth = 0;
-    sdv_area area = sdv_nest_area(loop, ngon, &exact->nest_faces[i], 0, 0);
-    while (area.bits < SDV_CELL_LEVELS && depth < SDV_NEST_DEPTH) {
+    const sdv_nest_face *face = &exact->nest_faces[i];
+    int loop = maker->surface->rules.loop, sides = loop ? 3 : 4;
+    sdv_area area = sdv_area_at(face->level - ngon, face->place.column, face->place.row,
+                                face->place.step);
+    for (int depth = 0; area.bits < SDV_CELL_LEVELS && depth < SDV_NEST_DEPTH; depth++) {
         for (int child = 1; child < 4; child++) {
-            area = sdv_nest_area(loop, ngon, &exact->nest_faces[i], depth, child);
-            sdv_set_polynomial(maker, &area, sdv_nest_polynomial_number(exact, i, depth, child),
-                               area.bits, area.bits);
+            int at = loop && child == 3 ? 3 : (child + face->turn) % sides;
+            sdv_area part = sdv_child_area(&area, loop, at);
+            sdv_set_polynomial(maker, &part, sdv_nest_polynomial_number(exact, i, depth, child),
+                               part.bits, part.bits);
         }
-        area = sdv_nest_area(loop, ngon, &exact->nest_faces[i], ++depth, 0);
+        area = sdv_child_area(&area, loop, face->turn);
     }
     sdv_set_cell(maker, &area, maker->leaf);
 }
@@ -10319,9 +10322,10 @@ typedef struct sdv_exact_evaluation {
     float *out[6], *normals;
     size_t stride, normal_stride;
     int order;                          // of the highest derivative
-    unsigned char *failed;              // [jobs] got no memory
-    unsigned char *refused;             // [jobs] have a location that is not there
-    const subdiv_options *opt;
+    const struct sdv_exact_evaluation *parts;   // the same but for values alone, or without values
+    unsigned char *failed;              // [jobs] which got no memory,
+    unsigned char *refused;             // [jobs] which met a location that is not there
+    void *user;                         // of the allocator
 } sdv_exact_evaluation;
 
 // Keeps the coefficients of so many channels of a polynomial: out [lanes * SDV_SLOTS]. nest: they
@@ -10762,35 +10766,21 @@ typedef struct sdv_waiting {
 } sdv_waiting;
 
 typedef struct sdv_queue {
-    sdv_exact_evaluation points, rest;  // what is asked for, see sdv_part_asked
     sdv_context  context;
     sdv_arena    arena;
     int          room, count;
-    double      *work;                  // [4 * most_work] of the nests
     sdv_waiting *items;                 // [room] NULL before the first one
     uint32_t    *keys;                  // [room] from the highest bit: nest, level, face, quarter
     int         *order[2];              // [room] sorted, and while they are
+    double      *w;                     // [4 * most_work] for a nest
 } sdv_queue;
 
 // Makes an empty queue for a job's share of the locations.
 static void sdv_queue_new(const sdv_exact_evaluation *e, size_t share, sdv_queue *queue)
 {
-    queue->points.surface = NULL;
-    memset(&queue->context, 0, sizeof queue->context);
-    queue->context.user = e->opt ? e->opt->user : NULL;
-    queue->arena = sdv_new_arena(0);
+    memset(queue, 0, sizeof *queue);
+    queue->context.user = e->user;
     queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
-    queue->count = 0;
-    queue->items = NULL;
-}
-
-// Parts what is asked for, for the first location on an edge.
-static void sdv_part_asked(const sdv_exact_evaluation *e, sdv_queue *queue)
-{
-    queue->points = queue->rest = *e;
-    memset(queue->points.out + 1, 0, sizeof e->out - sizeof e->out[0]);
-    queue->points.normals = queue->rest.out[0] = NULL;
-    queue->points.order = 0;
 }
 
 // Sorts a queue byte by byte, from the lowest one on.
@@ -10830,7 +10820,7 @@ static void sdv_sample_nest(const sdv_waiting *at, int level, int c, sdv_nest_sa
 static void sdv_empty_queue(const sdv_exact_evaluation *e, sdv_queue *queue)
 {
     sdv_nest_sample s;
-    s.state.w = queue->work;
+    s.state.w = queue->w;
     s.like = NULL;
     sdv_sort_queue(queue);
     for (int c = 0; c < e->channels; c += 4) {
@@ -10848,26 +10838,20 @@ static void sdv_enqueue(const sdv_exact_evaluation *e, const sdv_leaf *leaf, siz
                         sdv_queue *queue)
 {
     const sdv_exact *exact = e->surface->exact;
-    const sdv_nest_face *face = &exact->nest_faces[leaf->nest_face];
+    sdv_waiting at = { leaf->x, leaf->y, (float)leaf->sx, leaf->nest_face, (int)i, e };
     if (!queue->items) {
-        queue->work = SDV_NEW(&queue->context, &queue->arena, double, 4 * (size_t)exact->most_work);
         queue->items = SDV_NEW(&queue->context, &queue->arena, sdv_waiting, queue->room);
         queue->keys = SDV_NEW(&queue->context, &queue->arena, uint32_t, queue->room);
         for (int k = 0; k < 2; k++)
             queue->order[k] = SDV_NEW(&queue->context, &queue->arena, int, queue->room);
+        queue->w = SDV_NEW(&queue->context, &queue->arena, double, 4 * (size_t)exact->most_work);
     }
     if (queue->context.result) return;
     if (queue->count == queue->room) sdv_empty_queue(e, queue);
-    sdv_waiting *at = &queue->items[queue->count];
-    at->x = leaf->x;
-    at->y = leaf->y;
-    at->scale = (float)leaf->sx;
-    at->face = leaf->nest_face;
-    at->i = (int)i;
-    at->asked = e;
+    queue->items[queue->count] = at;
     queue->keys[queue->count++] =
-        (uint32_t)face->nest << 20 | (uint32_t)leaf->below_kept << 12 |
-        ((uint32_t)at->face & 1023) << 2 | (uint32_t)(at->y >= 0.5) << 1 | (uint32_t)(at->x >= 0.5);
+        (uint32_t)exact->nest_faces[at.face].nest << 20 | (uint32_t)leaf->below_kept << 12 |
+        ((uint32_t)at.face & 1023) << 2 | (uint32_t)(at.y >= 0.5) << 1 | (uint32_t)(at.x >= 0.5);
 }
 
 // Writes the zeros of a face without a surface.
@@ -10899,9 +10883,8 @@ static void sdv_put_location(const sdv_exact_evaluation *e, int loop, size_t i, 
 {
     sdv_spot spot = sdv_spot_of(e->surface, &e->locations[i]), home;
     int shared = e->out[0] && sdv_find_home(e->surface, &spot, &home);
-    if (shared && !queue->points.surface) sdv_part_asked(e, queue);
-    if (shared) sdv_put_spot(&queue->points, loop, &home, i, queue);
-    if (!shared || e->order > 0) sdv_put_spot(shared ? &queue->rest : e, loop, &spot, i, queue);
+    if (shared) sdv_put_spot(&e->parts[0], loop, &home, i, queue);
+    if (!shared || e->order > 0) sdv_put_spot(shared ? &e->parts[1] : e, loop, &spot, i, queue);
 }
 
 // A batch of locations that are looked up, and where their polynomials are.
@@ -11036,7 +11019,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     if (!out) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "out is NULL");
     sdv_check_exact(&context, surface, channels, count, locations, out);
     if (context.result) return context.result;
-    sdv_exact_evaluation e;
+    sdv_exact_evaluation e, parts[2];
     unsigned char failed[SDV_MOST_JOBS] = { 0 }, refused[SDV_MOST_JOBS] = { 0 };
     float *to[6] = { out->points, out->du, out->dv, out->duu, out->duv, out->dvv };
     memset(&e, 0, sizeof e);
@@ -11050,10 +11033,15 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.stride = (size_t)(out->stride ? out->stride : channels);
     e.normal_stride = (size_t)(out->stride ? out->stride : 3);
     e.order = to[3] || to[4] || to[5] ? 2 : to[1] || to[2] || out->normals ? 1 : 0;
-    e.opt = opt;
     e.failed = failed;
     e.refused = refused;
+    e.user = context.user;
     e.jobs = sdv_jobs(opt, count, 1024);
+    parts[0] = parts[1] = e;
+    memset(parts[0].out + 1, 0, sizeof to - sizeof to[0]);
+    parts[0].normals = parts[1].out[0] = NULL;
+    parts[0].order = 0;
+    e.parts = parts;
     sdv_run(opt, sdv_locations_job, &e, e.jobs);
     if (memchr(refused, 1, sizeof refused))
         sdv_check_locations(&context, surface, count, locations);
@@ -11214,7 +11202,7 @@ static void sdv_note_rows(sdv_stencil_maker *make)
 }
 
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
-                                  const subdiv_surface *surface, int points, int longest)
+                                  const subdiv_surface *surface, int points)
 {
     int parts = surface->rules.limit || surface->exact ? 3 : 1;
     memset(make, 0, sizeof *make);
@@ -11238,7 +11226,7 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     memset(make->sizes, 0, work * sizeof(int));
     for (size_t i = 0; i < work; i++) make->places[i] = -1;
     make->offsets[0] = 0;
-    make->longest = longest;
+    make->longest = 9;
     make->masks = sdv_regular_masks(&surface->rules);
     if (surface->rules.limit) make->limit = sdv_regular_limit(&surface->rules);
     for (int f = 0; f < surface->order.cage.face_count; f++) {
@@ -11623,7 +11611,7 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
     if (!context.result) sdv_check_range(&context, surface, 0, 0, first_point, point_count);
     if (context.result) return context.result;
     sdv_stencil_maker make;
-    sdv_stencil_maker_new(&context, &make, sdv_maker(surface), point_count, 9);
+    sdv_stencil_maker_new(&context, &make, sdv_maker(surface), point_count);
     for (int i = 0; i < point_count && !context.result; i++) {
         sdv_add_point(&make, first_point + i);
         if (!context.result) sdv_write_stencil(&make, i);
@@ -11683,21 +11671,31 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // w [3 * work_count] are those of a point and its derivatives as seen from the vertex: of the
 // nest's points, then of the points of the next level.
 
-// Gives the weights of the points of a nest's next level to the points that rows make them of.
-static void sdv_unrefine_nest(sdv_stencil_maker *make, const sdv_nest_kind *kind, double *w)
+// Gives the weights of a row's point to the points that the row sums.
+static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
+{
+    const sdv_shape *shape = &batch->shape;
+    const int *point = row + sdv_row_points(shape);         // the last one
+    const void *own = point + 1;
+    const float *weights = shape->own ? (const float *)own : shape->weight;
+    const double *from = w + 3 * (size_t)row[0];
+    double left = 1;
+    for (int k = 3; k-- > 0; ) {
+        for (int i = 0; i < shape->count[k]; i++, point--)
+            for (int c = 0; c < 3; c++) w[3 * *point + c] += (double)weights[k] * from[c];
+        left -= shape->count[k] * (double)weights[k];
+    }
+    for (int c = 0; c < 3; c++) w[3 * *point + c] += left * from[c];
+}
+
+static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
 {
     for (int k = 2; k-- > 0; )
         for (int b = 0; b < kind->refine[k].starts[kind->refine[k].blocks]; b++) {
             const sdv_batch *batch = &kind->refine[k].items[b];
-            const int *row = batch->items;
-            for (int i = 0; i < batch->rows; i++) {
-                sdv_batch_row(make, batch, row, make->room);
-                for (int j = 0; j < make->room->count; j++)
-                    for (int c = 0; c < 3; c++)
-                        w[3 * make->room->points[j] + c] +=
-                            make->room->weights[j] * w[3 * (size_t)row[0] + (size_t)c];
-                row += 1 + make->room->count + batch->shape.own;
-            }
+            int stride = 1 + sdv_row_points(&batch->shape) + batch->shape.own;
+            for (int i = 0; i < batch->rows; i++)
+                sdv_unrefine_row(batch, batch->items + (size_t)stride * (size_t)i, w);
         }
 }
 
@@ -11743,10 +11741,9 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 }
 
 // Weighs the points of a nest at (x, y) on a face of it, as sdv_sample_nest does.
-static void sdv_weigh_nest(sdv_stencil_maker *make, const sdv_nest_kind *kind, int face, double x,
-                           double y, double *w)
+static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
+                           double x, double y, double *w)
 {
-    const subdiv_surface *surface = make->surface;
     int down = sdv_nest_levels(surface->rules.loop, x, y);
     if (x <= 0 && y <= 0) {
         sdv_weigh_masks(kind, face, w);
@@ -11754,10 +11751,10 @@ static void sdv_weigh_nest(sdv_stencil_maker *make, const sdv_nest_kind *kind, i
     }
     for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
     sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), w);
-    sdv_unrefine_nest(make, kind, w);
+    sdv_unrefine_nest(kind, w);
     for (int i = 0; i < down; i++) {
         sdv_ascend_nest(kind, w);
-        sdv_unrefine_nest(make, kind, w);
+        sdv_unrefine_nest(kind, w);
     }
 }
 
@@ -11772,7 +11769,7 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
     const signed char *t = sdv_turns[surface->rules.loop][face->turn];
     double x, y;
     sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
-    sdv_weigh_nest(make, kind, leaf->nest_face - nest->face, x, y, w);
+    sdv_weigh_nest(surface, kind, leaf->nest_face - nest->face, x, y, w);
     for (int i = 0; i < kind->points; i++) {
         double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
         w[3 * i + 1] = t[0] * dx + t[2] * dy;
@@ -11795,7 +11792,7 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (!context.result) sdv_check_locations(&context, surface, count, locations);
     if (context.result) return context.result;
     sdv_stencil_maker make;
-    sdv_stencil_maker_new(&context, &make, surface, count, 9 + surface->exact->most_work);
+    sdv_stencil_maker_new(&context, &make, surface, count);
     double *w = SDV_NEW(&context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context.result; i++) {
         sdv_spot spot = sdv_spot_of(surface, &locations[i]);
