@@ -241,7 +241,7 @@ static subdiv_result evaluate(const subdiv_surface *surface, int values, int cha
     size_t size = (size_t)channels * (size_t)subdiv_surface_vertex_count(surface);
     float *in = (float *)malloc((size_t)(values * channels) * sizeof *in + 1);
     float *out = (float *)malloc(2 * size * sizeof *out + 1);
-    subdiv_limit to = { out, out + size, NULL, 0 };
+    subdiv_limit to = { out, out + size, NULL, 0, NULL };
     subdiv_result result = SUBDIV_OK;
     for (int i = 0; i < values * channels; i++) in[i] = 1;
     memset(out, 0x55, 2 * size * sizeof *out);
@@ -969,8 +969,9 @@ static void wrong_evaluation(void)
 {
     float *in = k.positions, *out = o.out;
     void *work = k.scratch;
-    const subdiv_limit to = { o.out, NULL, NULL, 0 }, narrow = { o.out, NULL, NULL, 2 };
-    const subdiv_limit tangents = { NULL, NULL, o.out, 5 }, negative = { o.out, NULL, NULL, -3 };
+    const subdiv_limit to = { o.out, NULL, NULL, 0, NULL }, narrow = { o.out, NULL, NULL, 2, NULL };
+    const subdiv_limit tangents = { NULL, NULL, o.out, 5, NULL };
+    const subdiv_limit negative = { o.out, NULL, NULL, -3, NULL };
     const int ranges[][4] = {         // first face, faces, first point, points: 8 too many is any
         { -1, 1, 0, 1 }, { 0, -1, 0, 1 }, { 0, k.faces + 1, 0, 1 }, { k.faces, 1, 0, 1 },
         { k.faces + 1, 0, 0, 1 }, { 1, INT_MAX, 0, 1 }, { INT_MAX, INT_MAX, 0, 1 },
