@@ -286,7 +286,7 @@ static void door_limit(bytes *b)
     float *part_p = make_out(stride, count), *part_n = make_out(stride, count);
     float *part_t = make_out(stride, count);
     void *scratch = need(subdiv_scratch_size(s, 3));
-    subdiv_limit whole = { p, n, t, 0 }, part = { part_p, part_n, part_t, stride };
+    subdiv_limit whole = { p, n, t, 0, NULL }, part = { part_p, part_n, part_t, stride, NULL };
     subdiv_mesh fine;
     if (lent.positions && reach() < 1e30f) {
         REQUIRE(settled(subdiv_evaluate_limit(s, lent.positions, 0, &whole, NULL, &opt)));

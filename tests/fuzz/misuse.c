@@ -229,7 +229,7 @@ static void evaluate_part(void)
     int face = spoil(0, 0, s->faces + 1), faces = spoil(s->faces - face, 0, s->faces - face + 1);
     int point = spoil(0, 0, s->points + 1);
     int points = spoil(s->points - point, 0, s->points - point + 1);
-    subdiv_limit where = { p, n, below(b, 2) ? t : NULL, stride }, *to = &where;
+    subdiv_limit where = { p, n, below(b, 2) ? t : NULL, stride, NULL }, *to = &where;
     if (limit) {
         to = (subdiv_limit *)needed(to);
         spoiled += to && to->tangents && stride && stride < 6;
@@ -248,7 +248,7 @@ static void evaluate_limit(void)
     const slot *s = a_slot();
     float *in = floats(VERTICES), *p = floats(s->points);
     int in_stride = a_stride(3);
-    subdiv_limit where = { p, NULL, NULL, a_stride(3) };
+    subdiv_limit where = { p, NULL, NULL, a_stride(3), NULL };
     spoiled += !s->surface || !s->limit || s->exact;
     int good = end_call(subdiv_evaluate_limit(s->surface, (const float *)needed(in), in_stride,
                                               (const subdiv_limit *)needed(&where), NULL, opt));

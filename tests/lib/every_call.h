@@ -91,7 +91,7 @@ static inline void every_limit(every *e, const subdiv_surface *surface)
     size_t size = 12 * sizeof(float) * (size_t)points;
     float *out = (float *)every_room(e, size);
     void *scratch = every_room(e, subdiv_scratch_size(surface, 3));
-    subdiv_limit limit = { out, out + 3, out + 6, 12 };
+    subdiv_limit limit = { out, out + 3, out + 6, 12, NULL };
     EVERY(e, subdiv_evaluate_limit(surface, e->cage->positions, 0, &limit, scratch, e->opt));
     every_add(e, out, size);
     EVERY(e, subdiv_evaluate_limit_faces(surface, scratch, 0, faces, 0, points, &limit, e->opt));
