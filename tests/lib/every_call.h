@@ -48,12 +48,31 @@ static inline void every_mesh(every *e, subdiv_mesh *m)
 {
     size_t v = 3 * sizeof(float) * (size_t)m->vertex_count, f = sizeof(int) * (size_t)m->face_count;
     every_add(e, m->positions, v);
+    if (m->face_normals) v = 3 * sizeof(float) * (size_t)m->normal_count;
     every_add(e, m->normals, v);
+    if (m->face_normals) every_add(e, m->face_normals, (size_t)m->face_size * f);
     every_add(e, m->face_vertices, (size_t)m->face_size * f);
     every_add(e, m->cage_faces, f);
     every_add(e, m->uvs, 2 * sizeof(float) * (size_t)m->uv_count);
     every_add(e, m->crease_sharpness, sizeof(float) * (size_t)m->crease_count);
     subdiv_mesh_free(m);
+}
+
+static inline void every_buffer(every *e, const subdiv_surface *surface, const subdiv_mesh *m)
+{
+    subdiv_buffer b;
+    subdiv_vertices out = {0};
+    if (!EVERY(e, subdiv_make_buffer(&b, m, 4, e->opt))) return;
+    size_t size = 8 * sizeof(float) * (size_t)b.vertex_count;
+    out.positions = (float *)every_room(e, size);
+    out.normals = out.positions + 3;
+    out.uvs = m->uv_count ? out.positions + 6 : NULL;
+    out.stride = 8;
+    EVERY(e, subdiv_fill_buffer(&b, m, &out, e->opt));
+    EVERY(e, subdiv_evaluate_buffer(&b, surface, e->cage->positions, &out, NULL, e->opt));
+    every_add(e, b.indices, (size_t)b.index_count * (size_t)b.index_size);
+    every_keep(e, out.positions, size);
+    subdiv_buffer_free(&b);
 }
 
 static inline void every_stencils(every *e, subdiv_stencils *s)
@@ -141,6 +160,7 @@ static inline void every_refinement(every *e)
     limit.limit = 1;
     if (EVERY(e, subdiv_prepare(&surface, cage, e->levels, &limit))) {
         EVERY(e, subdiv_surface_mesh(&fine, surface, cage->positions, e->opt));
+        every_buffer(e, surface, &fine);
         every_mesh(e, &fine);
         every_limit(e, surface);
         every_surface(e, surface, 3, cage->positions);
@@ -213,6 +233,7 @@ static inline void every_tool(every *e)
     EVERY(e, subdiv_explain(text, 1 << 16, e->cage, e->cage->vertex_count / 2, e->opt));
     every_keep(e, text, strlen(text));
     EVERY(e, subdiv_normals(&copy, e->opt));
+    EVERY(e, subdiv_normals_by_angle(&copy, 30, e->opt));
     EVERY(e, subdiv_crease_by_angle(&copy, 20, 1, e->opt));
     EVERY(e, subdiv_crease_by_uv_seams(&copy, 2, e->opt));
     EVERY(e, subdiv_crease_by_smoothing_groups(&copy, 3, e->opt));
