@@ -1379,6 +1379,9 @@ static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *a
     return kept;
 }
 
+#define SDV_KEEP(context, arena, type, array) \
+    ((type *)sdv_keep_array(context, arena, array, sizeof(type)))
+
 // Hands the block of a growing array to an arena, at the size that it has, and returns its items.
 static void *sdv_adopt(sdv_arena *arena, sdv_array *array)
 {
@@ -3628,9 +3631,8 @@ static void sdv_end_batches(sdv_writer *writer, sdv_batches *made)
     made->blocks = (int)writer->starts.count;
     made->rows = writer->rows;
     sdv_end_block(writer);                                     // an empty one: where the last ends
-    made->starts = (int *)sdv_keep_array(context, writer->arena, &writer->starts, sizeof(int));
-    made->items = (sdv_batch *)sdv_keep_array(context, writer->arena, &writer->batches,
-                                              sizeof(sdv_batch));
+    made->starts = SDV_KEEP(context, writer->arena, int, &writer->starts);
+    made->items = SDV_KEEP(context, writer->arena, sdv_batch, &writer->batches);
     memset(&writer->starts, 0, sizeof writer->starts);
     memset(&writer->batches, 0, sizeof writer->batches);
     writer->rows = writer->face = 0;
@@ -8674,7 +8676,8 @@ static inline int sdv_face_kinds(const sdv_level *level, int f, int size)
 }
 
 // Adds the patches of a level, in the order of its faces, and marks faces of the core without one as
-// rough. There are at most as many patches as faces whose vertices are not rough.
+// rough. There are at most as many patches as faces whose vertices are not rough; that is about how
+// many there are, so the array is of this size, and a bit larger only if a later level adds to it.
 static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rules *rules,
                              sdv_array *patches)
 {
@@ -8686,7 +8689,8 @@ static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rul
         level->kinds[v] = (unsigned char)sdv_vertex_kind(level, rules, v);
     for (int f = 0; f < level->face_count; f++)
         most -= !level->core[f] || (sdv_face_kinds(level, f, size) & SDV_ROUGH);
-    if (most > patches->count) sdv_grow(context, patches, most, sizeof(sdv_patch));
+    if (most > patches->capacity)
+        sdv_grow(context, patches, patches->count ? most + most / 4 : most, sizeof(sdv_patch));
     for (int f = 0; f < level->face_count && !context->result; f++) {
         int h = sdv_face_start(level, f), found = sdv_face_kinds(level, f, size);
         if (!level->core[f] || (found & SDV_ROUGH)) continue;
@@ -9017,11 +9021,12 @@ static void sdv_build_nest_kind(sdv_exact_maker *maker, sdv_nest_kind *kind, sdv
     if (context->result) return;
     kind->work_count = next.first_point + next.vertex_count;
     sdv_find_patches(maker->writer, &next, rules, &patches);
-    if (context->result) return;
-    SUBDIV_ASSERT((int)patches.count == 3 * kind->faces);
-    sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
-    sdv_nest_turns(context, arena, rules, (const sdv_patch *)sdv_items(&patches), kind);
+    SUBDIV_ASSERT(context->result || (int)patches.count == 3 * kind->faces);
+    if (!context->result)
+        sdv_nest_turns(context, arena, rules, (const sdv_patch *)sdv_items(&patches), kind);
     sdv_array_free(&patches);
+    if (context->result) return;
+    sdv_nest_points(&next, split.child[0], kind->faces, kind->ring, rules->loop, kind->below);
     sdv_nest_limit(context, rules, kind, arena, scratch);
 }
 
@@ -9211,14 +9216,11 @@ static void sdv_keep_exact(sdv_context *context, sdv_exact_maker *maker)
     exact->nest_count = (int)maker->nests.count;
     exact->nest_point_count = (int)maker->nest_points.count;
     exact->nest_face_count = (int)maker->nest_faces.count;
-    exact->kinds = (sdv_nest_kind *)sdv_keep_array(context, arena, &maker->kinds,
-                                                   sizeof(sdv_nest_kind));
-    exact->nests = (sdv_nest *)sdv_keep_array(context, arena, &maker->nests, sizeof(sdv_nest));
-    exact->nest_points = (int *)sdv_keep_array(context, arena, &maker->nest_points, sizeof(int));
-    exact->nest_faces = (sdv_nest_face *)sdv_keep_array(context, arena, &maker->nest_faces,
-                                                        sizeof(sdv_nest_face));
-    exact->strips = (sdv_strips *)sdv_keep_array(context, arena, &maker->writer->strips,
-                                                 sizeof(sdv_strips));
+    exact->kinds = SDV_KEEP(context, arena, sdv_nest_kind, &maker->kinds);
+    exact->nests = SDV_KEEP(context, arena, sdv_nest, &maker->nests);
+    exact->nest_points = SDV_KEEP(context, arena, int, &maker->nest_points);
+    exact->nest_faces = SDV_KEEP(context, arena, sdv_nest_face, &maker->nest_faces);
+    exact->strips = SDV_KEEP(context, arena, sdv_strips, &maker->writer->strips);
     for (int i = 0; i < exact->kind_count && !context->result; i++)
         if (exact->kinds[i].work_count > exact->most_work)
             exact->most_work = exact->kinds[i].work_count;
@@ -9618,8 +9620,7 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
     unsigned *cells = (unsigned *)sdv_append(context, &maker.cells, (size_t)roots, sizeof *cells);
     for (int i = 0; i < roots && cells; i++) cells[i] = SDV_CELL_NONE;
     sdv_set_leaves(&maker);
-    exact->cells = (unsigned *)sdv_keep_array(context, &surface->arena, &maker.cells,
-                                              sizeof *cells);
+    exact->cells = SDV_KEEP(context, &surface->arena, unsigned, &maker.cells);
     for (int f = 0; f < surface->face_count && !context->result; f++) {
         int own = surface->own_face ? surface->own_face[f] : f;
         if (own < 0 || hole[f] != SDV_DROPPED) continue;
@@ -9974,22 +9975,6 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 // --------------------------------------------------------------------------- >>polynomials
 // What an evaluation of the exact surface begins with: the polynomials of all leaves.
 
-// a0 + a1 t + a2 t^2 + a3 t^3
-SDV_INLINE sdv_four sdv_horner3(const sdv_four *a, sdv_four t)
-{
-    sdv_four p = sdv_plus(a[2], sdv_times(a[3], t));
-    p = sdv_plus(a[1], sdv_times(p, t));
-    return sdv_plus(a[0], sdv_times(p, t));
-}
-
-SDV_INLINE sdv_four sdv_horner4(const sdv_four *a, sdv_four t)
-{
-    sdv_four p = sdv_plus(a[3], sdv_times(a[4], t));
-    p = sdv_plus(a[2], sdv_times(p, t));
-    p = sdv_plus(a[1], sdv_times(p, t));
-    return sdv_plus(a[0], sdv_times(p, t));
-}
-
 // A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
 SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
 {
@@ -10266,11 +10251,6 @@ typedef struct sdv_exact_memory {
 } sdv_exact_memory;
 
 enum { SDV_CACHE_LINE = 64 };
-
-static size_t sdv_exact_work_size(const subdiv_surface *surface, int channels)
-{
-    return ((size_t)channels + 3) / 4 * 4 * sizeof(double) * (size_t)surface->work_count;
-}
 
 static size_t sdv_exact_kept_count(const sdv_exact *exact)
 {
@@ -12159,7 +12139,7 @@ static sdv_exact_work sdv_begin_source(sdv_context *context, sdv_arena *arena,
                                        const float *in, const subdiv_options *opt)
 {
     sdv_exact_work source = { surface, channels, in, (size_t)channels, NULL, 0, 1 };
-    source.points = (double *)sdv_new(context, arena, sdv_exact_work_size(surface, channels), 1);
+    source.points = SDV_NEW(context, arena, double, 4 * (size_t)surface->work_count);
     if (source.points) sdv_make_exact_work(&source, opt);
     return source;
 }
@@ -12256,13 +12236,14 @@ SDV_INLINE void sdv_put_tile_line(const sdv_leaf_points *l, int loop, int turned
     int index = points->index;
     sdv_make_curve(l->polynomial, loop, turned, tangents, t, &curve);
     for (int64_t k = points->first; k <= points->last; k++, index += points->step) {
-        sdv_four x = sdv_all((float)(from + (double)k * by));
+        sdv_four x = sdv_all((float)(from + (double)k * by)), p[3], along[3], across[3];
+        sdv_horner(curve.a, 1, 3 + loop, x, p);
         if (index < l->points)
-            sdv_store_some(out->values + out->stride * (size_t)index,
-                           loop ? sdv_horner4(curve.a, x) : sdv_horner3(curve.a, x), out->lanes);
+            sdv_store_some(out->values + out->stride * (size_t)index, p[0], out->lanes);
         if (!tangents) continue;
-        sdv_four along = sdv_horner3(curve.along, x), across = sdv_horner3(curve.across, x);
-        sdv_put_tangents(out, index, turned ? across : along, turned ? along : across,
+        sdv_horner(curve.along, 1, 3, x, along);
+        sdv_horner(curve.across, 1, 3, x, across);
+        sdv_put_tangents(out, index, turned ? across[0] : along[0], turned ? along[0] : across[0],
                          -1);
     }
 }
@@ -16119,6 +16100,7 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 #undef SDV_POSIX
 #undef SDV_GUARD
 #undef SDV_NEW
+#undef SDV_KEEP
 #undef SDV_CARVE
 #undef SDV_IMPLIED
 #undef SDV_FULL_LEVELS
