@@ -1382,16 +1382,6 @@ static void *sdv_keep_array(sdv_context *context, sdv_arena *arena, sdv_array *a
 #define SDV_KEEP(context, arena, type, array) \
     ((type *)sdv_keep_array(context, arena, array, sizeof(type)))
 
-// Hands the block of a growing array to an arena, at the size that it has, and returns its items.
-static void *sdv_adopt(sdv_arena *arena, sdv_array *array)
-{
-    void *items = sdv_items(array);
-    if (items) array->block->next = arena->blocks;
-    if (items) arena->blocks = array->block;
-    array->block = NULL;
-    return items;
-}
-
 // Copies count items to an arena. NULL if from is NULL or there is no memory.
 static void *sdv_duplicate(sdv_context *context, sdv_arena *arena, const void *from, size_t count,
                            size_t item)
@@ -9203,6 +9193,16 @@ static void sdv_exact_level(sdv_exact_maker *maker, int depth, sdv_level *level,
     sdv_split_step(maker->writer, &surface->rules, level, &split, next,
                    &surface->refine[2 * depth], next_arena, &scratch);
     sdv_arena_free(&scratch);
+}
+
+// Hands the block of a growing array to an arena, at the size that it has, and returns its items.
+static void *sdv_adopt(sdv_arena *arena, sdv_array *array)
+{
+    void *items = sdv_items(array);
+    if (items) array->block->next = arena->blocks;
+    if (items) arena->blocks = array->block;
+    array->block = NULL;
+    return items;
 }
 
 // Keeps what has been made, at its size.
