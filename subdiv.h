@@ -47,8 +47,9 @@
    Public:   >>config  >>types    macros you may define; mesh, options, errors
              >>refine             a cage into a finer mesh, in one call or in two steps
              >>animation          new values on the same topology, in every frame
-             >>limit  >>exact     the limit surface: at the points of the result; anywhere
+             >>limit              the limit surface at the points of the result
              >>buffers            vertex buffers to draw, filled again in every frame
+             >>exact              the limit surface anywhere
              >>stencils           points as sums of cage vertices; explains a point
              >>tessellation       meshes of the limit surface, each edge cut as you like
              >>curves             corner cutting and B-spline curves
@@ -69,8 +70,9 @@
              >>split     levels as meshes; >>plain makes all points of such levels, for SUBDIV_PLAIN
              >>exact-surface  the limit between the points: >>patches  >>nests  >>leaves
                          >>locations  >>cells  >>polynomials  >>samples
-             >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>generators
-             >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain  >>cleanup
+             >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>vertex-buffers
+             >>generators  >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain
+             >>cleanup
    A student reads examples/00_lecture.c first, then >>masks and the other sections with a star, and
    may skip the rest. The way from the first call to a mask: subdiv_refine > sdv_prepare >
    sdv_prepare_rows > sdv_fill_level > sdv_vertex_row > sdv_vertex_mask >
