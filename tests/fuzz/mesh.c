@@ -51,9 +51,11 @@ static float bound(float most)
 
 static int same_result(const subdiv_mesh *a, const subdiv_mesh *b)
 {
-    int normals = a->normals ? 3 * a->vertex_count : 0;
-    return same_mesh(a, b) && !a->normals == !b->normals &&
-           same_bytes(a->normals, b->normals, normals, sizeof(float)) &&
+    int normals = !a->normals ? 0 : a->face_normals ? a->normal_count : a->vertex_count;
+    int sum = a->face_normals ? (int)face_vertex_sum(a) : 0;
+    return same_mesh(a, b) && !a->normals == !b->normals && !a->face_normals == !b->face_normals &&
+           same_bytes(a->normals, b->normals, 3 * normals, sizeof(float)) &&
+           same_bytes(a->face_normals, b->face_normals, sum, sizeof(int)) &&
            same_bytes(a->cage_faces, b->cage_faces, a->face_count, sizeof(int));
 }
 
@@ -273,6 +275,37 @@ static void door_values(bytes *b)
 
 // -------------------------------------------------------------------------------------- the limit
 
+// A vertex buffer has the points and normals of the mesh, as long as none of them moves.
+static void draw(const subdiv_surface *s, const subdiv_mesh *fine, bytes *b)
+{
+    int size = below(b, 2) ? 2 : 4, stride = 3 + below(b, 3);
+    subdiv_buffer buffer;
+    subdiv_options opt = options(0);
+    memset(&buffer, 0x55, sizeof buffer);
+    if (!settled(subdiv_make_buffer(&buffer, fine, size, &opt))) {
+        REQUIRE(error.code == SUBDIV_ERROR_TOO_LARGE && is_zero(&buffer, sizeof buffer));
+        return;
+    }
+    int count = buffer.vertex_count, normals = subdiv_surface_normal_count(s);
+    float *p = make_out(stride, count), *n = make_out(stride, count), *t = make_out(stride, count);
+    float *moved = make_out(stride, count), *turned = make_out(stride, count);
+    subdiv_vertices out = { p, n, fine->uv_count ? t : NULL, NULL, stride };
+    subdiv_vertices again = { moved, turned, NULL, NULL, stride };
+    REQUIRE(count >= fine->vertex_count && buffer.index_size == size);
+    REQUIRE(all_in(buffer.points, (size_t)count, 0, fine->vertex_count));
+    REQUIRE(all_in(buffer.normals, (size_t)count, 0, normals));
+    for (int i = 0; i < buffer.index_count; i++)
+        REQUIRE((size == 2 ? ((unsigned short *)buffer.indices)[i] : ((int *)buffer.indices)[i]) <
+                count);
+    REQUIRE(settled(subdiv_fill_buffer(&buffer, fine, &out, &opt)));
+    REQUIRE(settled(subdiv_evaluate_buffer(&buffer, s, lent.positions, &again, NULL, &opt)));
+    REQUIRE(memcmp(p, moved, (size_t)stride * (size_t)count * sizeof *p) == 0);
+    REQUIRE(memcmp(n, turned, (size_t)stride * (size_t)count * sizeof *n) == 0);
+    free(p), free(n), free(t), free(moved), free(turned);
+    subdiv_buffer_free(&buffer);
+    REQUIRE(is_zero(&buffer, sizeof buffer));
+}
+
 static void door_limit(bytes *b)
 {
     subdiv_surface *s = NULL;
@@ -282,11 +315,14 @@ static void door_limit(bytes *b)
     int points = subdiv_surface_vertex_count(s), faces = subdiv_surface_cage_face_count(s);
     int first = below(b, points + 1), count = below(b, points - first + 1);
     int stride = 6 + below(b, 3);
+    int others = subdiv_surface_normal_count(s) - points;
     float *p = make_out(3, points), *n = make_out(3, points), *t = make_out(6, points);
+    float *sides = make_out(3, others), *part_sides = make_out(stride, others);
     float *part_p = make_out(stride, count), *part_n = make_out(stride, count);
     float *part_t = make_out(stride, count);
     void *scratch = need(subdiv_scratch_size(s, 3));
-    subdiv_limit whole = { p, n, t, 0, NULL }, part = { part_p, part_n, part_t, stride, NULL };
+    subdiv_limit whole = { p, n, t, 0, sides };
+    subdiv_limit part = { part_p, part_n, part_t, stride, part_sides };
     subdiv_mesh fine;
     if (lent.positions && reach() < 1e30f) {
         REQUIRE(settled(subdiv_evaluate_limit(s, lent.positions, 0, &whole, NULL, &opt)));
@@ -297,16 +333,21 @@ static void door_limit(bytes *b)
         check_part(part_p, p, first, count, stride, 3);
         check_part(part_n, n, first, count, stride, 3);
         check_part(part_t, t, first, count, stride, 6);
+        check_part(part_sides, sides, 0, others, stride, 3);
+        for (int i = 0; i < others; i++) REQUIRE(is_normal(sides + 3 * (size_t)i));
         for (int i = 0; i < points; i++) REQUIRE(is_normal(n + 3 * (size_t)i));
         REQUIRE(all_within(p, 3 * (size_t)points, bound(reach())));
         REQUIRE(all_within(t, 6 * (size_t)points, FLT_MAX));
         if (settled_mesh(subdiv_surface_mesh(&fine, s, lent.positions, &opt), &fine)) {
             REQUIRE(same_bytes(fine.positions, p, 3 * points, sizeof(float)));
             REQUIRE(same_bytes(fine.normals, n, 3 * points, sizeof(float)));
+            REQUIRE(same_bytes(fine.normals + 3 * points, sides, 3 * others, sizeof(float)));
+            draw(s, &fine, b);
         }
         subdiv_mesh_free(&fine);
     }
     free(p), free(n), free(t), free(part_p), free(part_n), free(part_t), free(scratch);
+    free(sides), free(part_sides);
     evaluate(s, lent.vertex_count, b);
     subdiv_surface_free(s);
 }
@@ -618,6 +659,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     how.keep_holes = flags >> 1 & 1;
     how.linear = (flags & 12) == 12;
     how.limit = flags >> 4 & 1;
+    how.one_normal = flags >> 6 & 1;
     how.no_tags = flags >> 5 & 1;
     wild = flags >> 7 & 1;
     make_cage(b);

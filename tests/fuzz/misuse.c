@@ -184,6 +184,7 @@ static void getters(void)
     int *ends = (int *)need(2 * sizeof(int) * (size_t)s->edges);
     spoiled += !s->surface;
     REQUIRE(s->surface || (!size && !count && !subdiv_scratch_size(NULL, 3)));
+    REQUIRE((subdiv_surface_normal_count(s->surface) > 0) == s->limit);
     spoiled += s->exact || size == 0;
     int *to = (int *)needed(vertices);
     end_call(subdiv_surface_faces(s->surface, to, below(b, 2) ? of : NULL, opt));
@@ -316,7 +317,7 @@ static void tools(void)
     memset(&info, 0x55, sizeof info);
     memset(text, 'x', sizeof text);
     copy.memory = NULL;
-    int kind = below(b, 7), nan = sharpness != sharpness;
+    int kind = below(b, 8), nan = sharpness != sharpness;
     switch (kind) {
     case 0:
         good = end_call(subdiv_inspect((subdiv_info *)needed(&info), of, opt));
@@ -341,6 +342,10 @@ static void tools(void)
     case 5:
         spoiled += nan;
         end_call(subdiv_crease_by_smoothing_groups(of, sharpness, opt));
+        break;
+    case 6:
+        spoiled += !(degrees >= 0 && degrees <= 180);
+        end_call(subdiv_normals_by_angle(of, degrees, opt));
         break;
     default:
         spoiled += nan;
