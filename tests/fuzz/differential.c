@@ -410,7 +410,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     unsigned seed = 0;
     for (int i = 0; i < 4 && size > 0; i++, size--) seed = seed << 8 | *data++;
     memset(&c, 0, sizeof c);
-    c.random = random_cage_of(seed, RANDOM_ALL, data, size);
+    c.random = random_cage_of(seed, RANDOM_ALL | RANDOM_LONG_SEAMS, data, size);
     REQUIRE(c.random);
     add_options(&c);
     c.cage = &c.random->mesh;

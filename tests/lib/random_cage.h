@@ -24,7 +24,8 @@ enum {
     RANDOM_NONMANIFOLD = 256,         // fins, shared vertices, flipped and duplicate faces
     RANDOM_DEGENERATE  = 512,         // repeated vertices, isolated ones, creases without an edge
     RANDOM_UVS         = 1024,        // UVs with seams, any rule
-    RANDOM_ALL         = 2047
+    RANDOM_ALL         = 2047,
+    RANDOM_LONG_SEAMS  = 2048         // besides all: UVs cut along planes
 };
 
 enum {
@@ -768,7 +769,7 @@ static inline void random_cut_uvs(random_cage *c, const int *start, int v, int *
 static inline void random_add_uvs(random_cage *c)
 {
     subdiv_mesh *m = &c->mesh;
-    const int total = c->vertex_count, many = random_chance(c, 50);
+    const int total = c->vertex_count, many = !(c->features & RANDOM_LONG_SEAMS) || random_chance(c, 50);
     const int cuts = random_below(c, many ? 2 + c->face_count : 4);
     int count = total, start[RANDOM_MAX_FACES + 1] = {0};
     for (int f = 0; f < c->face_count; f++) start[f + 1] = start[f] + c->face_sizes[f];
