@@ -765,11 +765,12 @@ static inline void random_cut_uvs(random_cage *c, const int *start, int v, int *
     }
 }
 
-// Cuts the UVs open: gives some of the faces a value of their own. Sometimes vertices share a value.
+// Cuts the UVs open: gives some of the faces a value of their own. Sometimes vertices share one.
 static inline void random_add_uvs(random_cage *c)
 {
     subdiv_mesh *m = &c->mesh;
-    const int total = c->vertex_count, many = !(c->features & RANDOM_LONG_SEAMS) || random_chance(c, 50);
+    const int long_seams = c->features & RANDOM_LONG_SEAMS;
+    const int total = c->vertex_count, many = !long_seams || random_chance(c, 50);
     const int cuts = random_below(c, many ? 2 + c->face_count : 4);
     int count = total, start[RANDOM_MAX_FACES + 1] = {0};
     for (int f = 0; f < c->face_count; f++) start[f + 1] = start[f] + c->face_sizes[f];
