@@ -5688,6 +5688,7 @@ static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const su
     size_t count = sdv_face_vertex_count(work);
     made->fine = *work;
     made->fine.memory = NULL;
+    made->fine.normal_count = 0;
     made->fine.vertex_count = made->cage_vertex_count = made->work_count = values->count;
     made->cage_face_count = made->face_count = work->face_count;
     made->fine.face_vertices = (int *)sdv_duplicate(context, &made->arena, values->indices, count,
@@ -5708,6 +5709,7 @@ static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, cons
     surface->work_count = work->vertex_count;
     fine->positions = NULL;
     fine->memory = NULL;
+    fine->normal_count = 0;
     fine->crease_vertices = (int *)sdv_duplicate(context, arena, work->crease_vertices, creases,
                                                  2 * sizeof(int));
     fine->crease_sharpness = (float *)sdv_duplicate(context, arena, work->crease_sharpness, creases,

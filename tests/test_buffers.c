@@ -115,7 +115,8 @@ static void check_frames(const subdiv_buffer *b, const subdiv_surface *surface,
     memcpy(moved, still, bytes);
     subdiv_vertices out = lay_out(moved, fine);
     allocations = 0;
-    CHECK_EQUAL(subdiv_evaluate_buffer(b, surface, cage->positions, &out, scratch, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_buffer(b, surface, cage->positions, &out, scratch, NULL),
+                SUBDIV_OK);
     CHECK(memcmp(moved, still, bytes) == 0);
     CHECK_EQUAL(subdiv_evaluate_buffer(b, surface, positions, &out, scratch, NULL), SUBDIV_OK);
     CHECK_EQUAL(allocations, 0);
@@ -144,8 +145,11 @@ static void test_random_cages(void)
         snprintf(context, sizeof context, "seed %u", seed);
         test_context = context;
         if (seed % 2) c->mesh.colors = c->mesh.positions;
+        c->mesh.normal_count = 5;                         // says nothing without face_normals
         CHECK_EQUAL(subdiv_prepare(&surface, &c->mesh, (int)(seed % 4), &opt), SUBDIV_OK);
         CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, c->mesh.positions, &opt), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_surface_normal_count(surface), fine.normal_count);
+        CHECK(opt.limit ? fine.normal_count >= fine.vertex_count : fine.normal_count == 0);
         for (int k = 0; k < 2; k++) {
             CHECK_EQUAL(subdiv_make_buffer(&b[k], &fine, 4 - 2 * k, NULL), SUBDIV_OK);
             check_indices(&b[k], &fine);
