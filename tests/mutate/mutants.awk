@@ -27,17 +27,18 @@ function mutant(line,    key) {
 # The line with another token, which stands after before.
 function other(before, token, rest) { mutant(before token rest comment) }
 
-function number(before, token, rest,    digits, suffix) {
+function number(before, token, rest,    digits, suffix, open) {
     if (token ~ /^0x/) return
     if (token ~ /\.|[0-9]e/) {
         if (token + 0 != 0) other(before, "(1.03125" (token ~ /f$/ ? "f" : "") " * " token ")", rest)
         return
     }
-    if (declaration && before ~ /\[$/) return       # the size of an array
+    open = gsub(/\[/, "[", before) - gsub(/\]/, "]", before)
+    if (declaration && open > 0) return             # the size of an array
     digits = token
     sub(/[uUlL]+$/, "", digits)
     suffix = substr(token, length(digits) + 1)
-    other(before, digits + 1 suffix, rest)
+    if (before !~ /SDV_NEW/) other(before, digits + 1 suffix, rest)      # more room does no harm
     if (digits + 0 > 0) other(before, digits - 1 suffix, rest)
 }
 
@@ -132,7 +133,7 @@ section == "plain" { next }
     }
     sub(/ *$/, "", code)
     if (code ~ /^ *$/) next
-    declaration = code ~ /^ *(static |const |unsigned )*(int|float|double|char|size_t|void|unsigned|u?int[0-9]*_t|sdv_[a-z_]+|subdiv_[a-z_]+) [*]*[A-Za-z_]/
+    declaration = code ~ /^ *(static |const |unsigned )*(int|float|double|char|size_t|void|unsigned|u?int[0-9]*_t|sdv_[a-z_]+|subdiv_[a-z_]+) +[*]*[A-Za-z_]/
     if (code !~ /SUBDIV_ASSERT|^[a-z].*\)$/ && code ~ /^ /) {
         tokens(code)
         conditions(code)
