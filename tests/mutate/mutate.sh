@@ -52,7 +52,10 @@ compile() {
 
 # run DIRECTORY SECONDS: 0: passed; 137 or 152: it took longer. (Some meshes of test_errors are huge.)
 run() {
-    (ulimit -t "$2"; ulimit -v 40000000; ulimit -c 0; exec env MALLOC_PERTURB_=165 "$1/test") > "$1/log" 2>&1 < /dev/null
+    (
+        ulimit -t "$2"; ulimit -v 40000000; ulimit -c 0
+        exec env MALLOC_PERTURB_=165 "$1/test"
+    ) > "$1/log" 2>&1 < /dev/null
 }
 
 # The header itself must pass. Notes which tests it passes in time: they get twice as long, and what
