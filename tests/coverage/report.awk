@@ -36,7 +36,8 @@ END {
         if (text[at] ~ /^\/\/ -+ >>/) {
             section = text[at]
             sub(/.*>>/, "", section)
-            order[++sections] = section
+            if (!(section in known)) order[++sections] = section
+            known[section] = 1
         }
         if (!(at in code)) continue
         never = ""
