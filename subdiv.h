@@ -5519,6 +5519,7 @@ static void sdv_find_sides(sdv_context *context, sdv_arena *arena, subdiv_surfac
 static void sdv_clear_result(subdiv_surface *surface)
 {
     surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
+    surface->fine.normal_count = 0;
     surface->first_face = NULL;
 }
 
