@@ -5289,8 +5289,7 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
     sdv_begin_fill(fill, surface, level, level + 1 >= surface->levels + rules->limit);
     for (int v = 0; v < cage->vertex_count; v++) {
         if (cage->vertex_first[v] >= 0) continue;
-        if (limit) sdv_stay_row(writer, 1, fill->base + v, v);
-        else sdv_vertex_row(cage, rules, v, fill->target + v, writer);
+        sdv_stay_row(writer, limit != NULL, fill->base + v, limit ? v : fill->target + v);
     }
     for (int f = 0; f < cage->face_count && !writer->context->result; f++) {
         int start = sdv_face_start(cage, f), end = sdv_face_end(cage, f);
