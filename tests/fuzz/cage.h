@@ -214,7 +214,7 @@ static void poke(bytes *b)
     int *indices[] = { m->face_vertices, m->face_uvs, m->crease_vertices, m->corner_vertices,
                        m->holes, m->statement_faces, m->face_sizes };
     float *numbers[] = { m->positions, m->uvs, m->colors, m->normals, m->crease_sharpness };
-    int i;
+    int i, *index;
     switch (below(b, 6)) {
     case 0:
         i = below(b, 8);
@@ -222,7 +222,9 @@ static void poke(bytes *b)
         break;
     case 1: case 2:
         i = below(b, 7);
-        if (indices[i]) indices[i][below(b, i < 2 ? c.sum : i == 6 ? c.faces : 4)] = any_int(b);
+        if (!indices[i]) break;
+        index = &indices[i][below(b, i < 2 ? c.sum : i == 6 ? c.faces : 4)];
+        *index = i == 6 && below(b, 2) ? below(b, *index) : i == 6 ? -1 - take(b) : any_int(b);
         break;
     case 3:
         i = below(b, 5);
