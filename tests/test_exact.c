@@ -352,7 +352,7 @@ static void test_vertices(void)
 }
 
 // On a regular fan the first derivative along an edge changes by twice the eigenvalue from one
-// level to the next, and du at the vertex is what it tends to.
+// level to the next, and du at the vertex is what it tends to. Points stand where du leads.
 static void check_eigenvalue(int loop, int n)
 {
     test_cage c;
@@ -371,6 +371,12 @@ static void check_eigenvalue(int loop, int n)
         before = now;
     }
     sample s = evaluate(&r, f, 0, 0, 0), beside = evaluate(&r, f, 0, ldexp(1, -60), 0);
+    for (int level = 4; level < 12; level++) {
+        sample there = evaluate(&r, f, 0, ldexp(1, -level), 0);
+        float sum[3], way = (float)distance(there.p, s.p), size = (float)length(there.du);
+        for (int k = 0; k < 3; k++) sum[k] = (there.p[k] - s.p[k]) / way + there.du[k] / size;
+        CHECK_NEAR(length(sum), 2, 0.02);
+    }
     CHECK(length(s.du) > 0);
     for (int k = 0; k < 3 && n < 8; k++)           // with higher valence it tends too slowly
         CHECK_NEAR((double)s.du[k] / length(s.du), (double)beside.du[k] / length(beside.du), 1e-5);
