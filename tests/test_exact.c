@@ -380,6 +380,18 @@ static void check_eigenvalue(int loop, int n)
     CHECK(length(s.du) > 0);
     for (int k = 0; k < 3 && n < 8; k++)           // with higher valence it tends too slowly
         CHECK_NEAR((double)s.du[k] / length(s.du), (double)beside.du[k] / length(beside.du), 1e-5);
+    for (int level = 4; level < 24; level += 4) {  // second derivatives: how the first change
+        double u = ldexp(1, -level), v = 0.75 * u, h = u / 32;
+        sample at = evaluate(&r, f, 0, u, v);
+        sample left = evaluate(&r, f, 0, u - h, v), below = evaluate(&r, f, 0, u, v - h);
+        sample right = evaluate(&r, f, 0, u + h, v), above = evaluate(&r, f, 0, u, v + h);
+        double size = length(at.duu) + length(at.duv) + length(at.dvv) + 1e-4 * length(at.du) / h;
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR((right.du[k] - left.du[k]) / (2 * h), at.duu[k], 0.02 * size);
+            CHECK_NEAR((above.du[k] - below.du[k]) / (2 * h), at.duv[k], 0.02 * size);
+            CHECK_NEAR((above.dv[k] - below.dv[k]) / (2 * h), at.dvv[k], 0.02 * size);
+        }
+    }
     put_away(&r);
     test_context = "";
 }

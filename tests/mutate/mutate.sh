@@ -27,7 +27,7 @@ tests_of() {
     limit-rows|limit-surface|normals) echo limit evaluate vertex_rules exact ;;
     platform|grids|evaluate|results*|calls) echo recorded order evaluate limit errors uv ;;
     split|patches|nests|leaves|locations|cells|polynomials|samples|exact-surface)
-        echo exact exact_oracle patches vertex_rules ;;
+        echo exact stencils exact_oracle vertex_rules ;;
     stencils) echo stencils doors ;;
     tile*|tessellator) echo tessellate doors errors ;;
     generators) echo creases check ;;
