@@ -2661,6 +2661,7 @@ static sdv_mask sdv_smooth_edge(const sdv_rules *rules, int faces)
 static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int faces)
 {
     sdv_mask masks[SDV_CORNER + 1];
+    if (faces == 0) return sdv_corner_vertex();
     masks[SDV_SMOOTH] = masks[SDV_DART] = sdv_smooth_vertex(rules, faces);
     masks[SDV_CREASE] = sdv_crease_vertex();
     masks[SDV_CORNER] = sdv_corner_vertex();
