@@ -4764,6 +4764,8 @@ typedef struct sdv_limit_writer {       // writes limit rows
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
     int        *seen, marks;            // see sdv_find_rays
+    unsigned char *last;                // [vertex_count] twice its last rule, and is it settled?
+                                        //      UCHAR_MAX: not known yet
 } sdv_limit_writer;
 
 // Returns the open batch for rows of a kind; -1: out of memory. It has the weights [3][points] for
@@ -4799,16 +4801,21 @@ static void sdv_settled_row(sdv_limit_writer *limit, int kind, int faces, int ta
     if (number >= 0) sdv_copy_row(limit->writer, number, &open[number].shape, target);
 }
 
-// Finds the sector that has the face of h. Returns the rule of its vertex when all has faded.
-static sdv_rule sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
+// Returns the rule of a vertex when all has faded.
+static sdv_rule sdv_last_rule(const sdv_level *level, int v)
+{
+    float corner = level->vertex_sharpness[v];
+    return sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
+                           sdv_count_sharp_edges(level, v).forever);
+}
+
+// Finds the sector, of a vertex with this last rule, that has the face of h.
+static void sdv_find_sector(const sdv_level *level, int h, sdv_rule rule, sdv_sector *s)
 {
     int v = level->face_vertices[h], first = h, at = -1, q;
-    float corner = level->vertex_sharpness[v];
-    sdv_rule rule = sdv_vertex_rule(corner < SUBDIV_INFINITE ? 0 : corner,
-                                    sdv_count_sharp_edges(level, v).forever);
     s->first = h;
     s->faces = s->edges = level->vertex_faces[v];
-    if (!level->creased[v] && corner < SUBDIV_INFINITE) return rule;
+    if (!level->creased[v] && level->vertex_sharpness[v] < SUBDIV_INFINITE) return;
     while (level->sharpness[first] < SUBDIV_INFINITE && at != h) {     // clockwise
         at = sdv_next(level, level->across[first]);
         if (at != h) first = at;
@@ -4825,7 +4832,6 @@ static sdv_rule sdv_find_sector(const sdv_level *level, int h, sdv_sector *s)
     }
     s->first = first;
     s->edges = s->faces + open;
-    return rule;
 }
 
 // Writes the points of a sector, without the vertex.
@@ -4863,13 +4869,13 @@ static int sdv_last_of_edge(const sdv_level *level, int h)
     return h;
 }
 
-// Finds the rays of a sector and those of other sharp edges at the vertex. limit->seen marks the
-// edges of the sector, each at the last face-vertex of its ring, with a new mark.
+// Finds the rays of a sector. limit->seen marks its edges, each at the last face-vertex of its ring,
+// with a new mark.
 static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
     int v = level->face_vertices[s->first], mark = ++limit->marks;
-    s->corner = level->vertex_sharpness[v];
+    s->corner = limit->last[v] / 2 == SDV_CORNER ? SUBDIV_INFINITE : level->vertex_sharpness[v];
     for (int i = 0, at = s->first; i < s->edges; i++) {
         int before = sdv_previous(level, at), end = i == s->faces, h = end ? before : at;
         sdv_find_ray(limit, h, end, &s->rays[i]);
@@ -4877,6 +4883,13 @@ static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
         if (i + 1 < s->faces) at = level->across[before];
     }
     s->count = s->edges;
+}
+
+// Adds the rays of sharp edges that are not in the sector.
+static void sdv_add_other_rays(sdv_limit_writer *limit, sdv_sector *s)
+{
+    const sdv_level *level = limit->level;
+    int v = level->face_vertices[s->first], mark = limit->marks;
     for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k])
         for (int end = 0; end < 2; end++) {
             int h = end ? sdv_previous(level, k) : k;
@@ -4973,16 +4986,23 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
         sdv_settled_row(limit, SDV_LINEAR, 0, target);
         return;
     }
+    if (limit->last[v] == UCHAR_MAX)
+        limit->last[v] = (unsigned char)(2 * (int)sdv_last_rule(level, v) +
+                                         sdv_vertex_settled(level, v));
     sdv_sector *s = &limit->states[0];
-    sdv_rule rule = sdv_find_sector(level, h, s);
+    sdv_rule rule = (sdv_rule)(limit->last[v] / 2);
+    int corner = rule == SDV_CORNER, settled = limit->last[v] & 1;
+    sdv_find_sector(level, h, rule, s);
     sdv_add_sector(level, s, limit->rules->loop, points + 1);
-    if (sdv_vertex_settled(level, v)) {
-        int wedge = rule == SDV_CORNER && s->edges > s->faces;
+    if (!settled) sdv_find_rays(limit, s);
+    if (!settled && corner) settled = !sdv_sector_fades(s);     // other sectors do not matter
+    if (settled) {
+        int wedge = corner && s->edges > s->faces;
         sdv_settled_row(limit, wedge ? SDV_WEDGE : (int)rule, s->faces, target);
-    } else {
-        sdv_find_rays(limit, s);
-        sdv_fading_row(limit, target);
+        return;
     }
+    if (!corner || limit->rules->creasing == SUBDIV_CREASING_CHAIKIN) sdv_add_other_rays(limit, s);
+    sdv_fading_row(limit, target);
 }
 
 // fill: of the level, if its points stand on lines; else NULL.
@@ -4997,6 +5017,8 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
     limit->level = level;
     limit->rules = rules;
     limit->fill = fill;
+    limit->last = SDV_NEW(context, scratch, unsigned char, level->vertex_count);
+    if (limit->last) memset(limit->last, UCHAR_MAX, (size_t)level->vertex_count);
     limit->known = SDV_NEW(context, scratch, int, known);
     limit->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
     limit->room = SDV_NEW(context, scratch, double, 2 * most + 2);
@@ -5453,9 +5475,9 @@ static int sdv_is_seen(const subdiv_surface *surface, const sdv_level *cage, int
 
 // Finds the sector of the face of h. Each edge of a linear surface is a crease.
 static void sdv_find_side(const subdiv_surface *surface, const sdv_level *cage, int h,
-                          sdv_sector *s)
+                          sdv_rule rule, sdv_sector *s)
 {
-    sdv_find_sector(cage, h, s);
+    sdv_find_sector(cage, h, rule, s);
     if (!surface->rules.linear) return;
     s->first = h;
     s->faces = 1;
@@ -5469,12 +5491,13 @@ static void sdv_number_vertex_sides(const subdiv_surface *surface, const sdv_lev
     int first = cage->vertex_first[v], *side = sides->vertex;
     sdv_sector s;
     if (first < 0) return;
-    sdv_find_side(surface, cage, sdv_first_seen(surface, cage, cage->vertex_next, first), &s);
+    sdv_rule rule = sdv_last_rule(cage, v);
+    sdv_find_side(surface, cage, sdv_first_seen(surface, cage, cage->vertex_next, first), rule, &s);
     if (s.faces == cage->vertex_faces[v]) return;
     sdv_mark_side(cage, &s, INT_MAX, side);
     for (int h = first; h >= 0; h = cage->vertex_next[h]) {
         if (side[h] >= 0 || !sdv_is_seen(surface, cage, h)) continue;
-        sdv_find_side(surface, cage, h, &s);
+        sdv_find_side(surface, cage, h, rule, &s);
         sdv_mark_side(cage, &s, sides->vertices, side);
         sides->vertex_home[sides->vertices++] = h;
     }
@@ -10011,7 +10034,8 @@ typedef struct sdv_curve {
 } sdv_curve;
 
 // Makes the row at y = at or, turned, the column at x = at. c[i + n j] is the coefficient of x^i
-// y^j, n = 4 or, under Loop, 5. loop, turned and tangents are constants: what is not asked for, the compiler leaves out.
+// y^j, n = 4 or, under Loop, 5. loop, turned and tangents are constants: what is not asked for, the
+// compiler leaves out.
 SDV_INLINE void sdv_make_curve(const sdv_four *c, int loop, int turned, int tangents, float at,
                                sdv_curve *curve)
 {
