@@ -5477,10 +5477,9 @@ static int sdv_is_seen(const subdiv_surface *surface, const sdv_level *cage, int
 static void sdv_find_side(const subdiv_surface *surface, const sdv_level *cage, int h,
                           sdv_rule rule, sdv_sector *s)
 {
-    sdv_find_sector(cage, h, rule, s);
-    if (!surface->rules.linear) return;
     s->first = h;
     s->faces = 1;
+    if (!surface->rules.linear) sdv_find_sector(cage, h, rule, s);
 }
 
 // Numbers the sides of the creases at vertex v, but the first and those without a face in the
@@ -5525,12 +5524,15 @@ static void sdv_find_sides(sdv_context *context, sdv_arena *arena, subdiv_surfac
     for (size_t i = 0; i < count; i++) sides->vertex[i] = sides->edge[i] = -1;
     for (int v = 0; v < cage->vertex_count; v++)
         sdv_number_vertex_sides(surface, cage, v, sides);
-    for (int h = 0; h < cage->face_vertex_count; h++) {
-        if (cage->sharpness[h] < least || !sdv_is_seen(surface, cage, h)) continue;
-        int e = cage->face_edges[h];
-        if (sdv_first_seen(surface, cage, cage->across, cage->edge_first[e]) == h) continue;
-        sides->edge[h] = sides->edges;
-        sides->edge_home[sides->edges++] = h;
+    for (int e = 0; e < cage->edge_count; e++) {
+        int first = cage->edge_first[e], h = first;
+        if (cage->sharpness[h] < least) continue;
+        int own = sdv_first_seen(surface, cage, cage->across, h);
+        do {
+            if (h == own || !sdv_is_seen(surface, cage, h)) continue;
+            sides->edge[h] = sides->edges;
+            sides->edge_home[sides->edges++] = h;
+        } while ((h = cage->across[h]) != first);
     }
     int64_t all = sdv_count_sides(sides, surface->order.n) + surface->order.count;
     if (all > INT_MAX)
