@@ -561,7 +561,7 @@ static void run_backward(void *user, void (*job)(void *context, int i), void *co
     while (count--) job(context, count);
 }
 
-static int cages = 12;                // random ones
+static int cages = 5;                 // random ones
 
 static void check_error(const subdiv_error *error, subdiv_result code)
 {
