@@ -749,8 +749,9 @@ static subdiv_result make_room_for_curves(work *w, size_t points, size_t vertice
     subdiv_error *error = opt->error;
     if (cage->line_count == 0) strcpy(error->message, "there are no polylines (l) to refine");
     if (cage->line_count == 0) return SUBDIV_ERROR_EMPTY;
-    w->points = points > INT_MAX ? NULL : (float *)malloc(3 * points * sizeof *w->points);
-    w->colors = w->points && cage->colors ? (float *)malloc(3 * points * sizeof *w->colors) : NULL;
+    w->points = points > INT_MAX ? NULL : (float *)malloc(3 * points * sizeof *w->points + 1);
+    w->colors = !w->points || !cage->colors ? NULL
+              : (float *)malloc(3 * points * sizeof *w->colors + 1);
     w->numbers = (int *)malloc(((size_t)cage->line_count + vertices) * sizeof *w->numbers);
     if (!w->points || !w->numbers || (cage->colors && !w->colors)) {
         strcpy(error->message, "the curves have too many points");

@@ -16,12 +16,12 @@ has() {
 # Recursion, apart from:
 #     subdiv_surface_free    the values of a surface, and its surface of level 1: 3 deep
 #     sdv_prepare            for the limit of level 0, that of level 1: 2 deep
-#     sdv_set_cut, sdv_set_nest_face      squares into quarters, down to SDV_CELL_LEVELS
+#     sdv_set_cut            areas into quarters, down to SDV_CELL_LEVELS
 #     sdv_compose            a point from those of the level before: as deep as there are levels
 recursion() {
     clang-tidy --quiet --checks=-*,misc-no-recursion $out/subdiv.c -- -std=c99 -I. 2>&1 |
         sed -n "s/.*function '\(.*\)' is within a recursive.*/\1/p" | sort > $out/recursive
-    printf '%s\n' sdv_compose sdv_prepare sdv_set_cut sdv_set_nest_face subdiv_surface_free |
+    printf '%s\n' sdv_compose sdv_prepare sdv_set_cut subdiv_surface_free |
         diff - $out/recursive
 }
 
