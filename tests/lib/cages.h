@@ -349,7 +349,7 @@ typedef struct edge_list {
 
 static inline int *int_array(int count, int value)
 {
-    int *a = malloc(sizeof *a * (size_t)(count + 1));
+    int *a = (int *)malloc(sizeof *a * (size_t)(count + 1));
     if (!a) abort();
     for (int i = 0; i < count; i++) a[i] = value;
     return a;
