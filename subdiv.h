@@ -519,8 +519,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // the mesh gets new ones.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
-// Does the same, and takes edges for creases, too, where the normals of the two faces differ by
-// more than this many degrees, 0 to 180, as subdiv_crease_by_angle does.
+// Gives a mesh such normals, and splits them also at edges where the normals of the two faces
+// differ by more than this many degrees, 0 to 180, as subdiv_crease_by_angle does.
 SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degrees,
                                                  const subdiv_options *opt);
 
@@ -1196,7 +1196,8 @@ SDV_INLINE void sdv_prefetch(const float *p)
 #define SDV_SEPARATE 0
 #endif
 
-// Is told, under SDV_SEPARATE, of the bytes between the arrays of a mesh: fuzzers poison them.
+// SDV_GUARD is told, under SDV_SEPARATE, of the bytes between the arrays of a mesh: fuzzers poison
+// them.
 #ifndef SDV_GUARD
 #define SDV_GUARD(bytes, size) ((void)(bytes), (void)(size))
 #endif
@@ -4869,8 +4870,8 @@ static int sdv_last_of_edge(const sdv_level *level, int h)
     return h;
 }
 
-// Finds the rays of a sector. limit->seen marks its edges, each at the last face-vertex of its ring,
-// with a new mark.
+// Finds the rays of a sector. limit->seen gives its edges a new mark, each at the last face-vertex
+// of its ring.
 static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
 {
     const sdv_level *level = limit->level;
@@ -8695,8 +8696,8 @@ static inline int sdv_face_kinds(const sdv_level *level, int f, int size)
     return size == 4 ? found | kinds[v[3]] : found;
 }
 
-// Adds the patches of a level, in the order of its faces, and marks faces of the core without one as
-// rough. There are at most as many patches as faces whose vertices are not rough; that is about how
+// Adds the patches of a level, in the order of its faces, and marks faces of the core without a
+// patch as rough. There are at most as many patches as faces whose vertices are not rough; that is about how
 // many there are, so the array is of this size, and a bit larger only if a later level adds to it.
 static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rules *rules,
                              sdv_array *patches)
@@ -9550,8 +9551,8 @@ static int sdv_strip_over(const sdv_strips *strips, int from, int to)
     return -1;
 }
 
-// Sets the cells of an area that is on a patch cut into strips, of a level: one cell, if one part of
-// the patch is all over the area.
+// Sets the cells of an area on a patch, of a level, that is cut into strips: a single cell if one
+// part of the patch covers the area.
 static void sdv_set_cut(sdv_cell_maker *maker, const sdv_area *area, const sdv_patch *patch,
                         int level)
 {
@@ -10084,9 +10085,9 @@ static void sdv_mirror_quad(int sharp, double (*p)[4])
     }
 }
 
-// Mirrors the control points of a triangle. Around vertex v, counter-clockwise, stand r[0] and r[1],
-// the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across the edge
-// after.
+// Mirrors the control points of a triangle. Around vertex v, counter-clockwise, stand r[0] and
+// r[1], the other vertices of the face; r[2] across the edge before; r[3], r[4]; r[5] across the
+// edge after.
 static void sdv_mirror_triangle(const sdv_patch *patch, double (*p)[4])
 {
     for (int i = 0; i < 3; i++) {
@@ -10648,7 +10649,8 @@ static void sdv_nest_polynomial(sdv_nest_sample *s, const sdv_patch *patch)
     int count = sdv_control_points(&surface->rules);
     if (!s->like || s->like->sharp != patch->sharp ||
         memcmp(s->like->fan, patch->fan, sizeof patch->fan) != 0)
-        for (int i = 0; i < count; i += 4) sdv_unit_polynomial(surface, patch, 0, i, s->units[i / 4]);
+        for (int i = 0; i < count; i += 4)
+            sdv_unit_polynomial(surface, patch, 0, i, s->units[i / 4]);
     s->like = patch;
     for (int k = 0; k < SDV_SLOTS; k++) {
         double sum[4] = { 0, 0, 0, 0 };
@@ -12840,7 +12842,7 @@ typedef struct sdv_bend {
     double cosine, sine;
 } sdv_bend;
 
-// Up to 0.001 degrees more are rounding.
+// Returns the bend of so many degrees. Up to 0.001 degrees more are rounding.
 static sdv_bend sdv_largest_bend(sdv_context *context, float degrees)
 {
     int valid = degrees >= 0 && degrees <= 180;
