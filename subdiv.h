@@ -8697,8 +8697,9 @@ static inline int sdv_face_kinds(const sdv_level *level, int f, int size)
 }
 
 // Adds the patches of a level, in the order of its faces, and marks faces of the core without a
-// patch as rough. There are at most as many patches as faces whose vertices are not rough; that is about how
-// many there are, so the array is of this size, and a bit larger only if a later level adds to it.
+// patch as rough. There are at most as many patches as faces whose vertices are not rough; that is
+// about how many there are, so the array is of this size, and a bit larger only if a later level
+// adds to it.
 static void sdv_find_patches(sdv_writer *writer, sdv_level *level, const sdv_rules *rules,
                              sdv_array *patches)
 {
