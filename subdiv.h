@@ -1287,7 +1287,6 @@ static void sdv_add_block(sdv_context *context, sdv_arena *arena, size_t size)
     arena->blocks = block;
     arena->free = (char *)(block + 1);
     arena->left = size;
-    arena->chunk *= 2;
 }
 
 // Makes sure that the next arrays of an arena, size bytes in all, come from one block.
@@ -1295,6 +1294,7 @@ static void sdv_reserve(sdv_context *context, sdv_arena *arena, size_t size)
 {
     if (SDV_SEPARATE || size <= arena->left) return;
     sdv_add_block(context, arena, size < arena->chunk ? arena->chunk : size);
+    arena->chunk *= 2;
 }
 
 // Allocates count items, not cleared. Never NULL while context->result is SUBDIV_OK.
@@ -14233,6 +14233,7 @@ SDV_INLINE void sdv_series_add(sdv_context *context, sdv_arena *series, const vo
     if (series->left == 0) {
         sdv_add_block(context, series, series->chunk);
         if (context->result) return;
+        series->chunk *= 2;
     }
     memcpy(series->free, item, size);
     series->free += size;
@@ -15531,7 +15532,7 @@ static subdiv_result sdv_write_path(sdv_context *context, const subdiv_mesh *mes
     size_t size = strlen(path) + 16;
     char *beside = SDV_NEW(context, &arena, char, size);
     context->name = path;
-    for (int done = 0, again = 0; !done && !context->result; again = 1) {
+    for (int done = !beside, again = 0; !done && !context->result; again = 1) {
         FILE *file = again ? NULL : sdv_open_beside(context, path, beside, size);
         done = !file;
         if (!file) file = sdv_open(context, path, "wb");

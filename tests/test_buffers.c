@@ -90,10 +90,11 @@ static float *fill(const subdiv_buffer *b, const subdiv_mesh *mesh)
     subdiv_vertices out = lay_out(data, mesh);
     CHECK_EQUAL(subdiv_fill_buffer(b, mesh, &out, NULL), SUBDIV_OK);
     for (int v = 0; v < b->vertex_count; v++) {
-        const float *at = data + STRIDE * v, *uv = mesh->uvs + 2 * b->uvs[v];
+        const float *at = data + STRIDE * v;
         CHECK(memcmp(at + 1, mesh->positions + 3 * b->points[v], 12) == 0);
         if (out.normals) CHECK(memcmp(at + 4, mesh->normals + 3 * b->normals[v], 12) == 0);
-        if (out.uvs) CHECK(b->uvs[v] < 0 ? at[7] == 0 : memcmp(at + 7, uv, 8) == 0);
+        if (out.uvs && b->uvs[v] < 0) CHECK(at[7] == 0 && at[8] == 0);
+        else if (out.uvs) CHECK(memcmp(at + 7, mesh->uvs + 2 * b->uvs[v], 8) == 0);
         if (out.colors) CHECK(memcmp(at + 10, mesh->colors + 3 * b->points[v], 12) == 0);
         CHECK(at[0] == 0);
     }
