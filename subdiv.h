@@ -15849,7 +15849,7 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
     sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
     int loop = x->rules.loop, k = (int)x->rules.vertex_rule;
     double w = 1.0 / ((double)n * n), warren = n == 3 ? 0.1875 : 0.375 / n;
-    double c = 0.375 + 0.25 * sdv_cosine(1, n), b = (0.625 - c * c) / n;
+    double c = 0.375 + 0.25 * (n ? sdv_cosine(1, n) : 0), b = (0.625 - c * c) / n;
     const struct { const char *text; double self, edge, face, crease; } formulas[] = {
         { "(n-2)/n v + (e1 + ... + en)/n^2 + (f1 + ... + fn)/n^2", (n - 2.0) / n, w, w, 0 },
         { "Q/4 + R/2 + v/4  [CC78]\n", 0.5, 0.25 / n, 0.25 / n, 0 },
