@@ -410,7 +410,7 @@ static void sample(const subdiv_surface *s, int inputs, const float *in, int cha
             REQUIRE(memcmp(one_normal, normals + 3 * i, sizeof one_normal) == 0);
         }
         double largest, value = sum_stencil(&made, i, in, channels, inputs, &largest);
-        REQUIRE(fabs(value - (double)one[0]) <= 1e-5 * largest * (double)most);
+        REQUIRE(fabs(value - (double)one[0]) <= 1e-5 * largest * (double)most + FLT_MIN);
     }
     subdiv_stencils_free(&made);
     free(scratch);
@@ -437,7 +437,7 @@ static void meet_limit(const subdiv_surface *s)
             REQUIRE(settled(subdiv_evaluate_at(s, 3, scratch, 1, &at, &out, &opt)));
             if (is_zero(p, sizeof p) && is_zero(n, sizeof n)) continue;         // no surface
             for (int k = 0; k < 3; k++)
-                REQUIRE(fabsf(p[k] - limit.positions[3 * v[i] + k]) <= 1e-5f * reach());
+                REQUIRE(fabsf(p[k] - limit.positions[3 * v[i] + k]) <= 1e-5f * reach() + FLT_MIN);
         }
     subdiv_mesh_free(&limit);
     free(scratch);

@@ -219,6 +219,9 @@ static void evaluate(void)
     free(in), free(out), free(scratch);
 }
 
+// Returns how many of all there are from a first one on, which may be a wrong one.
+static int rest(int all, int first) { return first < 0 ? all : all - first; }
+
 // Of the points and faces that there are, or not; from scratch that nobody filled.
 static void evaluate_part(void)
 {
@@ -227,9 +230,10 @@ static void evaluate_part(void)
     int stride = a_stride(channels);
     float *p = floats(s->points), *n = floats(s->points), *t = floats(s->points);
     void *scratch = scratch_for(s, channels), *from = needed(scratch);
-    int face = spoil(0, 0, s->faces + 1), faces = spoil(s->faces - face, 0, s->faces - face + 1);
+    int face = spoil(0, 0, s->faces + 1), left = rest(s->faces, face);
+    int faces = spoil(left, 0, left + 1);
     int point = spoil(0, 0, s->points + 1);
-    int points = spoil(s->points - point, 0, s->points - point + 1);
+    int points = spoil(rest(s->points, point), 0, rest(s->points, point) + 1);
     subdiv_limit where = { p, n, below(b, 2) ? t : NULL, stride, NULL }, *to = &where;
     if (limit) {
         to = (subdiv_limit *)needed(to);
@@ -296,7 +300,7 @@ static void stencils(void)
     const slot *s = a_slot();
     subdiv_stencils made, *to = (subdiv_stencils *)needed(&made);
     int point = spoil(0, 0, s->points + 1);
-    int points = spoil(s->points - point, 0, s->points - point + 1);
+    int left = rest(s->points, point), points = spoil(left, 0, left + 1);
     memset(&made, 0x55, sizeof made);
     spoiled += !s->surface || s->exact;
     int good = end_call(subdiv_refined_stencils(to, s->surface, point, points, opt));
