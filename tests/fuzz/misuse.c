@@ -77,6 +77,13 @@ static const slot *a_slot(void)
     return &slots[below(b, SURFACES)];
 }
 
+// Levels that are right, or too many even for this little cage.
+static int spoil_levels(int right, int low)
+{
+    int levels = spoil(right, low, 4);
+    return levels > 3 ? levels | 32 : levels;
+}
+
 static int a_stride(int channels)         // at most STRIDE, or it would be a lie
 {
     int stride = below(b, 4) ? 0 : any_int(b);
@@ -113,8 +120,7 @@ static void prepare(void)
     plain.limit = below(b, 2);
     plain.linear = below(b, 4) == 3;
     cage.scheme = (subdiv_scheme)below(b, 3);
-    levels = spoil(levels, -1, 4);
-    if (levels > 3) levels |= 32;         // too many even for this little cage
+    levels = spoil_levels(levels, -1);
     made.limit = opt && plain.limit && levels >= 0 && !values;
     made.exact = levels == SUBDIV_EXACT;
     made.values = values;
@@ -153,7 +159,7 @@ static void make_mesh(void)
     if (how.rate > 100) spoiled++;        // the heap is small
     if (kind < 2 && !positions) spoiled--;
     if (kind >= 2) spoiled += !s->surface || s->values || s->exact != (kind == 3);
-    if (kind == 0) result = subdiv_refine(to, of, spoil(1, 0, 4), opt);
+    if (kind == 0) result = subdiv_refine(to, of, spoil_levels(1, 0), opt);
     else if (kind == 1) result = subdiv_tessellate(to, of, &how, opt);
     else if (kind == 3) result = subdiv_surface_tessellate(to, s->surface, positions, &how, opt);
     else result = subdiv_surface_mesh(to, s->surface, positions, opt);
