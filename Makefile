@@ -34,8 +34,8 @@ endif
 # Tests that look inside or bring an allocator compile the implementation themselves. The compiler
 # takes longer for tests than they run, so they are optimised less.
 TEST_FLAGS = $(subst -O2,-O1,$(FLAGS)) $(THREADS)
-OWN      = buffers evaluate memory exact patches obj_numbers
-PLAIN    = doors tessellate stencils exact_oracle limit obj_read obj_write masks order invariants \
+OWN      = buffers evaluate memory exact obj_numbers
+PLAIN    = doors tessellate stencils exact_oracle patches limit obj_read obj_write masks order invariants \
            recorded creases check errors uv partial_uvs vertex_rules normals threads stack \
            limits curves
 TESTS    = $(OWN) $(PLAIN) growth
