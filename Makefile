@@ -7,7 +7,8 @@
 # make check    the header under every compiler, standard and sanitizer that is installed
 # make platforms    the same bits on other platforms, with all cross compilers and emulators that
 #               are installed
-# make fuzz     the fuzzers under clang's sanitizers, each for SECONDS=60, with what they found before
+# make fuzz     the fuzzers under clang's sanitizers, each for SECONDS=60, with what they found before;
+#               SEED=0 makes other inputs each time
 # make coverage what the tests reach of the header, with gcc and gcov
 # make mutate   what the tests notice of changes to the header; an hour or two
 # make clean
