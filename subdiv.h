@@ -2378,11 +2378,13 @@ typedef struct sdv_fading {
     double weight;                      // mean sharpness of what fades away here, at most 1
 } sdv_fading;
 
-// The sharp edges at a vertex: how many now, on the next level and forever, and the sum of the
-// sharpness of those that fade away until the next level.
+// The sharp edges at a vertex: how many now, on the next level and forever, the sum of the
+// sharpness of those that fade away until the next level, and of those that are semi-sharp there.
 typedef struct sdv_sharp_edges {
     int   now, next, forever;
     float ending;
+    int   semi;
+    float sum;
 } sdv_sharp_edges;
 
 // half: what is left of an edge one level down.
@@ -2393,11 +2395,14 @@ static void sdv_meet_edge(sdv_sharp_edges *edges, float sharpness, float half)
     edges->next += half > 0;
     edges->forever += sharpness >= SUBDIV_INFINITE;
     if (half <= 0) edges->ending += sharpness;
+    if (!sdv_is_semi_sharp(half)) return;
+    edges->semi++;
+    edges->sum += half;
 }
 
 static sdv_sharp_edges sdv_count_sharp_edges(const sdv_level *level, int v)
 {
-    sdv_sharp_edges edges = { 0, 0, 0, 0 };
+    sdv_sharp_edges edges = { 0, 0, 0, 0, 0, 0 };
     for (int h = level->vertex_first[v]; h >= 0 && level->creased[v]; h = level->vertex_next[h]) {
         int two[2] = { h, sdv_previous(level, h) };
         for (int i = 0; i < 2; i++)
@@ -3996,7 +4001,7 @@ static sdv_shape sdv_odd_shape(const sdv_rules *rules, const float *key, int who
 static sdv_shape sdv_even_shape(const sdv_rules *rules, const float *key, int whole)
 {
     int loop = rules->loop, regular = loop ? 6 : 4;
-    sdv_sharp_edges sharp = { 0, 0, 0, 0 };
+    sdv_sharp_edges sharp = { 0, 0, 0, 0, 0, 0 };
     for (int k = 0; k < 2; k++) sdv_meet_edge(&sharp, key[k], key[2 + k]);
     sdv_mask mask = sdv_vertex_mask(rules, sdv_fading_of(key[4], &sharp), regular);
     if (!loop) mask = sdv_spread_vertex(mask, regular);
@@ -4607,9 +4612,9 @@ typedef struct sdv_ray {                // an edge at the vertex: its sharpness 
 typedef struct sdv_sector {
     int      first;                     // its first face-vertex
     int      faces, edges;              // an open sector has one edge more than faces
-    int      count;
-    sdv_ray *rays;                      // [count] the edges, then sharp ones of other sectors
+    sdv_ray *rays;                      // [edges]
     float    corner;                    // the sharpness of the vertex
+    const sdv_sharp_edges *sharp;       // of all sectors at the vertex, on this and later levels
 } sdv_sector;
 
 enum { SDV_FADE_LEVELS = 11 };          // after so many, all that is semi-sharp is gone
@@ -4625,41 +4630,62 @@ static void sdv_settle(sdv_sector *s, sdv_rule rule, int faces, int open)
 {
     const float forever = SUBDIV_INFINITE;
     const sdv_ray smooth = { 0, 0, 0 }, sharp = { forever, forever, forever };
+    static const sdv_sharp_edges edges[] = {
+        { 0, 0, 0, 0, 0, 0 }, { 1, 1, 1, 0, 0, 0 }, { 2, 2, 2, 0, 0, 0 }
+    };
     s->faces = faces;
-    s->count = s->edges = faces + open;
+    s->edges = faces + open;
     s->corner = rule == SDV_CORNER ? SUBDIV_INFINITE : 0;
+    s->sharp = &edges[open ? 2 : rule == SDV_DART];
     for (int i = 0; i < s->edges; i++) s->rays[i] = smooth;
     if (open || rule == SDV_DART) s->rays[0] = sharp;
     if (open) s->rays[faces] = sharp;
 }
 
+// Does anything fade that the sector depends on? At corners those are its own edges alone.
 static int sdv_sector_fades(const sdv_sector *s)
 {
     int fades = sdv_is_semi_sharp(s->corner);
-    for (int i = 0; i < s->count; i++) fades |= sdv_is_semi_sharp(s->rays[i].now);
+    if (s->corner < SUBDIV_INFINITE) fades |= s->sharp->now > s->sharp->forever;
+    for (int i = 0; i < s->edges; i++) fades |= sdv_is_semi_sharp(s->rays[i].now);
     return fades;
+}
+
+// Makes the rays of the next level. edges: all at the vertex, on this level. to may be from.
+static void sdv_fade_rays(const sdv_rules *rules, const sdv_sharp_edges *edges,
+                          const sdv_ray *from, int count, sdv_ray *to)
+{
+    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN;   // uniform: no edge counts others
+    int semi = chaikin ? edges->semi : 0;
+    float sum = chaikin ? edges->sum : 0;
+    for (int i = 0; i < count; i++) {
+        float s = from[i].half, other = from[i].behind;
+        to[i].now = s;
+        to[i].half = sdv_fade_chaikin(s, sum, semi);
+        to[i].behind = sdv_fade_chaikin(s, s + other, 1 + (chaikin && other > 0));
+    }
+}
+
+// Counts the sharp edges at a vertex, of which these are the rays: on this level and on the later
+// ones, up to edges[SDV_FADE_LEVELS]. The rays fade.
+static void sdv_fade_edges(const sdv_rules *rules, sdv_ray *rays, int count, sdv_sharp_edges *edges)
+{
+    memset(edges, 0, (SDV_FADE_LEVELS + 1) * sizeof *edges);
+    for (int i = 0; i <= SDV_FADE_LEVELS; i++, edges++) {
+        for (int k = 0; k < count; k++) sdv_meet_edge(edges, rays[k].now, rays[k].half);
+        sdv_fade_rays(rules, edges, rays, count, rays);
+    }
 }
 
 // Makes the sector of the next level. to has room for its rays.
 static void sdv_fade_sector(const sdv_rules *rules, const sdv_sector *from, sdv_sector *to)
 {
     sdv_ray *rays = to->rays;
-    int chaikin = rules->creasing == SUBDIV_CREASING_CHAIKIN, semi = 0;     // uniform: no others
-    float sum = 0;
     *to = *from;
     to->rays = rays;
     to->corner = sdv_fade(from->corner);
-    for (int i = 0; i < from->count; i++) {
-        rays[i].now = from->rays[i].half;
-        if (!chaikin || !sdv_is_semi_sharp(rays[i].now)) continue;
-        sum += rays[i].now;
-        semi++;
-    }
-    for (int i = 0; i < from->count; i++) {
-        float s = rays[i].now, other = from->rays[i].behind;
-        rays[i].half = sdv_fade_chaikin(s, sum, semi);
-        rays[i].behind = sdv_fade_chaikin(s, s + other, 1 + (chaikin && other > 0));
-    }
+    sdv_fade_rays(rules, from->sharp, from->rays, from->edges, rays);
+    to->sharp++;
 }
 
 // Multiplies a row of weights by the matrix of a step: w weighs a sector's points on the next
@@ -4668,9 +4694,7 @@ static void sdv_step_back(const sdv_rules *rules, const sdv_sector *s, const dou
 {
     int n = s->faces, edges = s->edges, loop = rules->loop;
     double *edge = out + 1, *across = edge + edges;
-    sdv_sharp_edges sharp = { 0, 0, 0, 0 };
-    for (int i = 0; i < s->count; i++) sdv_meet_edge(&sharp, s->rays[i].now, s->rays[i].half);
-    sdv_fading fading = sdv_fading_of(s->corner, &sharp);
+    sdv_fading fading = sdv_fading_of(s->corner, s->sharp);
     sdv_mask vertex = sdv_vertex_mask(rules, fading, n);
     out[0] = w[0] * vertex.self;
     for (int i = 0; i < edges; i++) edge[i] = w[0] * vertex.edge;
@@ -4714,10 +4738,9 @@ static void sdv_rows_back(const sdv_rules *rules, const sdv_sector *s, double *r
 static void sdv_settled_rows(const sdv_rules *rules, const sdv_sector *s, double *rows,
                              double *room)
 {
-    int n = s->faces, open = s->edges > n, points = sdv_sector_points(rules, s), sharp = 0;
+    int n = s->faces, open = s->edges > n, points = sdv_sector_points(rules, s);
     double *t0 = rows + points, *t1 = t0 + points;
-    for (int i = 0; i < s->count; i++) sharp += s->rays[i].now > 0;
-    sdv_rule rule = sdv_vertex_rule(s->corner, sharp);
+    sdv_rule rule = sdv_vertex_rule(s->corner, s->sharp->now);
     sdv_mask mask = sdv_limit_mask(rules, rule, n);
     for (int i = 0; i < 3 * points; i++) rows[i] = 0;
     rows[0] = mask.self;
@@ -4750,8 +4773,9 @@ enum { SDV_WEDGE = SDV_CORNER + 1, SDV_LINEAR, SDV_LIMIT_KINDS };
 
 enum { SDV_FADED = 16 };
 
-typedef struct sdv_faded {              // the rays of a sector that fades, and its rows
+typedef struct sdv_faded {              // a sector that fades, and its rows
     sdv_sector sector;
+    sdv_sharp_edges *sharp;             // of its own: the sector's
     double    *rows;                    // NULL: none yet
 } sdv_faded;
 
@@ -4764,7 +4788,9 @@ typedef struct sdv_limit_writer {       // writes limit rows
     double     *rows, *room;            // of a sector: [3][points], [points]
     sdv_sector  states[SDV_FADE_LEVELS + 1];    // a sector, on the last level and on later ones
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
-    int        *seen, marks;            // see sdv_find_rays
+    const sdv_sharp_edges **sharp;      // [vertex_count] NULL: not known yet; else see
+                                        //      sdv_find_sharp_edges
+    sdv_sharp_edges *on_line;           // those at a point of a semi-sharp line
     unsigned char *last;                // [vertex_count] twice its last rule, and is it settled?
                                         //      UCHAR_MAX: not known yet
 } sdv_limit_writer;
@@ -4863,49 +4889,48 @@ static void sdv_find_ray(const sdv_limit_writer *limit, int h, int end, sdv_ray 
     ray->behind = line.next[level->face_vertices[first] == v ? 1 : 2 * line.n - 2];
 }
 
-// Returns the last face-vertex of the ring of h's edge.
-static int sdv_last_of_edge(const sdv_level *level, int h)
-{
-    while (level->across[h] > h) h = level->across[h];
-    return h;
-}
-
-// Finds the rays of a sector. limit->seen gives its edges a new mark, each at the last face-vertex
-// of its ring.
-static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
+// Returns the sharp edges at vertex v, [SDV_FADE_LEVELS + 1]: on this level and on all later ones.
+static const sdv_sharp_edges *sdv_find_sharp_edges(sdv_limit_writer *limit, int v)
 {
     const sdv_level *level = limit->level;
-    int v = level->face_vertices[s->first], mark = ++limit->marks;
-    s->corner = limit->last[v] / 2 == SDV_CORNER ? SUBDIV_INFINITE : level->vertex_sharpness[v];
-    for (int i = 0, at = s->first; i < s->edges; i++) {
-        int before = sdv_previous(level, at), end = i == s->faces, h = end ? before : at;
-        sdv_find_ray(limit, h, end, &s->rays[i]);
-        limit->seen[sdv_last_of_edge(level, h)] = mark;
-        if (i + 1 < s->faces) at = level->across[before];
-    }
-    s->count = s->edges;
-}
-
-// Adds the rays of sharp edges that are not in the sector.
-static void sdv_add_other_rays(sdv_limit_writer *limit, sdv_sector *s)
-{
-    const sdv_level *level = limit->level;
-    int v = level->face_vertices[s->first], mark = limit->marks;
+    sdv_writer *writer = limit->writer;
+    sdv_ray *rays = limit->states[0].rays;
+    int count = 0;
+    if (limit->sharp[v]) return limit->sharp[v];
+    sdv_sharp_edges *edges = SDV_NEW(writer->context, &writer->scratch, sdv_sharp_edges,
+                                     SDV_FADE_LEVELS + 1);
+    if (!edges) return NULL;
     for (int k = level->vertex_first[v]; k >= 0; k = level->vertex_next[k])
         for (int end = 0; end < 2; end++) {
             int h = end ? sdv_previous(level, k) : k;
             if (!sdv_is_edge_at(level, h, !end)) continue;
-            if (limit->seen[sdv_last_of_edge(level, h)] == mark) continue;
-            sdv_find_ray(limit, h, end, &s->rays[s->count]);
-            s->count += s->rays[s->count].now > 0;
+            sdv_find_ray(limit, h, end, &rays[count]);
+            count += rays[count].now > 0;
         }
+    sdv_fade_edges(limit->rules, rays, count, edges);
+    return limit->sharp[v] = edges;
+}
+
+// Finds how the edges of a sector and its vertex fade.
+static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
+{
+    const sdv_level *level = limit->level;
+    int v = level->face_vertices[s->first];
+    s->corner = limit->last[v] / 2 == SDV_CORNER ? SUBDIV_INFINITE : level->vertex_sharpness[v];
+    s->sharp = sdv_find_sharp_edges(limit, v);
+    for (int i = 0, at = s->first; i < s->edges; i++) {
+        int before = sdv_previous(level, at), end = i == s->faces;
+        sdv_find_ray(limit, end ? before : at, end, &s->rays[i]);
+        if (i + 1 < s->faces) at = level->across[before];
+    }
 }
 
 static int sdv_same_sector(const sdv_sector *a, const sdv_sector *b)
 {
-    return a->count == b->count && a->edges == b->edges && a->faces == b->faces &&
+    return a->edges == b->edges && a->faces == b->faces &&
            memcmp(&a->corner, &b->corner, sizeof a->corner) == 0 &&
-           memcmp(a->rays, b->rays, (size_t)a->count * sizeof *a->rays) == 0;
+           memcmp(a->rays, b->rays, (size_t)a->edges * sizeof *a->rays) == 0 &&
+           memcmp(a->sharp, b->sharp, (SDV_FADE_LEVELS + 1) * sizeof *a->sharp) == 0;
 }
 
 // Returns the rows of sector states[0], which fades. Makes them unless a sector like it was there.
@@ -4915,22 +4940,24 @@ static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
     sdv_context *context = limit->writer->context;
     sdv_arena *scratch = &limit->writer->scratch;
     uint32_t hash = (uint32_t)s->faces, bits[3];
-    for (int i = 0; i < s->count; i++) {
+    for (int i = 0; i < s->edges; i++) {
         memcpy(bits, &s->rays[i], sizeof bits);
         hash = ((hash * 2654435761u ^ bits[0]) * 2654435761u ^ bits[1]) * 2654435761u ^ bits[2];
     }
     sdv_faded *known = &limit->faded[(hash * 2654435761u) >> 28];
     sdv_sector *of = &known->sector;
     if (known->rows && !SDV_IS_PLAIN && sdv_same_sector(of, s)) return known->rows;
-    size_t most = (size_t)limit->writer->most;
+    size_t most = (size_t)limit->writer->most, levels = SDV_FADE_LEVELS + 1;
     for (int i = 1; i <= SDV_FADE_LEVELS && !limit->states[i].rays; i++)
         limit->states[i].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
     if (!known->rows) of->rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
+    if (!known->rows) known->sharp = SDV_NEW(context, scratch, sdv_sharp_edges, levels);
     if (!known->rows) known->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
     if (context->result) return NULL;
     sdv_ray *rays = of->rays;
     *of = *s;
-    of->rays = (sdv_ray *)memcpy(rays, s->rays, (size_t)s->count * sizeof *rays);
+    of->rays = (sdv_ray *)memcpy(rays, s->rays, (size_t)s->edges * sizeof *rays);
+    of->sharp = (sdv_sharp_edges *)memcpy(known->sharp, s->sharp, levels * sizeof *s->sharp);
     sdv_sector_rows(limit->rules, limit->states, known->rows, limit->room);
     return known->rows;
 }
@@ -4996,13 +5023,12 @@ static void sdv_limit_row(sdv_limit_writer *limit, int h, int target)
     sdv_find_sector(level, h, rule, s);
     sdv_add_sector(level, s, limit->rules->loop, points + 1);
     if (!settled) sdv_find_rays(limit, s);
-    if (!settled && corner) settled = !sdv_sector_fades(s);     // other sectors do not matter
-    if (settled) {
+    if (limit->writer->context->result) return;
+    if (settled || !sdv_sector_fades(s)) {
         int wedge = corner && s->edges > s->faces;
         sdv_settled_row(limit, wedge ? SDV_WEDGE : (int)rule, s->faces, target);
         return;
     }
-    if (!corner || limit->rules->creasing == SUBDIV_CREASING_CHAIKIN) sdv_add_other_rays(limit, s);
     sdv_fading_row(limit, target);
 }
 
@@ -5024,9 +5050,10 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
     limit->rows = SDV_NEW(context, scratch, double, 3 * (2 * most + 2));
     limit->room = SDV_NEW(context, scratch, double, 2 * most + 2);
     limit->states[0].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
-    limit->seen = SDV_NEW(context, scratch, int, level->face_vertex_count);
+    limit->sharp = SDV_NEW(context, scratch, const sdv_sharp_edges *, level->vertex_count);
+    limit->on_line = SDV_NEW(context, scratch, sdv_sharp_edges, SDV_FADE_LEVELS + 1);
     for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
-    for (int h = 0; h < level->face_vertex_count && !context->result; h++) limit->seen[h] = 0;
+    for (int v = 0; v < level->vertex_count && !context->result; v++) limit->sharp[v] = NULL;
 }
 
 // ------------------------------------------------------------------------------------ >>fill
@@ -5202,14 +5229,18 @@ static void sdv_begin_fill(sdv_filler *fill, const subdiv_surface *surface, int 
     for (int i = 0; i <= fill->writer.most && level <= 1; i++) fill->writer.smooth[i] = -1;
 }
 
-// Finds the sector of point t of a semi-sharp line.
-static void sdv_line_sector(const sdv_edge_line *line, int loop, int t, sdv_sector *s)
+// Finds sector states[0] of point t of a semi-sharp line.
+static void sdv_line_sector(sdv_limit_writer *limit, const sdv_edge_line *line, int t)
 {
-    const sdv_ray ahead = { line->now[t], line->next[2 * t], line->next[2 * t + 1] };
-    const sdv_ray back = { line->now[t - 1], line->next[2 * t - 1], line->next[2 * t - 2] };
+    sdv_sector *s = &limit->states[0];
+    int loop = limit->rules->loop;
+    sdv_ray rays[2] = { { line->now[t], line->next[2 * t], line->next[2 * t + 1] },
+                        { line->now[t - 1], line->next[2 * t - 1], line->next[2 * t - 2] } };
     sdv_settle(s, SDV_SMOOTH, loop ? 6 : 4, 0);
-    s->rays[0] = ahead;
-    s->rays[loop ? 3 : 2] = back;
+    s->rays[0] = rays[0];
+    s->rays[loop ? 3 : 2] = rays[1];
+    sdv_fade_edges(limit->rules, rays, 2, limit->on_line);
+    s->sharp = limit->on_line;
 }
 
 // Adds the limit row of point t of a line. A crease gets the limit of the side to its left. Linear
@@ -5236,7 +5267,7 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
     if (!loop && !sharp) points[n++] = right[t - 1];
     if (!loop && !sharp) points[n++] = right[t + 1];
     int fades = line && (line->now[t - 1] > 0 || line->now[t] > 0);
-    if (fades) sdv_line_sector(line, loop, t, &limit->states[0]);
+    if (fades) sdv_line_sector(limit, line, t);
     if (fades) sdv_fading_row(limit, target);
     else sdv_settled_row(limit, kind, (loop ? 3 : 2) << !sharp, target);
 }

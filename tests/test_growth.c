@@ -680,8 +680,6 @@ static void check_cage(int kind, int scheme, int lists, int uv, int variant)
         test_context = name;
         memset(blocks, 0, sizeof blocks);
         options.triangulate = scheme == SUBDIV_LOOP;
-        // Not so, yet: where sharpness fades at a vertex, each of many sides looks at all edges.
-        options.one_normal = lists > 0;
         for (int i = 0; i < 2; i++) {
             const subdiv_mesh *m = build(kind, scheme, lists, uv, variant, i ? 4 * MANY : MANY);
             counting = i;
