@@ -53,7 +53,7 @@
              >>stencils           points as sums of cage vertices; explains a point
              >>tessellation       meshes of the limit surface, each edge cut as you like
              >>curves             corner cutting and B-spline curves
-             >>creases            from angles, smoothing groups and UV seams
+             >>creases            from angles, smoothing groups, UV seams and chains
              >>inspect  >>obj     what a cage is made of, what is odd about it; OBJ files
    Inside:   >>platform  >>memory  >>errors  >>validate     the ground everything stands on
              >>level     a mesh with its edges and sharpness; >>cage makes level 0 from polygons
@@ -289,10 +289,12 @@ typedef struct subdiv_mesh {
     int    face_size;                 // vertices of every face; or 0: see face_sizes
     int   *face_sizes;                // [face_count]         vertices of each face, at least 3
     int   *face_vertices;             // [sum of sizes]       counted from 0, counter-clockwise
+                                      //                      (but see left_handed)
 
     int    crease_count;
     int   *crease_vertices;           // [2 * crease_count]   the ends of an edge, either order
-    float *crease_sharpness;          // [crease_count]       levels; the later of two entries wins
+    float *crease_sharpness;          // [crease_count]       levels; the later of two entries wins;
+                                      //                      below 0 is 0, with a warning
     int    corner_count;
     int   *corner_vertices;           // [corner_count]
     float *corner_sharpness;          // [corner_count]       levels
@@ -301,7 +303,9 @@ typedef struct subdiv_mesh {
 
     int    uv_count;
     float *uvs;                       // [2 * uv_count]       u v
-    int   *face_uvs;                  // [sum of sizes]       the UV of each face-vertex; -1: none
+    int   *face_uvs;                  // [sum of sizes]       the UV of each face-vertex; -1: none.
+                                      //                      Seams are where indices differ, even
+                                      //                      of equal UVs: see subdiv_join_values
     float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
     int    normal_count;              // counts only with face_normals
     float *normals;                   // [3 * normal_count]   of length 1 (or 0), or NULL
@@ -327,6 +331,8 @@ typedef struct subdiv_mesh {
     int  *cage_faces;                 // [face_count]         results only: the face of the cage
                                       //                      that each face is a part of
     void *memory;                     // the library's own, or NULL: the arrays are yours
+    int   left_handed;                // faces are clockwise: normals point the other way. Results
+                                      // keep the order of their faces, and are left-handed again
 } subdiv_mesh;
 
 // Receives what went wrong, and where. Zero it once. Every call that gets it overwrites code, place
@@ -425,6 +431,12 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
+// Finds equal values: firsts [value_count] is, for each of values [channels * value_count], the
+// number of the first one that equals it in all channels. UVs that come without indices, one for
+// each face-vertex, make seams where they differ with firsts as their face_uvs.
+SUBDIV_DEF subdiv_result subdiv_join_values(int *firsts, int channels, int value_count,
+                                            const float *values, const subdiv_options *opt);
+
 // Returns the bytes of scratch memory that evaluating this many channels takes. Up to level 4 they
 // grow with the result; from there on they only double with each level, as the points on the edges
 // of the cage do. SIZE_MAX: more than the machine can address.
@@ -485,7 +497,8 @@ typedef struct subdiv_limit {
     float *positions;                 // [3]  x y z
     float *normals;                   // [3]  of length 1, or 0
     float *tangents;                  // [6]  two, of any direction and length in the tangent plane;
-                                      //      the first x the second is along the normal
+                                      //      the first x the second is along the normal, or
+                                      //      against that of a left-handed cage
     int    stride;                    // floats from point to point in all four; 0: they are dense
     float *sides;                     // [3]  normals from number vertex_count on: of other sides of
                                       //      creases, whatever the range of points
@@ -558,7 +571,8 @@ typedef struct subdiv_vertices {
 } subdiv_vertices;
 
 // Makes the buffer of a mesh: a result, or any mesh without face_normals. Cuts faces from their
-// first vertex on; index_size is 2 or 4. Error TOO_LARGE: 2 bytes, and more than 65536 vertices.
+// first vertex on; triangles of a left-handed mesh are turned round, so that all are counter-
+// clockwise. index_size is 2 or 4. Error TOO_LARGE: 2 bytes, and more than 65536 vertices.
 SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_mesh *mesh,
                                             int index_size, const subdiv_options *opt);
 SUBDIV_DEF void subdiv_buffer_free(subdiv_buffer *buffer);
@@ -623,7 +637,8 @@ typedef struct subdiv_derivatives {
 // rounded); in an n-gon also those of the edges and vertices between its quads.
 //
 // Derivatives are with respect to u and v; on a crease they belong to the face's side. Beyond the
-// range of floats they are not finite. At some vertices, results differ from those close by:
+// range of floats they are not finite. The normal is along du x dv; against it if the cage is
+// left-handed. At some vertices, results differ from those close by:
 //
 // * Extraordinary: close by, du and dv go to 0 or infinity like (2 l)^j at u = 2^-j, where l is the
 //   subdominant eigenvalue. At the vertex this factor is left out: du x dv is along the normal. The
@@ -819,6 +834,15 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_smoothing_groups(subdiv_mesh *mesh, fl
 SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float sharpness,
                                                    const subdiv_options *opt);
 
+// Adds chains of edges, as USD has them, behind the list, so that they win over earlier entries.
+// lengths [chain_count]: how many vertices each has, 2 or more; vertices [sum of lengths], chain by
+// chain; sharpness [sharpness_count]: one for each chain, or one for each edge of all chains. An
+// edge that no face has is skipped with a warning. Errors and warnings name the chain.
+SUBDIV_DEF subdiv_result subdiv_crease_chains(subdiv_mesh *mesh, int chain_count,
+                                              const int *lengths, const int *vertices,
+                                              int sharpness_count, const float *sharpness,
+                                              const subdiv_options *opt);
+
 // ------------------------------------------------------------------------------- >>inspect
 // The parts of a cage.
 typedef struct subdiv_info {
@@ -911,8 +935,9 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
                                                   const subdiv_options *opt);
 
 // Writes v (with colours), vt and vn, then f with the statements between, then l, then tags unless
-// there is nothing but defaults. Faces without UVs have no vt. Numbers have the fewest digits that
-// read back as the same float, in any locale. Error IO.
+// there is nothing but defaults. Faces without UVs have no vt. Faces of a left-handed mesh are turned
+// round, behind their first vertex, as those of OBJ are counter-clockwise. Numbers have the fewest
+// digits that read back as the same float, in any locale. Error IO.
 //
 // To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
 // 0 to get the size alone; any other capacity that is too small is error TOO_LARGE, and text holds
@@ -1832,6 +1857,7 @@ typedef struct sdv_rules {              // how every level is refined
     int linear;                         // nothing is smoothed
     int straight;                       // boundaries stay straight
     int limit;                          // the result is on the limit surface
+    int left_handed;                    // normals are turned round
     subdiv_creasing creasing;
     subdiv_triangles triangles;
     subdiv_vertex_rule vertex_rule;
@@ -2124,12 +2150,17 @@ static void sdv_user_sharpness(sdv_context *context, sdv_level *level, const sub
         const int *ends = mesh->crease_vertices + 2 * (size_t)i;
         int a = ends[0], b = ends[1], e = sdv_find_edge(level, a, b);
         float s = sdv_clamp_sharpness(mesh->crease_sharpness[i]);
+        if (mesh->crease_sharpness[i] < 0)
+            sdv_warn(context, 0, "crease %d: edge %d-%d has a sharpness below 0", i, a, b);
         if (e < 0) sdv_warn(context, 0, "crease %d: no edge joins vertices %d and %d", i, a, b);
         else level->sharpness[level->edge_first[e]] = s;
     }
-    for (int i = 0; i < mesh->corner_count; i++)
-        level->vertex_sharpness[mesh->corner_vertices[i]] =
-            sdv_clamp_sharpness(mesh->corner_sharpness[i]);
+    for (int i = 0; i < mesh->corner_count; i++) {
+        int v = mesh->corner_vertices[i];
+        level->vertex_sharpness[v] = sdv_clamp_sharpness(mesh->corner_sharpness[i]);
+        if (mesh->corner_sharpness[i] < 0)
+            sdv_warn(context, 0, "corner %d: vertex %d has a sharpness below 0", i, v);
+    }
 }
 
 static int sdv_is_boundary(const sdv_level *level, int h)
@@ -4418,6 +4449,67 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     sdv_level_fade(level);
 }
 
+// Scatters the bits of a number, for hashing.
+static uint64_t sdv_mix(uint64_t x)
+{
+    x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
+    x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
+    return x ^ (x >> 32);
+}
+
+static int sdv_same_values(const float *a, const float *b, int channels)
+{
+    for (int c = 0; c < channels; c++)
+        if (a[c] != b[c]) return 0;
+    return 1;
+}
+
+// Finds the first of values that equals each. heads [mask + 1] is a hash table: of each hash the
+// latest number; next [count] the one before each, or -1.
+static void sdv_find_firsts(const float *values, int channels, int count, int *heads, size_t mask,
+                            int *next, int *firsts)
+{
+    for (size_t i = 0; i <= mask; i++) heads[i] = -1;
+    for (int i = 0; i < count; i++) {
+        const float *value = values + (size_t)channels * (size_t)i;
+        uint64_t hash = 0;
+        for (int c = 0; c < channels; c++) {
+            float x = value[c] + 0.0f;                              // no -0
+            uint32_t bits;
+            memcpy(&bits, &x, sizeof bits);
+            hash = sdv_mix(hash + bits + 1);
+        }
+        int *head = &heads[(size_t)hash & mask], first = *head;
+        while (first >= 0 &&
+               !sdv_same_values(values + (size_t)channels * (size_t)first, value, channels))
+            first = next[first];
+        firsts[i] = first < 0 ? i : first;
+        if (first >= 0) continue;
+        next[i] = *head;
+        *head = i;
+    }
+}
+
+SUBDIV_DEF subdiv_result subdiv_join_values(int *firsts, int channels, int value_count,
+                                            const float *values, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    size_t mask = 1;
+    if (channels < 1 || value_count < 0)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "channels is %d, value_count %d", channels,
+                 value_count);
+    else if (value_count > 0 && (!values || !firsts))
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    while (mask < (size_t)(context.result ? 0 : value_count)) mask = 2 * mask + 1;
+    int *heads = SDV_NEW(&context, &arena, int, mask + 1);
+    int *next = SDV_NEW(&context, &arena, int, context.result ? 0 : value_count);
+    if (!context.result)
+        sdv_find_firsts(values, channels, value_count, heads, mask, next, firsts);
+    sdv_arena_free(&arena);
+    return context.result;
+}
+
 // ------------------------------------------------------------------------------- >>prepare
 
 // The functions that prepare and evaluate a surface for SUBDIV_EXACT. Only calls that may make such
@@ -5890,6 +5982,7 @@ static void sdv_set_rules(sdv_context *context, subdiv_surface *surface,
     surface->fine.vertex_rule = cage->vertex_rule;
     surface->fine.vertex_weights = cage->vertex_weights;
     surface->fine.vertex_user = cage->vertex_user;
+    surface->fine.left_handed = surface->rules.left_handed = cage->left_handed != 0;
     surface->rules.loop = cage->scheme == SUBDIV_LOOP;
     surface->rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
     surface->rules.creasing = cage->creasing;
@@ -6039,6 +6132,7 @@ typedef struct sdv_tangents {           // goes with an sdv_window and has the s
     sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents,
     int      from[SDV_WAITING];         // and the work points that they are made from, or -1:
     const float *work;                  // rounding is in proportion to their size
+    int      left_handed;               // normals are turned round
 } sdv_tangents;
 
 static double sdv_dot3(const double *a, const double *b)
@@ -6134,7 +6228,8 @@ static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, i
     for (int k = 0; k < 4; k++)
         points[k] = at[k] < 0 || from[k] < 0 ? NULL : tangents->work + 4 * (size_t)from[k];
     if (tangents->normals) {
-        sdv_unit_normals(along, across, points, normal);
+        int left = tangents->left_handed;
+        sdv_unit_normals(left ? across : along, left ? along : across, points, normal);
         normal[3] = normal[2];
         sdv_put_four(tangents->normals, tangents->stride, 3, normal, at, count);
     }
@@ -6179,7 +6274,8 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     sdv_transpose(along);
     sdv_transpose(across);
     const float *const none[4] = { NULL, NULL, NULL, NULL };
-    sdv_unit_normals(along, across, none, normal);
+    int left = tangents->left_handed;
+    sdv_unit_normals(left ? across : along, left ? along : across, none, normal);
     normal[3] = normal[2];
     sdv_transpose(normal);
     float *p = tangents->normals + tangents->stride * (size_t)at;
@@ -7124,6 +7220,7 @@ static void sdv_make_side_normals(const subdiv_surface *surface, const float *wo
     memset(&tangents, 0, sizeof tangents);
     tangents.normals = limit->sides;
     tangents.stride = limit->stride ? (size_t)limit->stride : 3;
+    tangents.left_handed = surface->rules.left_handed;
     out.tangents = &tangents;
     if (surface->side_rows.rows) sdv_make_batches(&surface->side_rows, work, face, end, &out);
     sdv_flush_tangents(&tangents);
@@ -7141,6 +7238,7 @@ static void sdv_make_limit_faces(const subdiv_surface *surface, const float *wor
     tangents.tangents = limit->tangents;
     tangents.stride = 3;
     tangents.tangent_stride = 6;
+    tangents.left_handed = surface->rules.left_handed;
     if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
                                                                         (size_t)limit->stride;
     sdv_see_from(&out, work + 4 * (size_t)surface->work_count);
@@ -10628,8 +10726,9 @@ SDV_INLINE void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, 
         if (e->out[k]) sdv_store_some(e->out[k] + e->stride * i + c, values[k], lanes);
     if (order > 0 && e->normals && c == 0) {
         float t[8];
-        sdv_store(t, values[1]);
-        sdv_store(t + 4, values[2]);
+        int left = e->surface->rules.left_handed;
+        sdv_store(t + 4 * left, values[1]);
+        sdv_store(t + 4 * !left, values[2]);
         sdv_unit_normal(t, t + 4, NULL, e->normals + e->normal_stride * i);
     }
 }
@@ -10779,7 +10878,8 @@ static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sa
                 (float)(value > most ? large : value < -most ? -large : value);
         }
     if (!e->normals || c > 0) return;
-    const double *a = s->tangents[0], *b = s->tangents[1];
+    int left = e->surface->rules.left_handed;
+    const double *a = s->tangents[left], *b = s->tangents[!left];
     double fold = s->vertex ? sdv_fold * (sdv_dot3(a, a) + sdv_dot3(b, b)) : 0;
     sdv_unit_cross(a, b, 1e-28, fold, e->normals + e->normal_stride * i);
 }
@@ -12558,6 +12658,7 @@ static void sdv_make_tile_points(sdv_context *context, const subdiv_options *opt
     l.out = sdv_window_of(points, channels, source->channels, 0, count, 0);
     l.tangents.normals = normals;
     l.tangents.stride = 3;
+    l.tangents.left_handed = source->surface->rules.left_handed;
     sdv_run(opt, sdv_tile_points_job, &l, l.jobs);
     if (memchr(failed, 1, sizeof failed))
         sdv_fail(context, SUBDIV_ERROR_MEMORY, "out of memory");
@@ -12944,7 +13045,7 @@ static void sdv_sum_normals(const subdiv_mesh *mesh, const sdv_sides *sides, dou
         for (int i = 0; i < size; i++, h++) {
             int side = sides->vertex ? sides->vertex[h] : -1, v = mesh->face_vertices[h];
             double *sum = sums + 3 * (size_t)(side < 0 ? v : mesh->vertex_count + side);
-            for (int k = 0; k < 3; k++) sum[k] += n[k];
+            for (int k = 0; k < 3; k++) sum[k] += mesh->left_handed ? -n[k] : n[k];
         }
     }
 }
@@ -13095,8 +13196,9 @@ static void sdv_cut_faces(const sdv_buffer_maker *make, subdiv_buffer *buffer)
             triangle[i == 0 ? 0 : 1] = triangle[i == 0 ? 0 : 2];
             triangle[i == 0 ? 0 : 2] = v;
             for (int k = 0; k < 3 && i >= 2; k++, at++) {
-                if (buffer->index_size == 2) indices2[at] = (unsigned short)triangle[k];
-                else indices4[at] = triangle[k];
+                int corner = triangle[mesh->left_handed && k > 0 ? 3 - k : k];
+                if (buffer->index_size == 2) indices2[at] = (unsigned short)corner;
+                else indices4[at] = corner;
             }
         }
     }
@@ -13275,18 +13377,42 @@ static void sdv_generator_begin(sdv_context *context, sdv_generator *generator,
     if (!context->result) sdv_plain_cage(context, &generator->arena, &generator->cage, mesh);
 }
 
+// Gives the mesh a new list: its own, with room for more entries behind these.
+static void sdv_lengthen_list(sdv_context *context, subdiv_mesh *mesh, size_t more)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    size_t count = (size_t)mesh->crease_count;
+    if (count + more > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
+    owned.blocks = (sdv_block *)mesh->memory;
+    int *vertices = (int *)sdv_new(context, &owned, count + more, 2 * sizeof(int) + sizeof(float));
+    if (context->result) return;
+    float *sharpness = (float *)(void *)(vertices + 2 * (count + more));
+    sdv_copy(vertices, mesh->crease_vertices, count, 2 * sizeof(int));
+    sdv_copy(sharpness, mesh->crease_sharpness, count, sizeof(float));
+    mesh->crease_vertices = vertices;
+    mesh->crease_sharpness = sharpness;
+    mesh->memory = owned.blocks;
+}
+
+// Adds an entry to a list that has the room.
+static void sdv_add_crease(subdiv_mesh *mesh, int a, int b, float sharpness)
+{
+    int *ends = mesh->crease_vertices + 2 * (size_t)mesh->crease_count;
+    ends[0] = a;
+    ends[1] = b;
+    mesh->crease_sharpness[mesh->crease_count++] = sharpness;
+}
+
 // Asks about every edge. Gives the mesh a longer list if any is found: the list that it had, with
 // the sharpness raised of entries that are found, then the other edges that are found, in order.
-static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
-                              sdv_question is_crease)
+static void sdv_add_found_edges(sdv_context *context, sdv_generator *generator,
+                                sdv_question is_crease)
 {
     const sdv_level *level = &generator->cage.level;
     subdiv_mesh *mesh = generator->mesh;
-    sdv_arena owned = sdv_new_arena(0);
-    owned.blocks = (sdv_block *)mesh->memory;
     int *entry = SDV_NEW(context, &generator->arena, int, level->edge_count);
     int *found = SDV_NEW(context, &generator->arena, int, level->edge_count);
-    size_t count = (size_t)mesh->crease_count, finds = 0;
+    size_t finds = 0;
     if (context->result) return;
     for (int e = 0; e < level->edge_count; e++) {
         int h = level->edge_first[e], g = sdv_across(level, h);
@@ -13298,35 +13424,22 @@ static void sdv_lengthen_list(sdv_context *context, sdv_generator *generator,
         int e = sdv_find_edge(level, ends[0], ends[1]);
         if (e >= 0) entry[e] = i;                   // the last one counts
     }
-    if (finds == 0) return;
-    if (count + finds > INT_MAX / 2) sdv_fail(context, SUBDIV_ERROR_TOO_LARGE, "too many creases");
-    int *vertices = (int *)sdv_new(context, &owned, count + finds, 2 * sizeof(int) + sizeof(float));
-    if (context->result) return;
-
-    float *sharp = (float *)(void *)(vertices + 2 * (count + finds));
-    sdv_copy(vertices, mesh->crease_vertices, count, 2 * sizeof(int));
-    sdv_copy(sharp, mesh->crease_sharpness, count, sizeof(float));
-    for (size_t i = 0; i < finds; i++) {
+    if (finds > 0) sdv_lengthen_list(context, mesh, finds);
+    for (size_t i = 0; i < finds && !context->result; i++) {
         int e = found[i], h = level->edge_first[e];
-        if (entry[e] < 0) {
-            vertices[2 * count] = level->face_vertices[h];
-            vertices[2 * count + 1] = level->face_vertices[sdv_next(level, h)];
-            sharp[count++] = generator->sharpness;
-        } else if (sharp[entry[e]] < generator->sharpness) {
-            sharp[entry[e]] = generator->sharpness;
-        }
+        float *known = mesh->crease_sharpness + entry[e];
+        if (entry[e] < 0)
+            sdv_add_crease(mesh, level->face_vertices[h],
+                           level->face_vertices[sdv_next(level, h)], generator->sharpness);
+        else if (*known < generator->sharpness) *known = generator->sharpness;
     }
-    mesh->crease_count = (int)count;
-    mesh->crease_vertices = vertices;
-    mesh->crease_sharpness = sharp;
-    mesh->memory = owned.blocks;
 }
 
 // Asks the question, unless it is NULL.
 static subdiv_result sdv_generator_end(sdv_context *context, sdv_generator *generator,
                                        sdv_question is_crease)
 {
-    if (!context->result && is_crease) sdv_lengthen_list(context, generator, is_crease);
+    if (!context->result && is_crease) sdv_add_found_edges(context, generator, is_crease);
     sdv_arena_free(&generator->arena);
     return context->result;
 }
@@ -13433,6 +13546,63 @@ SUBDIV_DEF subdiv_result subdiv_crease_by_uv_seams(subdiv_mesh *mesh, float shar
     int known = !context.result && mesh->uv_count > 0;
     if (!context.result && !known) sdv_warn(&context, 0, "the mesh has no UVs");
     return sdv_generator_end(&context, &generator, known ? sdv_is_seam : NULL);
+}
+
+// Checks chains of creases.
+static void sdv_check_chains(sdv_context *context, const subdiv_mesh *mesh, int chain_count,
+                             const int *lengths, const int *vertices, int sharpness_count,
+                             const float *sharpness)
+{
+    int64_t edges = 0;
+    if (chain_count < 0) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "chain_count is %d", chain_count);
+    if (chain_count > 0 && (!lengths || !vertices || !sharpness))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "an argument is NULL");
+    for (int i = 0; i < chain_count && !context->result; i++) {
+        if (lengths[i] < 2) sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "chain %d has %d vertices", i,
+                                     lengths[i]);
+        else edges += lengths[i] - 1;
+    }
+    if (sharpness_count != chain_count && sharpness_count != edges)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "sharpness_count is %d, but there are %d chains "
+                 "with %d edges", sharpness_count, chain_count, edges > INT_MAX ? -1 : (int)edges);
+    for (int i = 0; i < chain_count && !context->result; vertices += lengths[i++]) {
+        int own = sharpness_count == chain_count ? 1 : lengths[i] - 1;
+        for (int k = 0; k < lengths[i]; k++)
+            if (vertices[k] < 0 || vertices[k] >= mesh->vertex_count)
+                sdv_fail_mesh(context, SUBDIV_ERROR_INDEX, -1, vertices[k], "chain %d: vertex %d "
+                              "does not exist (the mesh has %d)", i, vertices[k],
+                              mesh->vertex_count);
+        for (int k = 0; k < own; k++, sharpness++)
+            if (*sharpness != *sharpness)
+                sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, vertices[k],
+                              "chain %d: sharpness %d is not a number", i, k);
+    }
+}
+
+SUBDIV_DEF subdiv_result subdiv_crease_chains(subdiv_mesh *mesh, int chain_count,
+                                              const int *lengths, const int *vertices,
+                                              int sharpness_count, const float *sharpness,
+                                              const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_generator generator;
+    size_t edges = 0;
+    sdv_check_mesh(&context, mesh);
+    if (!context.result) sdv_check_chains(&context, mesh, chain_count, lengths, vertices,
+                                          sharpness_count, sharpness);
+    sdv_generator_begin(&context, &generator, mesh, 0);
+    for (int i = 0; i < chain_count && !context.result; i++) edges += (size_t)lengths[i] - 1;
+    if (edges > 0) sdv_lengthen_list(&context, mesh, edges);
+    for (int i = 0; i < chain_count && !context.result; i++, vertices++) {
+        for (int k = 1; k < lengths[i]; k++, vertices++) {
+            int a = vertices[0], b = vertices[1];
+            if (sdv_find_edge(&generator.cage.level, a, b) >= 0)
+                sdv_add_crease(mesh, a, b, *sharpness);
+            else sdv_warn(&context, 0, "chain %d: no edge joins vertices %d and %d", i, a, b);
+            sharpness += sharpness_count != chain_count || k == lengths[i] - 1;
+        }
+    }
+    return sdv_generator_end(&context, &generator, NULL);
 }
 
 // ---------------------------------------------------------------------------- >>inspection
@@ -13611,14 +13781,6 @@ static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
     }
 }
 
-// Scatters the bits of a number, for hashing.
-static uint64_t sdv_mix(uint64_t x)
-{
-    x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
-    x = (x ^ (x >> 32)) * 0xd6e8feb86659fd93u;
-    return x ^ (x >> 32);
-}
-
 // Returns the first of the items 0 to i that is the same as i: i itself if there is none before.
 static int sdv_first_same(const sdv_checker *checker, int i, uint64_t hash,
                           int (*same)(const sdv_checker *checker, int i, int j))
@@ -13712,29 +13874,15 @@ static void sdv_report_unused_vertices(const sdv_checker *checker)
                       "no face has vertex %d", v);
 }
 
-static int sdv_same_place(const sdv_checker *checker, int v, int w)
-{
-    const float *a = checker->mesh->positions + 3 * (size_t)v;
-    const float *b = checker->mesh->positions + 3 * (size_t)w;
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
 static void sdv_report_same_places(const sdv_checker *checker)
 {
-    for (size_t i = 0; i <= checker->mask; i++) checker->heads[i] = -1;
-    for (int v = 0; v < checker->mesh->vertex_count; v++) {
-        uint64_t hash = 0;
-        for (int k = 0; k < 3; k++) {
-            float x = checker->mesh->positions[3 * (size_t)v + (size_t)k] + 0.0f;    // no -0
-            uint32_t bits;
-            memcpy(&bits, &x, sizeof bits);
-            hash = sdv_mix(hash + bits + 1);
-        }
-        int first = sdv_first_same(checker, v, hash, sdv_same_place);
-        if (first != v)
-            sdv_found(checker, SUBDIV_ODD_SAME_PLACE, -1, -1, v, first,
-                      "vertex %d is at the same place as vertex %d", v, first);
-    }
+    int *first = checker->last;
+    sdv_find_firsts(checker->mesh->positions, 3, checker->mesh->vertex_count, checker->heads,
+                    checker->mask, checker->next, first);
+    for (int v = 0; v < checker->mesh->vertex_count; v++)
+        if (first[v] != v)
+            sdv_found(checker, SUBDIV_ODD_SAME_PLACE, -1, -1, v, first[v],
+                      "vertex %d is at the same place as vertex %d", v, first[v]);
 }
 
 static void sdv_report_stray_creases(const sdv_checker *checker)
@@ -14700,6 +14848,8 @@ static int sdv_use_list(sdv_obj *obj, int kind)
     for (int i = 0; i < count; i++, at += chain ? 1 : width) {
         sdv_tag tag = { kind, obj->line, { at[0], at[width - 1] }, 0 };
         if (kind != SDV_HOLES) tag.sharpness = s[floats == 1 ? 0 : i];
+        if (tag.sharpness < 0)
+            sdv_warn(obj->context, obj->line, "a sharpness below 0 is read as 0");
         if (!(tag.sharpness > 0)) tag.sharpness = 0;
         sdv_push(obj->context, &obj->tags, &tag, sizeof tag);
     }
@@ -15069,6 +15219,7 @@ typedef struct sdv_output {
     const sdv_figures *figures;
     char        *buffer;                // [SDV_OUTPUT_SIZE]
     size_t       used;
+    int          left_handed;           // faces are turned round, as OBJ has them counter-clockwise
 } sdv_output;
 
 enum {
@@ -15125,9 +15276,8 @@ static void sdv_write_list(sdv_output *out, int kind, int count, const int *indi
             p = sdv_write_index(out->figures, p, *indices++);
         }
         if (sharpness) {
-            float s = sharpness[i] > SUBDIV_INFINITE ? SUBDIV_INFINITE : sharpness[i];
             *p++ = ' ';
-            p = sdv_write_exactly(p, s > 0 ? s : 0);
+            p = sdv_write_exactly(p, sdv_clamp_sharpness(sharpness[i]));
         }
         *p++ = '\n';
         sdv_end(out, p);
@@ -15178,13 +15328,15 @@ static void sdv_write_faces(sdv_output *out, char keyword, const int *vertices, 
 {
     const sdv_figures *figures = out->figures;
     const char *full = out->buffer + SDV_OUTPUT_SIZE - SDV_PIECE_SIZE;
+    int turned = out->left_handed && keyword == 'f';
     for (int f = 0; f < count && !out->context->result; f++, vertices += size) {
         const int *t = uvs ? uvs + (size_t)f * (size_t)size : NULL;
         for (int i = 0; i < size && t; i++)
             if (t[i] < 0) t = NULL;
         char *p = sdv_room(out);
         *p++ = keyword;
-        for (int i = 0; i < size; i++) {
+        for (int k = 0; k < size; k++) {
+            int i = turned && k > 0 ? size - k : k;
             if (p > full) {
                 sdv_end(out, p);
                 p = sdv_room(out);
@@ -15350,7 +15502,8 @@ static subdiv_result sdv_write_obj(sdv_context *context, const subdiv_mesh *mesh
     }
     sdv_arena arena = sdv_scratch();
     sdv_figures *figures = SDV_NEW(context, &arena, sdv_figures, 1);
-    sdv_output out = { context, write, user, opt, figures, NULL, 0 };
+    sdv_output out = { context, write, user, opt, figures, NULL, 0,
+                       mesh ? mesh->left_handed : surface->rules.left_handed };
     out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
     if (!context->result) {
         sdv_make_figures(figures);

@@ -413,12 +413,17 @@ static subdiv_result call_normals(const trial *t, const subdiv_options *opt)
 
 static subdiv_result call_creases(const trial *t, const subdiv_options *opt)
 {
+    const int two = 2, ends[2] = { 0, 1 };
+    const float sharpness = 5, three[3] = { 1, 2, 1 };
+    int joined[3];
     subdiv_mesh mesh = *t->cage;
     subdiv_result result = SUBDIV_OK;
     mesh.memory = NULL;
     TRY_CHANGE(mesh, subdiv_crease_by_angle(&mesh, 1, 2, opt));
     TRY_CHANGE(mesh, subdiv_crease_by_smoothing_groups(&mesh, 3, opt));
     TRY_CHANGE(mesh, subdiv_crease_by_uv_seams(&mesh, 4, opt));
+    TRY_CHANGE(mesh, subdiv_crease_chains(&mesh, 1, &two, ends, 1, &sharpness, opt));
+    TRY(subdiv_join_values(joined, 1, 3, three, opt));
     subdiv_mesh_free(&mesh);
     return result;
 }
@@ -1066,6 +1071,7 @@ static void wrong_tools(void)
     const subdiv_mesh *cage = &k.cage;
     subdiv_mesh *mesh = &k.cage;
     const float nan = (float)NAN;
+    const int two = 2, ends[2] = { 0, 1 }, beyond[2] = { 0, k.cage.vertex_count };
     WRONG(ARGUMENT, subdiv_tessellate(NULL, cage, NULL, opt));
     WRONG(ARGUMENT, subdiv_tessellate(&o.fine, NULL, NULL, opt));
     WRONG(ARGUMENT, subdiv_tessellate(&k.cage, cage, NULL, opt));
@@ -1097,6 +1103,19 @@ static void wrong_tools(void)
     WRONG(NOT_FINITE, subdiv_crease_by_smoothing_groups(mesh, nan, opt));
     WRONG(ARGUMENT, subdiv_crease_by_uv_seams(NULL, 1, opt));
     WRONG(NOT_FINITE, subdiv_crease_by_uv_seams(mesh, nan, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(NULL, 1, &two, ends, 1, &nan, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(mesh, -1, &two, ends, -1, &nan, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(mesh, 1, NULL, ends, 1, &nan, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(mesh, 1, &two, NULL, 1, &nan, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(mesh, 1, &two, ends, 1, NULL, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(mesh, 1, &two, ends, 3, &nan, opt));
+    WRONG(ARGUMENT, subdiv_crease_chains(mesh, 1, ends, ends, 1, &nan, opt));       // of 0 vertices
+    WRONG(NOT_FINITE, subdiv_crease_chains(mesh, 1, &two, ends, 1, &nan, opt));
+    WRONG(INDEX, subdiv_crease_chains(mesh, 1, &two, beyond, 1, &nan, opt));
+    WRONG(ARGUMENT, subdiv_join_values(NULL, 3, 1, k.positions, opt));
+    WRONG(ARGUMENT, subdiv_join_values(o.ints, 0, 1, k.positions, opt));
+    WRONG(ARGUMENT, subdiv_join_values(o.ints, 3, -1, k.positions, opt));
+    WRONG(ARGUMENT, subdiv_join_values(o.ints, 3, 1, NULL, opt));
 }
 
 static void wrong_texts(void)

@@ -223,6 +223,8 @@ static inline void every_tool(every *e)
     subdiv_mesh copy = *e->cage, loaded;
     subdiv_info info;
     int counts[SUBDIV_ODDITY_COUNT];
+    const int two = 2, ends[2] = { 0, 1 };
+    const float sharpness = 4;
     size_t size = 0;
     char *text = (char *)every_room(e, 1 << 16);
     copy.memory = NULL;
@@ -237,6 +239,9 @@ static inline void every_tool(every *e)
     EVERY(e, subdiv_crease_by_angle(&copy, 20, 1, e->opt));
     EVERY(e, subdiv_crease_by_uv_seams(&copy, 2, e->opt));
     EVERY(e, subdiv_crease_by_smoothing_groups(&copy, 3, e->opt));
+    EVERY(e, subdiv_crease_chains(&copy, 1, &two, ends, 1, &sharpness, e->opt));
+    EVERY(e, subdiv_join_values(counts, 1, 3, copy.positions, e->opt));
+    every_add(e, counts, sizeof counts);
     EVERY(e, subdiv_save_obj_memory(&copy, NULL, 0, &size, e->opt));
     text = (char *)every_room(e, size);
     EVERY(e, subdiv_save_obj_memory(&copy, text, size, &size, e->opt));

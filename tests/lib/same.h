@@ -17,7 +17,8 @@ static inline int mesh_is_zero(const subdiv_mesh *m)
            m->scheme == (subdiv_scheme)0 && m->boundary == (subdiv_boundary)0 &&
            m->creasing == (subdiv_creasing)0 && m->triangles == (subdiv_triangles)0 &&
            m->uv_rule == (subdiv_uv_rule)0 && m->vertex_rule == (subdiv_vertex_rule)0 &&
-           !m->vertex_weights && !m->vertex_user && !m->cage_faces && !m->memory;
+           !m->vertex_weights && !m->vertex_user && !m->cage_faces && !m->memory &&
+           !m->left_handed;
 }
 
 static int size_of_face(const subdiv_mesh *m, int f)
@@ -48,7 +49,8 @@ static inline int same_mesh(const subdiv_mesh *a, const subdiv_mesh *b)
         a->hole_count != b->hole_count || a->line_count != b->line_count ||
         a->scheme != b->scheme || a->boundary != b->boundary ||
         a->creasing != b->creasing || a->triangles != b->triangles || a->uv_rule != b->uv_rule ||
-        a->vertex_rule != b->vertex_rule || a->vertex_weights != b->vertex_weights)
+        a->vertex_rule != b->vertex_rule || a->vertex_weights != b->vertex_weights ||
+        a->left_handed != b->left_handed)
         return 0;
     int total = 0, on_lines = 0;
     if (!same_bytes(a->line_sizes, b->line_sizes, a->line_count, sizeof(int))) return 0;
