@@ -38,7 +38,7 @@ TEST_FLAGS = $(subst -O2,-O1,$(FLAGS)) $(THREADS)
 OWN      = buffers evaluate memory exact obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle patches limit obj_read obj_write masks order invariants \
            recorded creases check errors uv partial_uvs vertex_rules normals threads stack \
-           limits curves conventions
+           limits curves conventions locations
 TESTS    = $(OWN) $(PLAIN) growth
 EXAMPLES = 00_lecture 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate \
            06_limit_normals 07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer

@@ -614,12 +614,22 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_buffer(const subdiv_buffer *buffer,
 //        u             u
 #define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
 
-#ifndef SUBDIV_NO_EXACT
 typedef struct subdiv_location {
     int   face, corner;               // from 0; corner: the vertex of an n-gon whose quad it is on,
     float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
 } subdiv_location;
 
+// Tells where the points [vertex_count] and face-vertices [sum of face sizes] of a result are; one
+// may be NULL. A face-vertex is on the face of the cage that its face is a part of. A point is on
+// the first face around it, on a hole only if there is no other face, and on face -1 if no face has
+// a surface; on level 0 it is on the first face, whatever that is. Error ARGUMENT: the surface is
+// one of face-varying values, or prepared for SUBDIV_EXACT.
+SUBDIV_DEF subdiv_result subdiv_surface_locations(const subdiv_surface *surface,
+                                                  subdiv_location *points,
+                                                  subdiv_location *face_vertices,
+                                                  const subdiv_options *opt);
+
+#ifndef SUBDIV_NO_EXACT
 // Where to write the results: arrays with all channels of each location, or NULL.
 typedef struct subdiv_derivatives {
     float *points, *du, *dv, *duu, *duv, *dvv;
@@ -935,9 +945,9 @@ SUBDIV_DEF subdiv_result subdiv_load_obj_callback(subdiv_mesh *mesh, subdiv_read
                                                   const subdiv_options *opt);
 
 // Writes v (with colours), vt and vn, then f with the statements between, then l, then tags unless
-// there is nothing but defaults. Faces without UVs have no vt. Faces of a left-handed mesh are turned
-// round, behind their first vertex, as those of OBJ are counter-clockwise. Numbers have the fewest
-// digits that read back as the same float, in any locale. Error IO.
+// there is nothing but defaults. Faces without UVs have no vt. Faces of a left-handed mesh are
+// turned round, as those of OBJ are counter-clockwise; their first vertex stays the first. Numbers
+// have the fewest digits that read back as the same float, in any locale. Error IO.
 //
 // To memory: *size becomes the size of the whole text, without a terminating 0. Call with capacity
 // 0 to get the size alone; any other capacity that is too small is error TOO_LARGE, and text holds
@@ -7850,6 +7860,80 @@ SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the faces are of several sizes");
     sdv_check_result(&context, surface);
     if (!context.result) sdv_make_fine_faces(surface, NULL, face_vertices, cage_faces, opt);
+    return context.result;
+}
+
+// Writes the locations of a grid's points, unless they are known, and of its faces: of quads, of
+// triangles or of triangles turned by half. Returns the place behind.
+static subdiv_location *sdv_put_locations(const sdv_grid *grid, int face, int corner,
+                                          subdiv_location *points, subdiv_location *out)
+{
+    static const unsigned char steps[3][4][2] = {               // of row and column
+        { {0,0}, {0,1}, {1,1}, {1,0} }, { {0,0}, {0,1}, {1,0}, {0,0} },
+        { {1,1}, {1,0}, {0,1}, {0,0} } };
+    int triangle = grid->triangle;
+    float u = 1.0f / (float)grid->columns, v = 1.0f / (float)grid->rows;
+    for (int row = 0; row <= grid->rows && points; row++)
+        for (int column = 0; column <= grid->columns - row * triangle; column++) {
+            subdiv_location at = { face, corner, u * (float)column, v * (float)row };
+            subdiv_location *point = &points[sdv_grid_index(grid, row, column)];
+            if (point->face < 0) *point = at;
+        }
+    for (int row = 0; row < grid->rows && out; row++)
+        for (int k = 0; k < (triangle ? 2 * (grid->columns - row) - 1 : grid->columns); k++)
+            for (int i = 0; i < 4 - triangle; i++) {
+                const unsigned char *step = steps[triangle ? 1 + k % 2 : 0][i];
+                subdiv_location at = { face, corner, u * (float)((k >> triangle) + step[1]),
+                                       v * (float)(row + step[0]) };
+                *out++ = at;
+            }
+    return out;
+}
+
+// Writes the locations of a cage, see subdiv_surface_locations.
+static void sdv_put_cage_locations(const subdiv_mesh *cage, subdiv_location *points,
+                                   subdiv_location *out)
+{
+    for (int f = 0, h = 0; f < cage->face_count; f++) {
+        int size = sdv_face_size(cage, f), loop = cage->scheme == SUBDIV_LOOP;
+        int whole = size == (loop ? 3 : 4);
+        for (int i = 0; i < size; i++, h++) {
+            int u = whole && (i == 1 || (i == 2 && !loop)), v = whole && i >= 2;
+            subdiv_location at = { f, whole ? 0 : i, (float)u, (float)v };
+            if (points && points[cage->face_vertices[h]].face < 0)
+                points[cage->face_vertices[h]] = at;
+            if (out) out[h] = at;
+        }
+    }
+}
+
+SUBDIV_DEF subdiv_result subdiv_surface_locations(const subdiv_surface *surface,
+                                                  subdiv_location *points,
+                                                  subdiv_location *face_vertices,
+                                                  const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_check_mesh_surface(&context, surface, 1);
+    if (context.result) return context.result;
+    for (int i = 0; i < surface->fine.vertex_count && points; i++) {
+        const subdiv_location none = { -1, 0, 0, 0 };
+        points[i] = none;
+    }
+    if (surface->levels == 0) sdv_put_cage_locations(&surface->fine, points, face_vertices);
+    const sdv_order *order = &surface->order;
+    for (int i = 0; i < (surface->levels ? 2 * surface->face_count : 0); i++) {
+        int f = i % surface->face_count, holes = i >= surface->face_count;  // holes come last
+        int start = sdv_face_start(&order->cage, f), grids = sdv_grids_of(order, f);
+        int fine = sdv_first_fine_face(surface, f) < sdv_first_fine_face(surface, f + 1);
+        for (int k = 0; k < grids && fine != holes; k++) {
+            sdv_grid grid;
+            sdv_grid_at(order, start + k, &grid);
+            subdiv_location *end = sdv_put_locations(
+                &grid, f, k, surface->hole[f] == SDV_DROPPED ? NULL : points,
+                fine ? face_vertices : NULL);
+            if (end) face_vertices = end;
+        }
+    }
     return context.result;
 }
 
