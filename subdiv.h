@@ -675,7 +675,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 //
 //     point i = sum of weights[k] * (vertex indices[k])     k from offsets[i] to offsets[i + 1] - 1
 //
-// The weights of a point add up to 1 and those of a tangent to 0, to within 1e-6 of the largest.
+// The weights of a point add up to 1, those of a derivative to 0, to within 1e-6 of the largest.
 // Weights no larger than the rounding of others are left out. On a surface of face-varying values,
 // indices are numbers of values.
 typedef struct subdiv_stencils {
@@ -685,6 +685,7 @@ typedef struct subdiv_stencils {
     float  *weights;                  // [offsets[count]]  of the point
     float  *du, *dv;                  // [offsets[count]]  of its two tangents, or NULL
     void   *memory;                   // the library's own, one block
+    float  *duu, *duv, *dvv;          // [offsets[count]]  of its second derivatives, or NULL
 } subdiv_stencils;
 
 // Makes the stencils of points first_point to first_point + point_count - 1 of the result. If the
@@ -697,7 +698,7 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
                                                  const subdiv_options *opt);
 
 #ifndef SUBDIV_NO_EXACT
-// Makes the stencils of the points, du and dv that subdiv_evaluate_at gives for count locations.
+// Makes the stencils of all that subdiv_evaluate_at gives for count locations, but for normals.
 // Stencils of a face without a surface are empty. Errors: as subdiv_evaluate_at.
 SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
                                             const subdiv_surface *surface, int count,
@@ -10935,21 +10936,20 @@ static void sdv_nest_normal(sdv_nest_sample *s)
     memcpy(s->tangents, limit[1], sizeof s->tangents);
 }
 
-// Turns derivatives in x and y into those in u and v, with the scale of the face.
-static void sdv_nest_turn(sdv_nest_sample *s, const signed char *t, double scale, int order)
+// Turns derivatives in x and y into those in u and v, with the scale of the face. values: the point
+// and behind it its derivatives, a stride apart.
+static void sdv_turn_derivatives(double *values, int stride, const signed char *t, double scale,
+                                 int order)
 {
-    double ss = scale * scale;
-    for (int c = 0; c < 4; c++) {
-        double dx = s->values[1][c], dy = s->values[2][c];
-        s->values[1][c] = scale * (t[0] * dx + t[2] * dy);
-        s->values[2][c] = scale * (t[1] * dx + t[3] * dy);
-        if (order < 2) continue;
-        double dxx = s->values[3][c], dxy = s->values[4][c], dyy = s->values[5][c];
-        s->values[3][c] = ss * (t[0] * t[0] * dxx + 2 * t[0] * t[2] * dxy + t[2] * t[2] * dyy);
-        s->values[4][c] = ss * (t[0] * t[1] * dxx + (t[0] * t[3] + t[1] * t[2]) * dxy +
-                                t[2] * t[3] * dyy);
-        s->values[5][c] = ss * (t[1] * t[1] * dxx + 2 * t[1] * t[3] * dxy + t[3] * t[3] * dyy);
-    }
+    double ss = scale * scale, *du = values + stride, *dv = du + stride, dx = *du, dy = *dv;
+    *du = scale * (t[0] * dx + t[2] * dy);
+    *dv = scale * (t[1] * dx + t[3] * dy);
+    if (order < 2) return;
+    double *duu = dv + stride, *duv = duu + stride, *dvv = duv + stride;
+    double dxx = *duu, dxy = *duv, dyy = *dvv;
+    *duu = ss * (t[0] * t[0] * dxx + 2 * t[0] * t[2] * dxy + t[2] * t[2] * dyy);
+    *duv = ss * (t[0] * t[1] * dxx + (t[0] * t[3] + t[1] * t[2]) * dxy + t[2] * t[3] * dyy);
+    *dvv = ss * (t[1] * t[1] * dxx + 2 * t[1] * t[3] * dxy + t[3] * t[3] * dyy);
 }
 
 static void sdv_put_nest_sample(const sdv_exact_evaluation *e, const sdv_nest_sample *s, int c,
@@ -11041,7 +11041,9 @@ static void sdv_sample_nest(const sdv_waiting *at, int level, int c, sdv_nest_sa
         sdv_nest_child(s, at->x, at->y, e->order);
     }
     if (e->normals && c == 0) sdv_nest_normal(s);
-    sdv_nest_turn(s, sdv_turns[e->surface->rules.loop][face->turn], (double)at->scale, e->order);
+    const signed char *turn = sdv_turns[e->surface->rules.loop][face->turn];
+    for (int i = 0; i < 4; i++)
+        sdv_turn_derivatives(&s->values[0][i], 4, turn, (double)at->scale, e->order);
     sdv_put_nest_sample(e, s, c, (size_t)at->i);
 }
 
@@ -11297,6 +11299,7 @@ typedef struct sdv_entry {
 } sdv_entry;
 
 enum { SDV_LONGEST_KNOWN = 64, SDV_LONG = -1 };
+enum { SDV_PARTS = 6 };                 // a point and its first and second derivatives
 
 typedef struct sdv_stencil_row {        // a row: points and their weights
     int     count;
@@ -11320,7 +11323,7 @@ typedef struct sdv_stencil_maker {
     int       *sizes;                   // [work_count] how many there are; 0: not known yet,
                                         // SDV_LONG: too many to be kept
 
-    int        parts;                   // 3 with tangents, else 1
+    int        parts;                   // 6 at locations, 3 with tangents, else 1
     int        size;                    // the sum that is being made: so many
     int       *vertices;                // [work_count] vertices, or long work points, with
     double    *sums;                    // [work_count * parts] weights, and where
@@ -11433,7 +11436,7 @@ static void sdv_note_rows(sdv_stencil_maker *make)
 static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
                                   const subdiv_surface *surface, int points)
 {
-    int parts = surface->rules.limit || surface->exact ? 3 : 1;
+    int parts = surface->exact ? SDV_PARTS : surface->rules.limit ? 3 : 1;
     memset(make, 0, sizeof *make);
     make->context = context;
     make->surface = surface;
@@ -11604,7 +11607,7 @@ static const sdv_stencil_row *sdv_row_of(const sdv_stencil_maker *make, int poin
 // Adds the points of a row, w times.
 static void sdv_add_row(sdv_stencil_maker *make, const sdv_stencil_row *row, const double *w)
 {
-    double product[3];
+    double product[SDV_PARTS];
     for (int i = row->count - 1; i >= 0; i--) {
         for (int k = 0; k < make->parts; k++) product[k] = row->weights[i] * w[k];
         sdv_add_work_point(make, row->points[i], product);
@@ -11628,7 +11631,7 @@ static void sdv_keep_sum(sdv_stencil_maker *make, int point)
 // Makes work points known, each after those that it is made from.
 static void sdv_compose(sdv_stencil_maker *make, const int *points, int count)
 {
-    const double one[3] = { 1, 0, 0 };
+    const double one[SDV_PARTS] = { 1 };
     for (; count > 0; count--, points++) {
         int point = *points, any_long = 0;
         if (point < make->surface->cage_vertex_count || make->sizes[point]) continue;
@@ -11667,7 +11670,7 @@ static void sdv_expand_sum(sdv_stencil_maker *make)
     for (; step > 0; step--)
         for (int i = 0; i < make->size; ) {
             int point = make->vertices[i];
-            double w[3];
+            double w[SDV_PARTS];
             if (point < make->surface->cage_vertex_count || make->steps[point] != step) {
                 i++;
                 continue;
@@ -11686,7 +11689,7 @@ static void sdv_balance(double *weights, int count, int stride, double total)
         if (fabs(*weights) > fabs(*largest)) largest = weights;
         total -= *weights;
     }
-    *largest += total;
+    if (fabs(total) < HUGE_VAL) *largest += total;
 }
 
 // Makes weights 0 that are no more than rounding of the largest one. Among more than 16 weights the
@@ -11747,11 +11750,15 @@ static size_t sdv_carve_stencils(const sdv_stencil_maker *make, subdiv_stencils 
                                  char *base)
 {
     size_t size = 0, entries = make->indices.count, tangents = make->parts > 1 ? entries : 0;
+    size_t seconds = make->parts > 3 ? entries : 0;
     stencils->offsets = SDV_CARVE(size_t, make->offsets, (size_t)stencils->count + 1, 1);
     stencils->indices = SDV_CARVE(int, sdv_items(&make->indices), entries, 1);
     stencils->weights = SDV_CARVE(float, NULL, entries, 1);
     stencils->du = SDV_CARVE(float, NULL, tangents, 1);
     stencils->dv = SDV_CARVE(float, NULL, tangents, 1);
+    stencils->duu = SDV_CARVE(float, NULL, seconds, 1);
+    stencils->duv = SDV_CARVE(float, NULL, seconds, 1);
+    stencils->dvv = SDV_CARVE(float, NULL, seconds, 1);
     return size;
 }
 
@@ -11767,12 +11774,9 @@ static void sdv_end_stencils(sdv_stencil_maker *make, int count, subdiv_stencils
         const float *weights = (const float *)sdv_items(&make->weights);
         made.memory = block;
         sdv_carve_stencils(make, &made, (char *)(block + 1));
-        for (size_t i = 0; i < make->indices.count; i++, weights += make->parts) {
-            made.weights[i] = weights[0];
-            if (make->parts == 1) continue;
-            made.du[i] = weights[1];
-            made.dv[i] = weights[2];
-        }
+        float *parts[SDV_PARTS] = { made.weights, made.du, made.dv, made.duu, made.duv, made.dvv };
+        for (size_t i = 0; i < make->indices.count; i++)
+            for (int k = 0; k < make->parts; k++) parts[k][i] = *weights++;
         *stencils = made;
     }
     sdv_array_free(&make->known);
@@ -11862,33 +11866,33 @@ SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 // Finds how a part of a patch weighs its control points in a point and its derivatives. weights
 // [16], of which Loop has 12.
 static void sdv_patch_weights(const subdiv_surface *surface, const sdv_patch *patch, int part,
-                              const sdv_leaf *at, double (*weights)[3])
+                              const sdv_leaf *at, double (*weights)[SDV_PARTS])
 {
-    double c[SDV_SLOTS][4], values[3][4];
+    double c[SDV_SLOTS][4], values[SDV_PARTS][4];
     for (int i = 0; i < sdv_control_points(&surface->rules); i++) {
         if (i % 4 == 0) {
             sdv_unit_polynomial(surface, patch, part, i, c);
             sdv_sum_powers((const double (*)[4])c, surface->rules.loop, at->x, at->y, at->sx,
-                           at->sy, 1, values);
+                           at->sy, 2, values);
         }
-        for (int k = 0; k < 3; k++) weights[i][k] = values[k][i % 4];
+        for (int k = 0; k < SDV_PARTS; k++) weights[i][k] = values[k][i % 4];
     }
 }
 
-// Adds work points, weights [3 * count] times.
+// Adds work points, weights [SDV_PARTS * count] times.
 static void sdv_add_work_points(sdv_stencil_maker *make, const int *points, int count,
                                 const double *weights)
 {
     sdv_compose(make, points, count);
     for (int i = 0; i < count && !make->context->result; i++)
-        sdv_add_work_point(make, points[i], weights + 3 * i);
+        sdv_add_work_point(make, points[i], weights + SDV_PARTS * i);
 }
 
 // Adds the control points of a patch, or of the part of it that a location is on.
 static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 {
     const subdiv_surface *surface = make->surface;
-    double weights[16][3];
+    double weights[16][SDV_PARTS];
     sdv_find_polynomial(surface, &leaf);
     sdv_patch_weights(surface, leaf.patch, (int)leaf.polynomial - leaf.patch->polynomial, &leaf,
                       weights);
@@ -11897,8 +11901,8 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 
 // In a nest, weights go the way back from the patch to the nest's points: each point that a row
 // makes gives its weights to the points of the row, which takes as long as one evaluation. Weights
-// w [3 * work_count] are those of a point and its derivatives as seen from the vertex: of the
-// nest's points, then of the points of the next level.
+// w [SDV_PARTS * work_count] are those of a point and its derivatives as seen from the vertex: of
+// the nest's points, then of the points of the next level.
 
 // Gives the weights of a row's point to the points that the row sums.
 static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
@@ -11907,14 +11911,15 @@ static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
     const int *point = row + sdv_row_points(shape);         // the last one
     const void *own = point + 1;
     const float *weights = shape->own ? (const float *)own : shape->weight;
-    const double *from = w + 3 * (size_t)row[0];
+    const double *from = w + SDV_PARTS * (size_t)row[0];
     double left = 1;
     for (int k = 3; k-- > 0; ) {
         for (int i = 0; i < shape->count[k]; i++, point--)
-            for (int c = 0; c < 3; c++) w[3 * *point + c] += (double)weights[k] * from[c];
+            for (int c = 0; c < SDV_PARTS; c++)
+                w[SDV_PARTS * *point + c] += (double)weights[k] * from[c];
         left -= shape->count[k] * (double)weights[k];
     }
-    for (int c = 0; c < 3; c++) w[3 * *point + c] += left * from[c];
+    for (int c = 0; c < SDV_PARTS; c++) w[SDV_PARTS * *point + c] += left * from[c];
 }
 
 static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
@@ -11933,14 +11938,16 @@ static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
 // others leave of 1. Derivatives are those of w.
 static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
 {
-    double *vertex = w + 3 * kind->below[0];
-    for (int i = 3 * kind->points; i < 3 * kind->work_count; i++) w[i] = 0;
+    static const double doubled[SDV_PARTS] = { 1, 2, 2, 4, 4, 4 };
+    double *vertex = w + SDV_PARTS * kind->below[0];
+    for (int i = SDV_PARTS * kind->points; i < SDV_PARTS * kind->work_count; i++) w[i] = 0;
     vertex[0] = 1;
-    for (int i = 0; i < 3 * kind->points; i++) {
-        double weight = (i % 3 ? 2 : 1) * w[i];
+    for (int i = 0; i < SDV_PARTS * kind->points; i++) {
+        int part = i % SDV_PARTS;
+        double weight = doubled[part] * w[i];
         w[i] = 0;
-        w[3 * kind->below[i / 3] + i % 3] += weight;
-        vertex[i % 3] -= weight;
+        w[SDV_PARTS * kind->below[i / SDV_PARTS] + part] += weight;
+        vertex[part] -= weight;
     }
 }
 
@@ -11948,13 +11955,13 @@ static void sdv_ascend_nest(const sdv_nest_kind *kind, double *w)
 static void sdv_weigh_child(const subdiv_surface *surface, const sdv_nest_kind *kind, int face,
                             double x, double y, double *w)
 {
-    double weights[16][3], scale = 1;
+    double weights[16][SDV_PARTS], scale = 1;
     int child = sdv_descend(surface->rules.loop, &x, &y, &scale);
     const sdv_patch *patch = sdv_nest_patch(kind, face, child, 0);
     sdv_leaf at = { patch, -1, 0, 0, x, y, scale, scale };
     sdv_patch_weights(surface, patch, 0, &at, weights);
     for (int i = 0; i < sdv_control_points(&surface->rules); i++)
-        for (int k = 0; k < 3; k++) w[3 * patch->points[i] + k] += weights[i][k];
+        for (int k = 0; k < SDV_PARTS; k++) w[SDV_PARTS * patch->points[i] + k] += weights[i][k];
 }
 
 // Sets the weights of the vertex of a nest, as sdv_nest_vertex does.
@@ -11962,10 +11969,12 @@ static void sdv_weigh_masks(const sdv_nest_kind *kind, int face, double *w)
 {
     const double *limit = kind->limit, *t0 = limit + kind->points, *t1 = t0 + kind->points;
     double n = (kind->ring ? 1.0 : 2.0) * kind->faces;
-    for (int i = 0; i < kind->points; i++) w[3 * i] = limit[i];
+    for (int i = 0; i < SDV_PARTS * kind->points; i++) w[i] = 0;
+    for (int i = 0; i < kind->points; i++) w[SDV_PARTS * i] = limit[i];
     for (int k = 0; k < 2; k++) {
         double along = sdv_cosine(face + k, n), across = sdv_sine(face + k, n);
-        for (int i = 0; i < kind->points; i++) w[3 * i + 1 + k] = along * t0[i] + across * t1[i];
+        for (int i = 0; i < kind->points; i++)
+            w[SDV_PARTS * i + 1 + k] = along * t0[i] + across * t1[i];
     }
 }
 
@@ -11978,7 +11987,7 @@ static void sdv_weigh_nest(const subdiv_surface *surface, const sdv_nest_kind *k
         sdv_weigh_masks(kind, face, w);
         return;
     }
-    for (int i = 0; i < 3 * kind->work_count; i++) w[i] = 0;
+    for (int i = 0; i < SDV_PARTS * kind->work_count; i++) w[i] = 0;
     sdv_weigh_child(surface, kind, face, ldexp(x, down), ldexp(y, down), w);
     sdv_unrefine_nest(kind, w);
     for (int i = 0; i < down; i++) {
@@ -11999,11 +12008,8 @@ static void sdv_add_leaf_nest(sdv_stencil_maker *make, const sdv_leaf *leaf, dou
     double x, y;
     sdv_nest_place(surface->rules.loop, face->turn, leaf->x, leaf->y, &x, &y);
     sdv_weigh_nest(surface, kind, leaf->nest_face - nest->face, x, y, w);
-    for (int i = 0; i < kind->points; i++) {
-        double dx = leaf->sx * w[3 * i + 1], dy = leaf->sx * w[3 * i + 2];
-        w[3 * i + 1] = t[0] * dx + t[2] * dy;
-        w[3 * i + 2] = t[1] * dx + t[3] * dy;
-    }
+    for (int i = 0; i < kind->points; i++)
+        sdv_turn_derivatives(w + SDV_PARTS * i, 1, t, leaf->sx, 2);
     sdv_add_work_points(make, exact->nest_points + nest->first, kind->points, w);
 }
 
@@ -12022,7 +12028,8 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
     if (context.result) return context.result;
     sdv_stencil_maker make;
     sdv_stencil_maker_new(&context, &make, surface, count);
-    double *w = SDV_NEW(&context, &make.arena, double, 3 * (size_t)surface->exact->most_work);
+    double *w = SDV_NEW(&context, &make.arena, double,
+                        SDV_PARTS * (size_t)surface->exact->most_work);
     for (int i = 0; i < count && !context.result; i++) {
         sdv_spot spot = sdv_spot_of(surface, &locations[i]);
         sdv_leaf leaf = sdv_locate(surface, &spot);

@@ -231,17 +231,18 @@ static void check_locations(const subdiv_surface *surface, const subdiv_mesh *me
     static subdiv_location at[400];
     int count = places_of(mesh, at, 400);
     size_t size = sizeof(float) * (size_t)count * (size_t)inputs;
-    float *in = units(inputs), *out[3];
+    float *in = units(inputs), *out[6];
     void *scratch = malloc(subdiv_scratch_size(surface, inputs));
     subdiv_stencils s;
-    for (int k = 0; k < 3; k++) out[k] = malloc(size);
-    subdiv_derivatives values = { out[0], out[1], out[2], NULL, NULL, NULL, NULL, 0 };
+    for (int k = 0; k < 6; k++) out[k] = malloc(size);
+    subdiv_derivatives values = { out[0], out[1], out[2], out[3], out[4], out[5], NULL, 0 };
     CHECK_EQUAL(subdiv_evaluate_begin(surface, inputs, in, 0, scratch, NULL), SUBDIV_OK);
     CHECK_EQUAL(subdiv_evaluate_at(surface, inputs, scratch, count, at, &values, NULL), SUBDIV_OK);
     CHECK_EQUAL(subdiv_stencils_at(&s, surface, count, at, NULL), SUBDIV_OK);
     check_shape(&s, count, inputs);
-    for (int k = 0; k < 3; k++) {
-        const float *weights = k == 0 ? s.weights : k == 1 ? s.du : s.dv;
+    const float *all[6] = { s.weights, s.du, s.dv, s.duu, s.duv, s.dvv };
+    for (int k = 0; k < 6; k++) {
+        const float *weights = all[k];
         for (int i = 0; i < s.count; i++) {
             const float *expected = out[k] + (size_t)i * (size_t)inputs;
             double sum = 0, wanted = 0, largest = 1;
@@ -254,13 +255,13 @@ static void check_locations(const subdiv_surface *surface, const subdiv_mesh *me
                 int there = j < s.offsets[i + 1] && s.indices[j] == v;
                 double weight = there ? (double)weights[j++] : 0;
                 sum += weight;
-                CHECK_NEAR(weight, expected[v], (k ? 5e-6 : 1e-6) * largest);
+                CHECK_NEAR(weight, expected[v], (k > 2 ? 1e-5 : k ? 5e-6 : 1e-6) * largest);
             }
             CHECK_NEAR(sum, k ? 0 : floor(wanted + 0.5), 1e-6 * largest);
         }
     }
     subdiv_stencils_free(&s);
-    for (int k = 0; k < 3; k++) free(out[k]);
+    for (int k = 0; k < 6; k++) free(out[k]);
     free(in), free(scratch);
 }
 
@@ -354,8 +355,8 @@ static int places_at_wheel(const wheel *w, int shape, subdiv_location *at)
 static void check_wheel(const wheel *w, int shape)
 {
     subdiv_location at[27];
-    float out[3][3 * 27];
-    subdiv_derivatives values = { out[0], out[1], out[2], NULL, NULL, NULL, NULL, 0 };
+    float out[6][3 * 27];
+    subdiv_derivatives values = { out[0], out[1], out[2], out[3], out[4], out[5], NULL, 0 };
     subdiv_surface *surface;
     subdiv_stencils s;
     int count = places_at_wheel(w, shape, at);
@@ -367,18 +368,23 @@ static void check_wheel(const wheel *w, int shape)
     check_shape(&s, count, w->mesh.vertex_count);
     check_sums(&s);
     for (int i = 0; i < 3 * s.count; i++) {
-        double sum[3] = { 0 }, point = 0, derivative = 0;
+        double sum[6] = { 0 }, point = 0, derivative = 0, second = 0;
         for (size_t j = s.offsets[i / 3]; j < s.offsets[i / 3 + 1]; j++) {
             double value = (double)w->positions[3 * s.indices[j] + i % 3];
             sum[0] += (double)s.weights[j] * value;
             sum[1] += (double)s.du[j] * value;
             sum[2] += (double)s.dv[j] * value;
+            sum[3] += (double)s.duu[j] * value;
+            sum[4] += (double)s.duv[j] * value;
+            sum[5] += (double)s.dvv[j] * value;
+            second += fabs((double)s.duu[j]) + fabs((double)s.duv[j]) + fabs((double)s.dvv[j]);
             point += fabs((double)s.weights[j]);
             derivative += fabs((double)s.du[j]) + fabs((double)s.dv[j]);
         }
         CHECK_NEAR(sum[0], out[0][i], 2e-6 * point);
         CHECK_NEAR(sum[1], out[1][i], 1e-6 * derivative);
         CHECK_NEAR(sum[2], out[2][i], 1e-6 * derivative);
+        for (int k = 3; k < 6; k++) CHECK_NEAR(sum[k], out[k][i], 2e-6 * second);
     }
     subdiv_stencils_free(&s);
     subdiv_surface_free(surface);
