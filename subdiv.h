@@ -963,7 +963,7 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt);
 
 // Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
-// subdiv_save_obj, but without normals. From level 1 on, the mesh is never in memory as a whole.
+// subdiv_save_obj. From level 1 on, the mesh is never in memory as a whole.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
@@ -15490,9 +15490,11 @@ enum { SDV_STREAM_POINTS = 1 << 20 };
 
 // Writes the points of a surface, width numbers each, a window at a time. The first windows hold
 // the points of vertices and edges, which any face may make; the others those inside a few faces or
-// a part of one. The first three numbers are a position, to be multiplied by factor.
+// a part of one. The first three numbers are a position, to be multiplied by factor. sides: writes
+// the points' normals instead, and fills in those of other sides of creases; NULL: points.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
-                              const char *keyword, int width, const float *values, float factor)
+                              const char *keyword, int width, const float *values, float factor,
+                              float *sides)
 {
     const subdiv_options *opt = out->opt;
     int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
@@ -15500,6 +15502,7 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
     int most = total < SDV_STREAM_POINTS ? total : (int)SDV_STREAM_POINTS;
     float *window = SDV_NEW(out->context, arena, float, stride * (size_t)most);
     char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
+    const subdiv_limit normals = { NULL, window, NULL, 0, sides };
     if (out->context->result) return;
     out->context->result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
     for (int first = 0; first < total && !out->context->result; first = end) {
@@ -15509,8 +15512,11 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
             face = sdv_face_inside(&surface->order, first);
             faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
         }
-        subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
-                              window, width, opt);
+        if (sides)
+            subdiv_evaluate_limit_faces(surface, scratch, face, faces, first, end - first,
+                                        &normals, opt);
+        else subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
+                                   window, width, opt);
         for (size_t i = 0; i < (size_t)(end - first) && factor != 1; i++)
             sdv_multiply(window + i * stride, 3, factor);
         sdv_write_lines(out, keyword, width, window, NULL, end - first);
@@ -15531,12 +15537,15 @@ static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
     return joined;
 }
 
-// Writes the faces, a row of a grid at a time, and before them their statements. row and uvs have
-// room for the indices of a row.
-static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs)
+// Writes the faces, a row of a grid at a time, and before them their statements. row, uvs and
+// normals have room for the indices of a row.
+static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs,
+                             int *normals)
 {
     const sdv_order *order = &surface->order;
     const subdiv_surface *uv = surface->uv;
+    const sdv_sides *sides = surface->sides.vertex ? &surface->sides : NULL;
+    const int *seen = !surface->rules.limit ? NULL : sides ? normals : row;
     int size = surface->fine.face_size, statement = 0;
     for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
         int first = sdv_first_fine_face(surface, f);
@@ -15545,15 +15554,18 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, first);
         for (int g = 0; g < grids; g++) {
-            sdv_grid grid, uv_grid;
+            sdv_grid grid, uv_grid, normal_grid;
             sdv_grid_at(order, start + g, &grid);
+            normal_grid = grid;
+            if (sides) sdv_see_sides(order, sides, start + g, &normal_grid);
             if (own >= 0)
                 sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
             for (int i = 0; i < grid.rows && !out->context->result; i++) {
                 int *last = sdv_grid_faces(&grid, i, i + 1, 0, grid.columns, row);
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, i + 1, 0, uv_grid.columns, uvs);
+                if (sides) sdv_grid_faces(&normal_grid, i, i + 1, 0, grid.columns, normals);
                 int count = (int)(last - row) / size;
-                sdv_write_faces(out, 'f', row, own >= 0 ? uvs : NULL, NULL, size, count);
+                sdv_write_faces(out, 'f', row, own >= 0 ? uvs : NULL, seen, size, count);
             }
         }
     }
@@ -15568,13 +15580,20 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
     float factor = sdv_shrink_huge(context, arena, surface, &positions);
     size_t size = fine.face_count ? 8 * (size_t)surface->order.n : 0;
     int *row = SDV_NEW(context, arena, int, size), *uvs = SDV_NEW(context, arena, int, size);
+    int *normals = SDV_NEW(context, arena, int, size), other = fine.normal_count;
+    if (surface->rules.limit) other -= fine.vertex_count;
+    float *sides = SDV_NEW(context, arena, float, 3 * (size_t)other);
     fine.holes = SDV_NEW(context, arena, int, fine.hole_count);
     const float *values = sdv_join_colors(context, arena, surface, positions);
     if (context->result) return;
     sdv_list_holes(surface, fine.holes);
-    sdv_stream_points(out, arena, surface, "v", surface->colors ? 6 : 3, values, factor);
-    if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1);
-    sdv_stream_faces(out, surface, row, uvs);
+    sdv_stream_points(out, arena, surface, "v", surface->colors ? 6 : 3, values, factor, NULL);
+    if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1, NULL);
+    if (surface->rules.limit) {
+        sdv_stream_points(out, arena, surface, "vn", 3, positions, 1, sides);
+        sdv_write_lines(out, "vn", 3, sides, NULL, other);
+    }
+    sdv_stream_faces(out, surface, row, uvs, normals);
     sdv_write_tags(out, &fine);
 }
 
@@ -15588,7 +15607,6 @@ static subdiv_result sdv_write_obj(sdv_context *context, const subdiv_mesh *mesh
     if (context->result) return context->result;
     if (surface && surface->levels == 0) {                      // no larger than the cage
         context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
-        copy.normals = NULL;                                    // as on the other levels
         mesh = &copy;
     }
     sdv_arena arena = sdv_scratch();

@@ -694,7 +694,6 @@ static void check_stream(const subdiv_mesh *m, const prepared *p)
     saved = new_text(1 << 22), streamed = new_text(1 << 22);
     opt.no_tags = below(4) == 0;
     CHECK_EQUAL(subdiv_refine(&fine, &cage, p->levels, &opt), SUBDIV_OK);
-    fine.normals = NULL;              // they are not streamed
     CHECK_EQUAL(subdiv_save_obj_callback(&fine, keep_text, &saved, &opt), SUBDIV_OK);
     CHECK(saved.bytes && streamed.bytes && saved.size <= saved.capacity);
     start_crew(&c, below(3), &opt);
@@ -720,10 +719,13 @@ static void test_large_stream(void)
     subdiv_mesh fine = {0};
     subdiv_surface *surface = NULL;
     text saved = new_text(0), streamed = new_text(0);
+    subdiv_options opt = {0};
+    opt.limit = 1;
     build_prism(&cage, 5);
     cage_crease(&cage, 0, 1, 2.5);
+    cage_crease(&cage, 1, 2, SUBDIV_INFINITE);
     cage_hole(&cage, 3);
-    CHECK_EQUAL(subdiv_prepare(&surface, &cage.mesh, 9, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_prepare(&surface, &cage.mesh, 9, &opt), SUBDIV_OK);
     if (!surface) return;
     CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, cage.positions, NULL), SUBDIV_OK);
     CHECK_EQUAL(subdiv_save_obj_callback(&fine, keep_text, &saved, NULL), SUBDIV_OK);
