@@ -549,6 +549,10 @@ SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degree
 //     out.positions = data;  out.normals = data + 3;  out.uvs = data + 6;  out.stride = 8;
 //     subdiv_fill_buffer(&buffer, &mesh, &out, &opt);
 //     subdiv_evaluate_buffer(&buffer, surface, moved, &out, scratch, &opt);       // each frame
+//
+// Tangents for normal maps, if you need them, come from another surface of the cage, prepared for
+// SUBDIV_EXACT: subdiv_tangents_at writes them with the same stride. Vertex i is at the location
+// [buffer.face_vertices[i]] of those that subdiv_surface_locations gives for face-vertices.
 typedef struct subdiv_buffer {
     int    vertex_count;              // vertex i is point i of the mesh; copies of points follow
     int    point_count, normal_count; // of the mesh; vertex i has normal i, as long as there are
@@ -559,6 +563,7 @@ typedef struct subdiv_buffer {
     int    index_size;                // bytes of an index: 2 or 4
     void  *indices;                   // [index_count]   unsigned short or int
     void  *memory;                    // the library's own
+    int   *face_vertices;             // [vertex_count]  a face-vertex that each one is for, or 0
 } subdiv_buffer;
 
 // Where to write the vertices: arrays with this many floats a vertex, or NULL.
@@ -666,6 +671,17 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
                                             const subdiv_derivatives *out,
+                                            const subdiv_options *opt);
+
+// Makes tangents for normal maps at count locations, after subdiv_evaluate_begin for 3 channels:
+// tangents [stride * count], stride 0 stands for 4. x y z is the direction in which the first of
+// the cage's UVs grows and the second stays, at right angles to the normal and of length 1. The
+// second one grows along w times normal x tangent, where w is 1 or -1. All four are 0 where normal
+// or UVs give no direction. Each call evaluates the UVs of the whole cage: ask for many locations
+// at once. Errors: as subdiv_evaluate_at, and ARGUMENT if the cage has no UVs.
+SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const void *scratch,
+                                            int count, const subdiv_location *locations,
+                                            float *tangents, int stride,
                                             const subdiv_options *opt);
 #endif // SUBDIV_NO_EXACT
 
@@ -11280,6 +11296,56 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
         sdv_fail(&context, SUBDIV_ERROR_MEMORY, "out of memory");
     return context.result;
 }
+
+// Makes a tangent from du, dv and the normal of a point, behind each other, then du, dv of its UVs.
+static void sdv_make_tangent(const float *f, int left_handed, float *out)
+{
+    double su = (double)f[9], tu = (double)f[10], sv = (double)f[11], tv = (double)f[12];
+    double area = su * tv - sv * tu, sign = area < 0 ? -1 : 1, n[3], t[3];
+    for (int k = 0; k < 3; k++) {
+        n[k] = (double)f[6 + k];
+        t[k] = sign * (tv * (double)f[k] - tu * (double)f[3 + k]);
+    }
+    double along = sdv_dot3(n, t);
+    int none = fabs(area) <= 1e-6 * (fabs(su * tv) + fabs(sv * tu)) || !(sdv_dot3(n, n) > 0);
+    for (int k = 0; k < 3; k++) t[k] = none ? 0 : t[k] - along * n[k];
+    sdv_make_unit(t, out);
+    out[3] = sdv_dot3(t, t) > 0 ? (float)(left_handed ? -sign : sign) : 0;
+}
+
+enum { SDV_TANGENTS = 1 << 14 };        // locations at a time
+
+SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const void *scratch,
+                                            int count, const subdiv_location *locations,
+                                            float *tangents, int stride,
+                                            const subdiv_options *opt)
+{
+    enum { WIDTH = 13 };
+    sdv_context context = sdv_begin(opt);
+    sdv_arena arena = sdv_scratch();
+    const subdiv_surface *uv = surface ? surface->uv : NULL;
+    if (stride == 0) stride = 4;
+    sdv_check_values(&context, surface, 4, tangents, &stride);
+    if (!uv) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the surface has no UVs");
+    float *f = SDV_NEW(&context, &arena, float, WIDTH * SDV_TANGENTS);
+    void *uv_scratch = SDV_NEW(&context, &arena, char, subdiv_scratch_size(uv, 2));
+    if (!context.result)
+        context.result = subdiv_evaluate_begin(uv, 2, surface->uvs, 2, uv_scratch, opt);
+    for (int left = count; left != 0 && !context.result; ) {
+        const subdiv_derivatives of = { NULL, f, f + 3, NULL, NULL, NULL, f + 6, WIDTH };
+        const subdiv_derivatives of_uv = { NULL, f + 9, f + 11, NULL, NULL, NULL, NULL, WIDTH };
+        int some = left < SDV_TANGENTS ? left : SDV_TANGENTS;
+        context.result = subdiv_evaluate_at(surface, 3, scratch, some, locations, &of, opt);
+        if (!context.result)
+            context.result = subdiv_evaluate_at(uv, 2, uv_scratch, some, locations, &of_uv, opt);
+        for (int i = 0; i < some && !context.result; i++, tangents += stride)
+            sdv_make_tangent(f + WIDTH * i, surface->rules.left_handed, tangents);
+        left -= some;
+        locations += some;
+    }
+    sdv_arena_free(&arena);
+    return context.result;
+}
 #else
 static const sdv_exact_calls *sdv_find_exact_calls(void)
 {
@@ -13260,6 +13326,7 @@ static size_t sdv_carve_buffer(subdiv_buffer *buffer, char *base)
     buffer->points = SDV_CARVE(int, NULL, vertices, 1);
     buffer->normals = SDV_CARVE(int, NULL, vertices, 1);
     buffer->uvs = SDV_CARVE(int, NULL, vertices, 1);
+    buffer->face_vertices = SDV_CARVE(int, NULL, vertices, 1);
     buffer->indices = SDV_CARVE(char, NULL, (size_t)buffer->index_count,
                                 (size_t)buffer->index_size);
     return size;
@@ -13276,6 +13343,7 @@ static void sdv_cut_faces(const sdv_buffer_maker *make, subdiv_buffer *buffer)
         buffer->points[v] = v < buffer->point_count ? v : 0;
         buffer->normals[v] = v < buffer->normal_count ? v : 0;
         buffer->uvs[v] = -1;
+        buffer->face_vertices[v] = 0;
     }
     for (int f = 0; f < mesh->face_count; f++) {
         int size = sdv_face_size(mesh, f), triangle[3] = { 0, 0, 0 };
@@ -13284,6 +13352,7 @@ static void sdv_cut_faces(const sdv_buffer_maker *make, subdiv_buffer *buffer)
             buffer->points[v] = mesh->face_vertices[h];
             buffer->normals[v] = make->normals[h];
             buffer->uvs[v] = mesh->uv_count ? mesh->face_uvs[h] : -1;
+            buffer->face_vertices[v] = h;
             triangle[i == 0 ? 0 : 1] = triangle[i == 0 ? 0 : 2];
             triangle[i == 0 ? 0 : 2] = v;
             for (int k = 0; k < 3 && i >= 2; k++, at++) {
@@ -13332,7 +13401,7 @@ SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_
         sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the buffer has more than %d vertices",
                  index_size == 2 ? 65536 : INT_MAX);
     subdiv_buffer made = { (int)vertices, mesh->vertex_count, make.normal_count, NULL, NULL, NULL,
-                           3 * ((int)count - 2 * mesh->face_count), index_size, NULL, NULL };
+                           3 * ((int)count - 2 * mesh->face_count), index_size, NULL, NULL, NULL };
     sdv_block *block = context.result ? NULL
                      : sdv_allocate(&context, sdv_carve_buffer(&made, NULL));
     if (block) {

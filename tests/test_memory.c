@@ -306,7 +306,7 @@ static int list_places(subdiv_location *at, const subdiv_mesh *cage, int loop)
 static subdiv_result call_exact(const trial *t, const subdiv_options *opt)
 {
     subdiv_location at[PLACES];
-    float points[3 * PLACES], normals[3 * PLACES];
+    float points[3 * PLACES], normals[3 * PLACES], tangents[4 * PLACES];
     const subdiv_mesh *cage = t->cage;
     subdiv_derivatives out = { points, NULL, NULL, t->odd ? points : NULL, NULL, NULL, normals, 0 };
     subdiv_stencils stencils;
@@ -317,6 +317,7 @@ static subdiv_result call_exact(const trial *t, const subdiv_options *opt)
     void *scratch = malloc(subdiv_scratch_size(surface, 3));
     TRY(subdiv_evaluate_begin(surface, 3, cage->positions, 0, scratch, opt));
     TRY(subdiv_evaluate_at(surface, 3, scratch, count, at, &out, opt));
+    if (cage->uv_count) TRY(subdiv_tangents_at(surface, scratch, count, at, tangents, 0, opt));
     free(scratch);
     FILL(stencils);
     if (result) memset(&stencils, 0, sizeof stencils);
@@ -1048,6 +1049,17 @@ static void wrong_places(void)
     WRONG(ARGUMENT, subdiv_evaluate_at(exact, 3, work, 1, &at, &narrow, opt));
     WRONG(ARGUMENT, subdiv_evaluate_at(exact, 3, work, 1, &at, &negative, opt));
     WRONG(ARGUMENT, subdiv_evaluate_at(exact, 2, work, 1, &at, &normals, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(NULL, work, 1, &at, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(k.plain, work, 1, &at, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(k.exact_values, work, 1, &at, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(exact, NULL, 1, &at, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(exact, work, -1, &at, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(exact, work, 1, NULL, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(exact, work, 1, &at, NULL, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(exact, work, 1, &at, o.out, 3, opt));
+    WRONG(ARGUMENT, subdiv_surface_locations(NULL, NULL, NULL, opt));
+    WRONG(ARGUMENT, subdiv_surface_locations(exact, NULL, NULL, opt));
+    WRONG(ARGUMENT, subdiv_surface_locations(k.values, NULL, NULL, opt));
     WRONG(ARGUMENT, subdiv_stencils_at(NULL, exact, 1, &at, opt));
     WRONG(ARGUMENT, subdiv_stencils_at(&o.stencils, NULL, 1, &at, opt));
     WRONG(ARGUMENT, subdiv_stencils_at(&o.stencils, k.plain, 1, &at, opt));

@@ -161,6 +161,10 @@ static inline void every_refinement(every *e)
     if (EVERY(e, subdiv_prepare(&surface, cage, e->levels, &limit))) {
         EVERY(e, subdiv_surface_mesh(&fine, surface, cage->positions, e->opt));
         every_buffer(e, surface, &fine);
+        size_t places = sizeof(subdiv_location) * (size_t)fine.vertex_count;
+        subdiv_location *where = (subdiv_location *)every_room(e, places);
+        EVERY(e, subdiv_surface_locations(surface, where, NULL, e->opt));
+        every_keep(e, where, places);
         every_mesh(e, &fine);
         every_limit(e, surface);
         every_surface(e, surface, 3, cage->positions);
@@ -208,6 +212,7 @@ static inline void every_exact(every *e)
         subdiv_derivatives points = { p, p + 3, p + 6, p + 9, p + 12, p + 15, p + 18, 21 };
         EVERY(e, subdiv_evaluate_begin(surface, 3, cage->positions, 0, scratch, e->opt));
         EVERY(e, subdiv_evaluate_at(surface, 3, scratch, COUNT, locations, &points, e->opt));
+        EVERY(e, subdiv_tangents_at(surface, scratch, COUNT, locations, p + 17, 21, e->opt));
         EVERY(e, subdiv_stencils_at(&stencils, surface, COUNT, locations, e->opt));
         every_stencils(e, &stencils);
         EVERY(e, subdiv_surface_tessellate(&fine, surface, cage->positions, &how, e->opt));
