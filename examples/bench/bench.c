@@ -50,7 +50,7 @@ static const double stage_seconds = 2;    // a stage ends after this time, or af
 // The rows and columns of the table. PEAK is in bytes, all others in seconds.
 enum {
     COLD, WARM, PREPARE, FACES, CHAINED, STENCILS, FLOAT4, THREADED, NORMALS, NORMALS_CHAINED,
-    SURFACES, SAMPLE, SAMPLE_DERIVATIVES, TESSELLATE, PEAK, ROW_COUNT
+    BUFFER, SURFACES, SAMPLE, SAMPLE_DERIVATIVES, TESSELLATE, PEAK, ROW_COUNT
 };
 enum { OURS, THEIRS, LIMIT, COLUMN_COUNT };
 
@@ -58,7 +58,7 @@ static const char *row_names[ROW_COUNT] = {
     "one-shot, fresh memory", "one-shot, re-used memory", "prepare", "faces",
     "evaluate xyz | chained", "evaluate xyz | stencils", "evaluate xyzw | stencils",
     "evaluate xyz, 2 threads", "limit + normals | Limit", "limit + normals | chained",
-    "surfaces ready", "sample P", "sample P, du, dv", "tessellate",
+    "buffer (refine + loop)", "surfaces ready", "sample P", "sample P, du, dv", "tessellate",
     "peak memory, bytes"
 };
 
@@ -617,6 +617,55 @@ static void limit_normals(bench *b)
     subdiv_surface_free(surface);
 }
 
+// Without buffers: refines, then writes the vertices in a plain loop.
+static void refill_plainly(bench *b, const subdiv_buffer *buffer, const subdiv_options *opt,
+                           float *data)
+{
+    subdiv_mesh fine;
+    double start = now();
+    expect(b, subdiv_refine(&fine, &b->cage, b->levels, opt));
+    for (int i = 0; i < buffer->vertex_count; i++, data += 6)
+        for (int k = 0; k < 3; k++) {
+            data[k] = fine.positions[3 * buffer->points[i] + k];
+            data[3 + k] = fine.normals[3 * buffer->normals[i] + k];
+        }
+    add_sample(b, BUFFER, THEIRS, now() - start);
+    subdiv_mesh_free(&fine);
+}
+
+static void refill_buffer(bench *b)
+{
+    subdiv_options opt = {0};
+    subdiv_surface *surface;
+    subdiv_mesh fine;
+    subdiv_buffer buffer;
+    subdiv_vertices out = {0};
+    keep_memory();
+    opt.limit = 1;
+    expect(b, subdiv_prepare(&surface, &b->cage, b->levels, &opt));
+    expect(b, subdiv_surface_mesh(&fine, surface, b->cage.positions, &opt));
+    expect(b, subdiv_make_buffer(&buffer, &fine, 4, NULL));
+    subdiv_mesh_free(&fine);
+    void *scratch = allocate(subdiv_scratch_size(surface, 3));
+    size_t size = 6 * sizeof(float) * (size_t)buffer.vertex_count;
+    out.positions = (float *)allocate(size);
+    out.normals = out.positions + 3;
+    out.stride = 6;
+    double begin = wall();
+    for (int round = -1; go_on(round, begin); round++) {
+        b->warming_up = round < 0;
+        double start = now();
+        expect(b, subdiv_evaluate_buffer(&buffer, surface, b->cage.positions, &out, scratch, NULL));
+        add_sample(b, BUFFER, OURS, now() - start);
+        refill_plainly(b, &buffer, &opt, out.positions);
+        warm_limit(b, BUFFER, out.positions, size);
+    }
+    free(out.positions);
+    free(scratch);
+    subdiv_buffer_free(&buffer);
+    subdiv_surface_free(surface);
+}
+
 // ---------------------------------------------------------------------------- the limit surface
 
 typedef struct places {
@@ -793,6 +842,8 @@ static void print_heading(void)
         "limit +     limit positions and unit normals from new positions of the cage; theirs:\n"
         "  normals   PrimvarRefiner::Limit with two tangents and their product, from the refined\n"
         "            points alone, or from the cage by chained Interpolate as well\n"
+        "buffer      positions and normals in a vertex buffer from new positions of the cage;\n"
+        "            theirs: subdiv_refine to the limit, and a plain loop that writes the vertices\n"
         "sample      the limit surface at random places, per place, surfaces ready; theirs: Bfr\n"
         "tessellate  from the cage, %d steps along each edge of it: ours, a mesh with normals;\n"
         "            theirs, points and two tangents on each face. Per point of all faces' grids\n"
@@ -864,7 +915,7 @@ static int run_bench(char *text)
         if (ok) in_child(&b, cold_limit);
     }
     ok = ok && in_child(&b, warm_refine) && in_child(&b, evaluate) && in_child(&b, limit_normals)
-        && in_child(&b, sample_surfaces) && in_child(&b, tessellate);
+        && in_child(&b, refill_buffer) && in_child(&b, sample_surfaces) && in_child(&b, tessellate);
     if (ok) print_bench(&b);
     else fprintf(stderr, "bench: %s was not measured\n", b.name);
     close_bench(&b);
