@@ -41,7 +41,8 @@ PLAIN    = doors tessellate stencils exact_oracle patches limit obj_read obj_wri
            limits curves conventions locations
 TESTS    = $(OWN) $(PLAIN) growth
 EXAMPLES = 00_lecture 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate \
-           06_limit_normals 07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer
+           06_limit_normals 07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer \
+           12_usd_mesh 13_fit
 HELPERS  = $(wildcard tests/lib/*.h)
 
 all: $(OUT)/subdiv
