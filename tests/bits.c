@@ -97,6 +97,7 @@ static void add_stencils(subdiv_stencils *stencils)
     add_floats(STENCILS, stencils->weights, count);
     add_floats(STENCILS, stencils->du, count);
     add_floats(STENCILS, stencils->dv, count);
+    if (stencils->duv) add_floats(STENCILS, stencils->duv, count);
     subdiv_stencils_free(stencils);
 }
 
@@ -119,7 +120,7 @@ static void add_exact(const subdiv_mesh *m)
 {
     subdiv_surface *surface = NULL;
     subdiv_stencils stencils;
-    float out[6][4], normal[4];
+    float out[6][4], normal[4], tangents[3][4];
     subdiv_derivatives to = { out[0], out[1], out[2], out[3], out[4], out[5], normal, 4 };
     if (subdiv_prepare(&surface, m, SUBDIV_EXACT, NULL)) abort();
     void *scratch = malloc(subdiv_scratch_size(surface, 3));
@@ -137,6 +138,9 @@ static void add_exact(const subdiv_mesh *m)
         if (f % 8) continue;
         if (subdiv_stencils_at(&stencils, surface, 1, at + f % 16 / 8 * 2, NULL)) abort();
         add_stencils(&stencils);
+        if (!m->uv_count) continue;
+        if (subdiv_tangents_at(surface, scratch, 3, at, tangents[0], 0, NULL)) abort();
+        add_floats(EXACT, tangents[0], 12);
     }
     subdiv_surface_free(surface);
     free(scratch);

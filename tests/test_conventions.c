@@ -108,7 +108,6 @@ static void check_left(const subdiv_mesh *cage, int levels)
     check_opposite(&l, &r);
     check_buffers(&l, &r);
     check_obj(&l);
-    opt.limit = 0;
     size_t used = 0;
     CHECK_EQUAL(subdiv_prepare(&surface, &left, levels, &opt), SUBDIV_OK);
     CHECK_EQUAL(subdiv_stream_obj_callback(surface, left.positions, keep_text, &used, &opt),
