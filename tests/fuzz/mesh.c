@@ -381,6 +381,7 @@ static void sample(const subdiv_surface *s, int inputs, const float *in, int cha
 {
     enum { MOST = 8 };
     float values[6][MOST * LOCATIONS], normals[3 * LOCATIONS], one[MOST], one_normal[3];
+    float tangents[4 * LOCATIONS];
     subdiv_location at[LOCATIONS];
     int count = 1 + below(b, LOCATIONS), faces = subdiv_surface_cage_face_count(s);
     size_t size = subdiv_scratch_size(s, channels);
@@ -400,6 +401,11 @@ static void sample(const subdiv_surface *s, int inputs, const float *in, int cha
     REQUIRE(settled(subdiv_stencils_at(&made, s, count, at, &opt)) == good);
     if (!good) REQUIRE(is_zero(&made, sizeof made));
     float most = reach_of(in, (size_t)channels * (size_t)inputs);
+    int any = good && channels == 3 && settled(subdiv_tangents_at(s, scratch, count, at, tangents,
+                                                                  0, &opt));
+    for (int i = 0; i < 4 * count && any; i += 4)
+        REQUIRE(tangents[i + 3] == 0 ? is_zero(tangents + i, 12)
+                                     : fabsf(tangents[i + 3]) == 1 && is_normal(tangents + i));
     for (int i = 0; i < count && good; i++) {
         subdiv_derivatives out_one = { one, NULL, NULL, NULL, NULL, NULL,
                                        channels > 2 ? one_normal : NULL, 0 };
@@ -585,14 +591,16 @@ static void change(bytes *b)
 {
     subdiv_mesh with = lent, before;
     float angle = chance(b, 4) ? any_float(b) : (float)take(b), sharpness = a_sharpness(b);
-    for (int i = 0; i < 4; i++) {
+    const int ends[] = { 0, lent.vertex_count - 1, 0 }, three = 3;
+    for (int i = 0; i < 5; i++) {
         subdiv_options opt = options(0);
         with.normals = i ? with.normals : NULL;
         before = with;
         subdiv_result result = i == 0 ? subdiv_normals(&with, &opt)
                              : i == 1 ? subdiv_crease_by_angle(&with, angle, sharpness, &opt)
                              : i == 2 ? subdiv_crease_by_smoothing_groups(&with, sharpness, &opt)
-                                      : subdiv_crease_by_uv_seams(&with, sharpness, &opt);
+                             : i == 3 ? subdiv_crease_by_uv_seams(&with, sharpness, &opt)
+                             : subdiv_crease_chains(&with, 1, &three, ends, 1, &sharpness, &opt);
         if (!settled(result)) {
             REQUIRE(memcmp(&with, &before, sizeof with) == 0);
             continue;
