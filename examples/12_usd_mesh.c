@@ -1,8 +1,8 @@
-// Refines a mesh as USD has it: clockwise faces (orientation = "leftHanded"), chains of creases, UVs
-// without indices, one for each face-vertex, and USD's rules for boundaries and UVs. The cube has a
-// sharp top, a semi-sharp edge down its side, and the UVs of a net that looks like a cross. The
-// program prints what it is made of and the normal in the middle of the top, which points up. It
-// writes the surface to build/usd_mesh.obj, where faces are counter-clockwise.
+// Refines a mesh as USD has it: clockwise faces (orientation = "leftHanded"), chains of creases,
+// UVs without indices, one for each face-vertex, and USD's rules for boundaries and UVs. The cube
+// has a sharp top, a semi-sharp edge down its side, and the UVs of a net that looks like a cross.
+// The program prints what it is made of and the normal in the middle of the top, which points up.
+// It writes the surface to build/usd_mesh.obj, where faces are counter-clockwise.
 //
 //     cc -O2 -I. examples/12_usd_mesh.c -o build/12_usd_mesh -lm && build/12_usd_mesh
 //

@@ -843,7 +843,7 @@ static void print_heading(void)
         "  normals   PrimvarRefiner::Limit with two tangents and their product, from the refined\n"
         "            points alone, or from the cage by chained Interpolate as well\n"
         "buffer      positions and normals in a vertex buffer from new positions of the cage;\n"
-        "            theirs: subdiv_refine to the limit, and a plain loop that writes the vertices\n"
+        "            theirs: subdiv_refine to the limit and a plain loop that writes the vertices\n"
         "sample      the limit surface at random places, per place, surfaces ready; theirs: Bfr\n"
         "tessellate  from the cage, %d steps along each edge of it: ours, a mesh with normals;\n"
         "            theirs, points and two tangents on each face. Per point of all faces' grids\n"
@@ -915,7 +915,8 @@ static int run_bench(char *text)
         if (ok) in_child(&b, cold_limit);
     }
     ok = ok && in_child(&b, warm_refine) && in_child(&b, evaluate) && in_child(&b, limit_normals)
-        && in_child(&b, refill_buffer) && in_child(&b, sample_surfaces) && in_child(&b, tessellate);
+        && in_child(&b, refill_buffer) && in_child(&b, sample_surfaces)
+        && in_child(&b, tessellate);
     if (ok) print_bench(&b);
     else fprintf(stderr, "bench: %s was not measured\n", b.name);
     close_bench(&b);
