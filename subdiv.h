@@ -726,11 +726,56 @@ SUBDIV_DEF subdiv_result subdiv_stencils_at(subdiv_stencils *stencils,
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils);
 
 #ifndef SUBDIV_NO_TOOLS
-// Explains, for the classroom, a point of the mesh refined once, by its number in THE ORDER OF THE
-// RESULT: what it is, which rule holds there and why, the formula, the paper and the mask, in
-// fractions where possible. The text has lines of up to 80 characters and ends with 0; 2000 bytes
-// are enough except for large faces and valences. Errors leave text empty: INDEX for no such point,
-// TOO_LARGE if the text does not fit, ARGUMENT if capacity is 0.
+typedef enum subdiv_point_kind {
+    SUBDIV_VERTEX_POINT, SUBDIV_EDGE_POINT, SUBDIV_FACE_POINT
+} subdiv_point_kind;
+
+typedef enum subdiv_rule { SUBDIV_SMOOTH, SUBDIV_DART, SUBDIV_CREASE, SUBDIV_CORNER } subdiv_rule;
+
+typedef enum subdiv_reason {          // why a rule holds
+    SUBDIV_NOTHING_SHARP,
+    SUBDIV_LINEAR,                    // nothing is smoothed, so vertices stay and edges are halved
+    SUBDIV_NO_FACES,
+    SUBDIV_BOUNDARY,                  // of a vertex: it is on a curve of boundary edges
+    SUBDIV_NONMANIFOLD,
+    SUBDIV_SINGLE_FACE,               // a vertex with one face, under boundary "edge and corner"
+    SUBDIV_OWN_SHARPNESS,             // the edge or vertex is in the cage's lists
+    SUBDIV_SHARP_EDGES                // that meet at the vertex
+} subdiv_reason;
+
+// How a point of the mesh refined once is made.
+typedef struct subdiv_point {
+    subdiv_point_kind kind;
+    int   parent;                     // the number of the cage's vertex, edge or face
+    int   ends[2];                    // of the edge; or the other ends of the first two sharp edges
+                                      // at the vertex, as far as there are any, else -1
+    int   faces[2];                   // an edge's first two, else -1
+    int   valence;                    // faces at the vertex, or of the edge; vertices of the face
+    int   sharp_edges;                // at the vertex
+    float sharpness;                  // of the edge or vertex itself, at most SUBDIV_INFINITE
+    subdiv_rule   rule, next;         // now and on the next level
+    subdiv_reason reason;
+    double weight;                    // of the rule in the mask; the rest is that of next
+} subdiv_point;
+
+typedef struct subdiv_explanation {
+    int             count;
+    subdiv_point   *points;           // [count]
+    subdiv_stencils masks;            // of the cage's vertices in each point
+    void           *memory;           // the library's own
+} subdiv_explanation;
+
+// Explains all points of the mesh refined once, as data for pictures and programs, in THE ORDER OF
+// THE RESULT. For the points of a later level let the cage be the mesh of the level before.
+SUBDIV_DEF subdiv_result subdiv_explain_points(subdiv_explanation *explanation,
+                                               const subdiv_mesh *cage, const subdiv_options *opt);
+SUBDIV_DEF void subdiv_explanation_free(subdiv_explanation *explanation);
+
+// Writes for the classroom what these data say of one point: what it is, which rule holds there and
+// why, the formula, the paper and the mask, in fractions where possible. The text has lines of up
+// to 80 characters and ends with 0; 2000 bytes are enough except for large faces and valences.
+// Errors leave text empty: INDEX for no such point, TOO_LARGE if the text does not fit, ARGUMENT if
+// capacity is 0.
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
                                         int point, const subdiv_options *opt);
 #endif // SUBDIV_NO_TOOLS
@@ -1481,13 +1526,14 @@ static sdv_context sdv_begin(const subdiv_options *opt)
 
 typedef struct sdv_text {               // a fixed buffer that text is added to until it is full
     char *text;
-    size_t size, capacity;
+    size_t size, capacity;              // capacity 0: something did not fit
 } sdv_text;
 
 static void sdv_put(sdv_text *out, const char *text, size_t size)
 {
-    for (size_t i = 0; i < size && out->size + 1 < out->capacity; i++)
-        out->text[out->size++] = text[i];
+    size_t i = 0;
+    while (i < size && out->size + 1 < out->capacity) out->text[out->size++] = text[i++];
+    if (i < size) out->capacity = 0;
     out->text[out->size] = 0;
 }
 
@@ -15930,9 +15976,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 #ifndef SUBDIV_NO_TOOLS
 // -------------------------------------------------------------------------------- >>explain
-// The words for what >>sharpness and >>masks decide, and the row that they write for a point.
-
-typedef enum sdv_point_kind { SDV_VERTEX_POINT, SDV_EDGE_POINT, SDV_FACE_POINT } sdv_point_kind;
+// What >>sharpness and >>masks decide for a point, as data, and the words for these data.
 
 typedef struct sdv_group {              // of vertices that weigh the same
     char text[32];                      // their weight
@@ -15943,14 +15987,14 @@ typedef struct sdv_group {              // of vertices that weigh the same
 typedef struct sdv_explainer {
     sdv_context *context;
     sdv_arena    arena;
-    sdv_text    *out;
     sdv_cage     cage;
-    sdv_rules    rules;
-    sdv_point_kind kind;                // of the point,
-    int          item;                  // of this vertex, edge or face
-    double      *weights;               // [vertices, faces] its mask
-    int         *order;                 // [vertices] those that have a weight, heavy ones first
-    sdv_group   *groups;                // [group_count] the order cut into groups
+    subdiv_surface *surface;            // of the cage, refined once
+    const sdv_rules *rules;
+    int         *room;                  // for the neighbours of a vertex
+    subdiv_stencils masks;
+    subdiv_point point;                 // to write about,
+    sdv_text    *out;                   // there
+    sdv_group   *groups;                // [group_count] its mask, cut into groups
     int          group_count;
 } sdv_explainer;
 
@@ -15987,75 +16031,170 @@ static int sdv_has_weights(sdv_mask mask, double self, double edge, double face,
            fabs(mask.crease - crease) < 1e-9;
 }
 
+// ---- the data
+
+static void sdv_find_vertex_point(const sdv_explainer *x, subdiv_point *p)
+{
+    const sdv_level *level = &x->cage.level;
+    int v = p->parent;
+    float sharpness = level->vertex_sharpness[v];
+    sdv_fading fading = sdv_vertex_fading(level, v);
+    p->valence = level->vertex_faces[v];
+    p->sharp_edges = (int)(sdv_add_neighbours(level, v, SDV_CREASE, 1, x->room) - x->room);
+    for (int i = 0; i < p->sharp_edges && i < 2; i++) p->ends[i] = x->room[i];
+    p->sharpness = fminf(sharpness, SUBDIV_INFINITE);
+    p->rule = (subdiv_rule)(x->rules->linear ? SDV_CORNER : fading.rule);
+    p->next = (subdiv_rule)(x->rules->linear ? SDV_CORNER : fading.next);
+    if (p->rule >= SUBDIV_CREASE && p->rule != p->next) p->weight = fading.weight;
+    p->reason = x->rules->linear ? SUBDIV_LINEAR :
+                p->rule == SUBDIV_SMOOTH ? SUBDIV_NOTHING_SHARP :
+                p->valence == 0 ? SUBDIV_NO_FACES :
+                sharpness > SUBDIV_INFINITE ? x->cage.vertex_nonmanifold[v] ? SUBDIV_NONMANIFOLD
+                                                                            : SUBDIV_SINGLE_FACE :
+                sharpness > 0 ? SUBDIV_OWN_SHARPNESS :
+                p->rule == SUBDIV_CREASE && sdv_count_edges_at(&x->cage, v).boundary == 2
+                    ? SUBDIV_BOUNDARY : SUBDIV_SHARP_EDGES;
+}
+
+static void sdv_find_edge_point(const sdv_explainer *x, subdiv_point *p)
+{
+    const sdv_level *level = &x->cage.level;
+    int h = level->edge_first[p->parent], a = level->face_vertices[h];
+    int b = level->face_vertices[sdv_next(level, h)];
+    float sharpness = level->sharpness[h];
+    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
+    p->ends[0] = a < b ? a : b;
+    p->ends[1] = a < b ? b : a;
+    p->faces[0] = sdv_face_of(level, h);
+    if (!sdv_is_boundary(level, h)) p->faces[1] = sdv_face_of(level, level->across[h]);
+    p->valence = sdv_edge_faces(level, h);
+    p->sharpness = fminf(sharpness, SUBDIV_INFINITE);
+    p->rule = x->rules->linear || sharpness > 0 ? SUBDIV_CREASE : SUBDIV_SMOOTH;
+    p->next = x->rules->linear || stays_sharp ? SUBDIV_CREASE : SUBDIV_SMOOTH;
+    if (p->rule != p->next && sharpness < 1) p->weight = (double)sharpness;
+    p->reason = x->rules->linear ? SUBDIV_LINEAR :
+                x->cage.edge_nonmanifold[p->parent] ? SUBDIV_NONMANIFOLD :
+                sdv_is_boundary(level, h) ? SUBDIV_BOUNDARY :
+                sharpness > 0 ? SUBDIV_OWN_SHARPNESS : SUBDIV_NOTHING_SHARP;
+}
+
+// Finds of what a point is made, and how.
+static subdiv_point sdv_find_point(const sdv_explainer *x, int point)
+{
+    static const char *const names[] = { "vertices", "edges", "faces" };
+    const sdv_level *level = &x->cage.level;
+    const int counts[] = { level->vertex_count, level->edge_count, level->face_count };
+    subdiv_point p = { SUBDIV_VERTEX_POINT, point, { -1, -1 }, { -1, -1 }, 0, 0, 0, SUBDIV_SMOOTH,
+                       SUBDIV_SMOOTH, SUBDIV_NOTHING_SHARP, 1 };
+    char ranges[256];
+    sdv_text out = { ranges, 0, sizeof ranges };
+    for (int i = 0, first = 0; i < (x->rules->loop ? 2 : 3); first += counts[i++]) {
+        p.kind = (subdiv_point_kind)i;
+        p.parent = point - first;
+        if (p.parent >= 0 && p.parent < counts[i]) {
+            if (i == SUBDIV_VERTEX_POINT) sdv_find_vertex_point(x, &p);
+            else if (i == SUBDIV_EDGE_POINT) sdv_find_edge_point(x, &p);
+            else p.valence = sdv_face_end(level, p.parent) - sdv_face_start(level, p.parent);
+            return p;
+        }
+        if (counts[i] > 0)
+            sdv_say(&out, "%s%d to %d of %s", i ? ", " : "", first, first + counts[i] - 1,
+                    names[i]);
+    }
+    sdv_fail(x->context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
+             point, ranges);
+    return p;
+}
+
+// Prepares the cage's surface of level 1, whose stencils are the masks, and builds the cage again,
+// as a surface does not keep all of it.
+static void sdv_begin_explainer(sdv_context *context, sdv_explainer *x, const subdiv_mesh *cage,
+                                const subdiv_options *opt)
+{
+    subdiv_options refined = { 0, 0, 0, 0, 0, NULL, NULL, NULL, 0 };
+    sdv_request request = sdv_request_of(cage, 1, NULL, 1, &refined);
+    memset(x, 0, sizeof *x);
+    x->context = context;
+    x->arena = sdv_scratch();
+    if (opt) refined = *opt;
+    refined.limit = 0;
+    if (!context->result) context->result = sdv_prepare(&x->surface, &request);
+    if (context->result) return;
+    subdiv_mesh work = *cage;
+    int warnings = context->error ? context->error->warning_count : 0;
+    x->rules = &x->surface->rules;
+    sdv_copy_faces(context, x->surface, &work, cage);
+    if (!context->result) sdv_cage_build(context, &x->arena, &x->arena, &x->cage, &work);
+    if (context->error) context->error->warning_count = warnings;       // the same ones again
+    if (!context->result)
+        x->room = SDV_NEW(context, &x->arena, int, 2 * (size_t)sdv_most_faces(&x->cage.level));
+}
+
+static void sdv_end_explainer(sdv_explainer *x)
+{
+    subdiv_stencils_free(&x->masks);
+    subdiv_surface_free(x->surface);
+    sdv_arena_free(&x->arena);
+}
+
+SUBDIV_DEF subdiv_result subdiv_explain_points(subdiv_explanation *explanation,
+                                               const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    sdv_context context = sdv_begin(opt);
+    sdv_explainer x;
+    subdiv_explanation made;
+    sdv_arena owned = sdv_new_arena(0);
+    if (!explanation) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "explanation is NULL");
+    else memset(explanation, 0, sizeof *explanation);
+    sdv_begin_explainer(&context, &x, cage, opt);
+    made.count = subdiv_surface_vertex_count(x.surface);
+    made.points = context.result ? NULL : SDV_NEW(&context, &owned, subdiv_point, made.count);
+    made.memory = owned.blocks;
+    for (int i = 0; i < made.count && !context.result; i++) made.points[i] = sdv_find_point(&x, i);
+    if (!context.result)
+        context.result = subdiv_refined_stencils(&made.masks, x.surface, 0, made.count, opt);
+    if (context.result) sdv_arena_free(&owned);
+    else *explanation = made;
+    sdv_end_explainer(&x);
+    return context.result;
+}
+
+SUBDIV_DEF void subdiv_explanation_free(subdiv_explanation *explanation)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    if (!explanation) return;
+    owned.blocks = (sdv_block *)explanation->memory;
+    sdv_arena_free(&owned);
+    subdiv_stencils_free(&explanation->masks);
+    memset(explanation, 0, sizeof *explanation);
+}
+
 // ---- the mask
 
-// Adds the row that was written last to the weights of vertices and face points, factor times.
-static void sdv_spread_row(sdv_explainer *x, const sdv_writer *writer, double factor)
-{
-    const sdv_shape *shape = &writer->shape;
-    const int *point = writer->points + sdv_row_points(shape) - 1;
-    double left = factor;
-    if (x->context->result) return;
-    for (int k = 3; k-- > 0; )
-        for (int i = 0; i < shape->count[k]; i++, point--) {
-            x->weights[*point] += factor * (double)shape->weight[k];
-            left -= factor * (double)shape->weight[k];
-        }
-    x->weights[*point] += left;
-}
-
-// Finds the weights of the cage's vertices: from the row of the point, then from the rows of the
-// face points in it.
-static void sdv_find_mask(sdv_explainer *x)
-{
-    sdv_level *level = &x->cage.level;
-    size_t points = (size_t)level->vertex_count + (size_t)level->face_count;
-    sdv_writer writer;
-    sdv_writer_new(x->context, &x->arena, level, &writer);
-    x->weights = SDV_NEW(x->context, &x->arena, double, points);
-    x->order = SDV_NEW(x->context, &x->arena, int, level->vertex_count);
-    if (!x->context->result) {
-        for (size_t i = 0; i < points; i++) x->weights[i] = 0;
-        for (int f = 0; f < level->face_count; f++) level->face_point[f] = level->vertex_count + f;
-        if (x->kind == SDV_VERTEX_POINT) sdv_vertex_row(level, &x->rules, x->item, 0, &writer);
-        else if (x->kind == SDV_FACE_POINT) sdv_face_row(level, x->item, 0, &writer);
-        else sdv_edge_row(level, &x->rules, level->edge_first[x->item], 0, &writer);
-        sdv_spread_row(x, &writer, 1);
-    }
-    for (int f = 0; f < level->face_count && !x->context->result; f++) {
-        double weight = x->weights[level->vertex_count + f];
-        if (!(fabs(weight) > 0)) continue;
-        sdv_face_row(level, f, 0, &writer);
-        sdv_spread_row(x, &writer, weight);
-    }
-    sdv_writer_free(&writer);
-}
-
-// Puts the vertices that have a weight in order, and those of the same weight in a group.
+// Sorts the mask, heavy vertices first, and puts those of the same weight in a group.
 static void sdv_find_groups(sdv_explainer *x)
 {
-    const double *w = x->weights;
-    int *order = x->order, count = 0;
-    double least = 0;                               // of the last group
-    for (int v = 0; v < x->cage.level.vertex_count; v++) {
-        int at = count;
-        if (!(fabs(w[v]) > 0)) continue;
-        for (; at > 0 && w[order[at - 1]] < w[v] - 1e-6 * fabs(w[v]); at--)
-            order[at] = order[at - 1];
-        order[at] = v;
-        count++;
-    }
-    x->groups = SDV_NEW(x->context, &x->arena, sdv_group, count);
-    for (int i = 0; i < count && !x->context->result; i++) {
-        double weight = w[order[i]];
-        if (i == 0 || weight <= least) {
-            sdv_group *group = &x->groups[x->group_count++];
-            sdv_fraction(weight, group->text);
-            group->vertices = order + i;
-            group->size = 0;
-            least = weight - 1e-6 * fabs(weight);
+    float *w = x->masks.weights;
+    int *vertices = x->masks.indices, count = (int)x->masks.offsets[1];
+    float least = 0;                                // of the last group
+    sdv_group *group = x->groups = SDV_NEW(x->context, &x->arena, sdv_group, count);
+    for (int i = 0; i < count; i++) {
+        float weight = w[i];
+        int at = i, v = vertices[i];
+        for (; at > 0 && w[at - 1] < weight - 1e-6f * fabsf(weight); at--) {
+            w[at] = w[at - 1];
+            vertices[at] = vertices[at - 1];
         }
-        x->groups[x->group_count - 1].size++;
+        w[at] = weight;
+        vertices[at] = v;
+    }
+    for (int i = 0; i < count && !x->context->result; i++, group->size++) {
+        if (i > 0 && w[i] > least) continue;
+        group = &x->groups[x->group_count++];
+        sdv_fraction((double)w[i], group->text);
+        group->vertices = vertices + i;
+        group->size = 0;
+        least = w[i] - 1e-6f * fabsf(w[i]);
     }
 }
 
@@ -16086,29 +16225,29 @@ static void sdv_say_table(sdv_explainer *x)
 
 // Pictures of the usual masks, known by how many vertices share each weight: a to c stand for the
 // weights, heavy ones first.
-static const struct sdv_picture { sdv_point_kind kind; int sizes[4]; const char *text; }
+static const struct sdv_picture { subdiv_point_kind kind; int sizes[4]; const char *text; }
 sdv_pictures[] = {
-    { SDV_FACE_POINT, { 4, 0, 0, 0 },
+    { SUBDIV_FACE_POINT, { 4, 0, 0, 0 },
       "     a----------a\n"
       "     |          |\n"
       "     |    F     |\n"
       "     |          |\n"
       "     a----------a\n" },
-    { SDV_FACE_POINT, { 3, 0, 0, 0 },
+    { SUBDIV_FACE_POINT, { 3, 0, 0, 0 },
       "          a\n"
       "         / \\\n"
       "        / F \\\n"
       "       /     \\\n"
       "     a---------a\n" },
-    { SDV_EDGE_POINT, { 2, 0, 0, 0 },
+    { SUBDIV_EDGE_POINT, { 2, 0, 0, 0 },
       "     a----- E ------a\n" },
-    { SDV_EDGE_POINT, { 2, 4, 0, 0 },
+    { SUBDIV_EDGE_POINT, { 2, 4, 0, 0 },
       "     b--------------b\n"
       "     |              |\n"
       "     a----- E ------a\n"
       "     |              |\n"
       "     b--------------b\n" },
-    { SDV_EDGE_POINT, { 2, 2, 0, 0 },
+    { SUBDIV_EDGE_POINT, { 2, 2, 0, 0 },
       "            b\n"
       "        /      \\\n"
       "       /        \\\n"
@@ -16116,15 +16255,15 @@ sdv_pictures[] = {
       "       \\        /\n"
       "        \\      /\n"
       "            b\n" },
-    { SDV_VERTEX_POINT, { 1, 2, 0, 0 },
+    { SUBDIV_VERTEX_POINT, { 1, 2, 0, 0 },
       "     b----------a----------b\n" },
-    { SDV_VERTEX_POINT, { 1, 4, 4, 0 },
+    { SUBDIV_VERTEX_POINT, { 1, 4, 4, 0 },
       "     c----------b----------c\n"
       "     |          |          |\n"
       "     b----------a----------b\n"
       "     |          |          |\n"
       "     c----------b----------c\n" },
-    { SDV_VERTEX_POINT, { 1, 6, 0, 0 },
+    { SUBDIV_VERTEX_POINT, { 1, 6, 0, 0 },
       "          b----------b\n"
       "        /    \\     /    \\\n"
       "     b----------a----------b\n"
@@ -16135,7 +16274,7 @@ sdv_pictures[] = {
 // Does a picture show the mask, and is there room in it for the weights?
 static int sdv_fits(const sdv_explainer *x, const struct sdv_picture *picture)
 {
-    if (picture->kind != x->kind || x->group_count > 3) return 0;
+    if (picture->kind != x->point.kind || x->group_count > 3) return 0;
     for (int g = 0; g < x->group_count; g++)
         if (picture->sizes[g] != x->groups[g].size || strlen(x->groups[g].text) > 6) return 0;
     return picture->sizes[x->group_count] == 0;
@@ -16201,15 +16340,15 @@ static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
     sdv_say(x->out, "\n");
 }
 
-// Writes the formula of a rule at a vertex of valence n: that of the paper, if the mask has it.
+// Writes the formula of a rule of the vertex, of valence n: that of the paper, if the mask has it.
 // Formulas are numbered as in subdiv_vertex_rule, then come Loop, creases and corners.
 enum { SDV_SAYS_LOOP = SUBDIV_VERTEX_FIVE_EIGHTHS + 1, SDV_SAYS_CREASE, SDV_SAYS_CORNER };
 
-static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, int n)
+static void sdv_say_formula(sdv_explainer *x, const char *name, subdiv_rule rule)
 {
-    sdv_fading stays = { rule, rule, 0 };
-    sdv_mask mask = sdv_vertex_mask(&x->rules, stays, n);
-    int loop = x->rules.loop, k = (int)x->rules.vertex_rule;
+    sdv_fading stays = { (sdv_rule)rule, (sdv_rule)rule, 0 };
+    int loop = x->rules->loop, k = (int)x->rules->vertex_rule, n = x->point.valence;
+    sdv_mask mask = sdv_vertex_mask(x->rules, stays, n);
     double w = 1.0 / ((double)n * n), warren = n == 3 ? 0.1875 : 0.375 / n;
     double c = 0.375 + 0.25 * (n ? sdv_cosine(1, n) : 0), b = (0.625 - c * c) / n;
     const struct { const char *text; double self, edge, face, crease; } formulas[] = {
@@ -16226,8 +16365,8 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
     };
     char text[32];
     if (k == 0 && loop) k = SDV_SAYS_LOOP;
-    if (rule == SDV_CREASE) k = SDV_SAYS_CREASE;
-    if (rule == SDV_CORNER || x->rules.linear) k = SDV_SAYS_CORNER;
+    if (rule == SUBDIV_CREASE) k = SDV_SAYS_CREASE;
+    if (rule == SUBDIV_CORNER) k = SDV_SAYS_CORNER;
     int known = sdv_has_weights(mask, formulas[k].self, formulas[k].edge, formulas[k].face,
                                 formulas[k].crease);
     sdv_say(x->out, "    %s = %s", name, known ? formulas[k].text : "");
@@ -16242,15 +16381,15 @@ static void sdv_say_formula(sdv_explainer *x, const char *name, sdv_rule rule, i
 }
 
 // Says what the letters in the formulas of two rules stand for.
-static void sdv_say_letters(sdv_explainer *x, sdv_rule rule, sdv_rule next)
+static void sdv_say_letters(sdv_explainer *x, subdiv_rule rule, subdiv_rule next)
 {
-    int crease = rule == SDV_CREASE || next == SDV_CREASE;
-    int smooth = rule < SDV_CREASE || next < SDV_CREASE;
+    int crease = rule == SUBDIV_CREASE || next == SUBDIV_CREASE;
+    int smooth = rule < SUBDIV_CREASE || next < SUBDIV_CREASE;
     sdv_say(x->out, "\nHere v is the vertex%s%s%s.\n",
             crease ? " and a, b are its neighbours along the crease" : "",
             !smooth ? "" :
             crease ? ";\nthe e are all its neighbours" : ", the e are its neighbours",
-            smooth && !x->rules.loop ? ", the f the face points there" : "");
+            smooth && !x->rules->loop ? ", the f the face points there" : "");
 }
 
 static const char *sdv_name_sharpness(float sharpness, char text[48])
@@ -16262,186 +16401,119 @@ static const char *sdv_name_sharpness(float sharpness, char text[48])
     return text;
 }
 
-// Names the edge of h by its ends: vertex v first if it is one, else the lower-numbered one.
-static const char *sdv_name_edge(const sdv_level *level, int h, int v, char text[32])
-{
-    sdv_text out = { text, 0, 32 };
-    int a = level->face_vertices[h], b = level->face_vertices[sdv_next(level, h)];
-    int from = a == v || b == v ? v : a < b ? a : b;
-    sdv_say(&out, "%d-%d", from, a + b - from);
-    return text;
-}
+// Why a vertex (a corner, if not smooth) or an edge has its rule.
+static const char *const sdv_reasons[][2] = {
+    { "Vertex %d is interior, of valence %d, and smooth.\n",
+      "Edge %d-%d is smooth, between the faces %d and %d.\n" },
+    { "Refinement is linear: vertex %d stays where it is.\n",
+      "Refinement is linear: the edge point is the middle of edge %d-%d.\n" },
+    { "Vertex %d has no faces: it stays where it is.\n", NULL },
+    { NULL, "Edge %d-%d is on the boundary, which is a crease.\n" },
+    { "Vertex %d is a corner: the surface is non-manifold there.\n",
+      "Edge %d-%d is non-manifold, and so a crease.\n" },
+    { "Vertex %d is a corner: it has one face, and the rule is \"edge and corner\".\n", NULL },
+    { "Vertex %d is a corner, %s.\n", "Edge %d-%d is a crease, %s.%s\n" },
+    { "Vertex %d is a corner: %d sharp edges meet there.\n", NULL }
+};
 
-// Counts the sharp edges at a vertex, and lists the first ones.
-static int sdv_list_sharp_edges(const sdv_level *level, int v, char list[64])
+static void sdv_say_vertex_rule(sdv_explainer *x)
 {
-    sdv_text out = { list, 0, 64 };
-    int count = 0;
-    char name[32];
-    for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-        int two[2] = { h, sdv_previous(level, h) };
-        for (int i = 0; i < 2; i++)
-            if (level->sharpness[two[i]] > 0 && sdv_is_edge_at(level, two[i], i == 0))
-                sdv_say(&out, count++ ? " and %s" : "%s", sdv_name_edge(level, two[i], v, name));
-    }
-    return count;
-}
-
-static void sdv_say_vertex_rule(sdv_explainer *x, int v, sdv_rule rule)
-{
-    const sdv_level *level = &x->cage.level;
-    float sharpness = level->vertex_sharpness[v];
-    char edges[64] = "", text[48];
-    int faces = level->vertex_faces[v], sharp_edges = sdv_list_sharp_edges(level, v, edges);
-    if (x->rules.linear)
-        sdv_say(x->out, "Refinement is linear: vertex %d stays where it is.\n", v);
-    else if (rule == SDV_SMOOTH)
-        sdv_say(x->out, "Vertex %d is interior, of valence %d, and smooth.\n", v, faces);
-    else if (rule == SDV_DART)
-        sdv_say(x->out, "Vertex %d is a dart: the crease %s ends there.\n"
-                "It moves as if it were smooth.\n", v, edges);
-    else if (rule == SDV_CREASE)
-        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n%s%s.\n", v,
-                sdv_count_edges_at(&x->cage, v).boundary == 2 ? "the boundary" : "a crease", edges,
-                sdv_has_weights(sdv_crease_vertex(), 0.75, 0, 0, 0.125) ? ", a cubic B-spline"
-                                                                        : "");
-    else if (faces == 0)
-        sdv_say(x->out, "Vertex %d has no faces: it stays where it is.\n", v);
-    else if (sharpness > SUBDIV_INFINITE)
-        sdv_say(x->out, "Vertex %d is a corner: %s.\n", v, x->cage.vertex_nonmanifold[v] ?
-                "the surface is non-manifold there" :
-                "it has one face, and the rule is \"edge and corner\"");
-    else if (sharpness > 0)
-        sdv_say(x->out, "Vertex %d is a corner, %s.\n", v, sdv_name_sharpness(sharpness, text));
+    const subdiv_point *p = &x->point;
+    const char *reason = sdv_reasons[p->reason][0];
+    int v = p->parent;
+    char text[48];
+    if (p->rule == SUBDIV_DART)
+        sdv_say(x->out, "Vertex %d is a dart: the crease %d-%d ends there.\n"
+                "It moves as if it were smooth.\n", v, v, p->ends[0]);
+    else if (p->rule == SUBDIV_CREASE)
+        sdv_say(x->out, "Vertex %d is on %s: it moves along the curve of the edges\n"
+                "%d-%d and %d-%d%s.\n", v,
+                p->reason == SUBDIV_BOUNDARY ? "the boundary" : "a crease", v, p->ends[0], v,
+                p->ends[1], sdv_has_weights(sdv_crease_vertex(), 0.75, 0, 0, 0.125) ?
+                ", a cubic B-spline" : "");
+    else if (p->reason == SUBDIV_OWN_SHARPNESS)
+        sdv_say(x->out, reason, v, sdv_name_sharpness(p->sharpness, text));
     else
-        sdv_say(x->out, "Vertex %d is a corner: %d sharp edges meet there.\n", v, sharp_edges);
+        sdv_say(x->out, reason, v, p->rule == SUBDIV_SMOOTH ? p->valence : p->sharp_edges);
 }
 
-static void sdv_explain_vertex(sdv_explainer *x, int v)
+static void sdv_explain_vertex(sdv_explainer *x)
 {
     static const char *const names[] = { "smooth", "a dart", "on a crease", "a corner" };
     static const char *const letters[] = { "S", "S", "C", "K" };
-    sdv_fading fading = sdv_vertex_fading(&x->cage.level, v);
-    sdv_rule rule = fading.rule, next = fading.next;
-    int n = x->cage.level.vertex_faces[v];
+    const subdiv_point *p = &x->point;
+    subdiv_rule rule = p->rule, next = p->weight < 1 ? p->next : rule;
     char mean[32];
-    sdv_say(x->out, "vertex point of vertex %d.\n", v);
-    sdv_say_vertex_rule(x, v, rule);
-    if (rule >= SDV_CREASE && rule != next && fading.weight < 1 && !x->rules.linear) {
+    sdv_say(x->out, "vertex point of vertex %d.\n", p->parent);
+    sdv_say_vertex_rule(x);
+    if (next != rule) {
         sdv_say(x->out, "On the next level it is %s. What fades away has a mean sharpness of\n%s, "
                 "and so much of the point is still sharp:\n", names[next],
-                sdv_fraction(fading.weight, mean));
-        sdv_say_blend(x, "V", fading.weight, letters[rule], letters[next]);
-        sdv_say_formula(x, letters[rule], rule, n);
-        sdv_say_formula(x, letters[next], next, n);
-        sdv_say_letters(x, rule, next);
+                sdv_fraction(p->weight, mean));
+        sdv_say_blend(x, "V", p->weight, letters[rule], letters[next]);
+        sdv_say_formula(x, letters[rule], rule);
+        sdv_say_formula(x, letters[next], next);
     } else {
         sdv_say(x->out, "\n");
-        sdv_say_formula(x, "V", rule, n);
-        if (!x->rules.linear && rule != SDV_CORNER) sdv_say_letters(x, rule, rule);
+        sdv_say_formula(x, "V", rule);
     }
+    if (next != SUBDIV_CORNER || rule != next) sdv_say_letters(x, rule, next);
 }
 
-// ---- edges and faces
+// ---- edges
 
-// Writes the formula of the smooth point of the edge of h: that of the paper, if the mask has it.
-static void sdv_say_smooth_edge(sdv_explainer *x, const char *name, int h)
+// Writes the formula of the smooth point of the edge: that of the paper, if the mask has it.
+static void sdv_say_smooth_edge(sdv_explainer *x, const char *name)
 {
-    const sdv_level *level = &x->cage.level;
-    int triangles = (sdv_size_of(level, h) == 3) + (sdv_size_of(level, level->across[h]) == 3);
-    if (x->rules.loop || x->rules.triangles != SUBDIV_TRIANGLES_SMOOTH) triangles = 0;
-    sdv_mask mask = sdv_edge_mask(&x->rules, 0, 0, 2, triangles);
+    int triangles = 0, loop = x->rules->loop;
+    for (int i = 0; i < 2 && !loop && x->rules->triangles == SUBDIV_TRIANGLES_SMOOTH; i++)
+        triangles += sdv_face_end(&x->cage.level, x->point.faces[i]) -
+                     sdv_face_start(&x->cage.level, x->point.faces[i]) == 3;
+    sdv_mask mask = sdv_edge_mask(x->rules, 0, 0, 2, triangles);
     char ends[32], faces[32];
     sdv_say(x->out, "    %s = ", name);
-    if (x->rules.loop && sdv_has_weights(mask, 0.375, 0, 0.125, 0))
+    if (loop && sdv_has_weights(mask, 0.375, 0, 0.125, 0))
         sdv_say(x->out, "(3 a + 3 b + c + d) / 8  [Loop87]\n");
-    else if (!x->rules.loop && sdv_has_weights(mask, 0.25, 0, 0.25, 0))
+    else if (!loop && sdv_has_weights(mask, 0.25, 0, 0.25, 0))
         sdv_say(x->out, "(a + b + f + g) / 4  [CC78]\n");
     else
         sdv_say(x->out, "%s (a + b) + %s (%s)%s\n", sdv_fraction(mask.self, ends),
-                sdv_fraction(mask.face, faces), x->rules.loop ? "c + d" : "f + g",
+                sdv_fraction(mask.face, faces), loop ? "c + d" : "f + g",
                 triangles ? "  [OSD]" : "");
 }
 
-static void sdv_say_edge_rule(sdv_explainer *x, int h, const char *name, int stays_sharp)
+static void sdv_say_edge_rule(sdv_explainer *x)
 {
-    const sdv_level *level = &x->cage.level;
-    float sharpness = level->sharpness[h];
+    const subdiv_point *p = &x->point;
+    const char *reason = sdv_reasons[p->reason][1];
     char text[48];
-    if (x->rules.linear)
-        sdv_say(x->out, "Refinement is linear: the edge point is the middle of edge %s.\n", name);
-    else if (x->cage.edge_nonmanifold[x->item])
-        sdv_say(x->out, "Edge %s is non-manifold, and so a crease.\n", name);
-    else if (sdv_is_boundary(level, h))
-        sdv_say(x->out, "Edge %s is on the boundary, which is a crease.\n", name);
-    else if (sharpness <= 0)
-        sdv_say(x->out, "Edge %s is smooth, between the faces %d and %d.\n", name,
-                sdv_face_of(level, h), sdv_face_of(level, level->across[h]));
+    if (p->reason != SUBDIV_OWN_SHARPNESS)
+        sdv_say(x->out, reason, p->ends[0], p->ends[1], p->faces[0], p->faces[1]);
     else
-        sdv_say(x->out, "Edge %s is a crease, %s.%s\n", name, sdv_name_sharpness(sharpness, text),
-                stays_sharp ? "" : sharpness >= 1 ? "\nIt ends before the next level." :
+        sdv_say(x->out, reason, p->ends[0], p->ends[1], sdv_name_sharpness(p->sharpness, text),
+                p->next == p->rule ? "" : p->weight >= 1 ? "\nIt ends before the next level." :
                 "\nIt ends before the next level, and so much of the point is still sharp:");
 }
 
 static void sdv_explain_edge(sdv_explainer *x)
 {
-    const sdv_level *level = &x->cage.level;
-    int h = level->edge_first[x->item];
-    float sharpness = level->sharpness[h];
-    int stays_sharp = sdv_half(level, h) > 0 && sdv_half_before(level, h) > 0;
-    int crease = x->rules.linear || (sharpness > 0 && (stays_sharp || sharpness >= 1));
-    char name[32];
-    sdv_say(x->out, "edge point of edge %s.\n", sdv_name_edge(level, h, -1, name));
-    sdv_say_edge_rule(x, h, name, stays_sharp);
-    if (crease) {
+    const subdiv_point *p = &x->point;
+    int midpoint = p->rule == SUBDIV_CREASE && p->weight >= 1;
+    sdv_say(x->out, "edge point of edge %d-%d.\n", p->ends[0], p->ends[1]);
+    sdv_say_edge_rule(x);
+    if (midpoint) {
         sdv_say(x->out, "\n    E = (a + b) / 2\n");
-    } else if (sharpness <= 0) {
+    } else if (p->rule == SUBDIV_SMOOTH) {
         sdv_say(x->out, "\n");
-        sdv_say_smooth_edge(x, "E", h);
+        sdv_say_smooth_edge(x, "E");
     } else {
-        sdv_say_blend(x, "E", (double)sharpness, "C", "S");
+        sdv_say_blend(x, "E", p->weight, "C", "S");
         sdv_say(x->out, "    C = (a + b) / 2\n");
-        sdv_say_smooth_edge(x, "S", h);
+        sdv_say_smooth_edge(x, "S");
     }
-    sdv_say(x->out, "\nHere a and b are the ends of the edge%s.\n", crease ? "" :
-            x->rules.loop ? ", and c and d the vertices opposite" :
+    sdv_say(x->out, "\nHere a and b are the ends of the edge%s.\n", midpoint ? "" :
+            x->rules->loop ? ", and c and d the vertices opposite" :
             ", and f and g the face points beside it");
-}
-
-static void sdv_explain_face(sdv_explainer *x, int f)
-{
-    int n = sdv_face_end(&x->cage.level, f) - sdv_face_start(&x->cage.level, f);
-    sdv_say(x->out, "face point of face %d.\nFace %d has %d vertices; its face point is their "
-            "mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", f, f, n, n);
-}
-
-// Finds out of what vertex, edge or face a point is made.
-static void sdv_find_point(sdv_explainer *x, int point)
-{
-    static const char *const names[] = { "vertices", "edges", "faces" };
-    const sdv_level *level = &x->cage.level;
-    int counts[] = { level->vertex_count, level->edge_count, level->face_count }, first = 0;
-    char ranges[256];
-    sdv_text out = { ranges, 0, sizeof ranges };
-    for (int i = 0; i < (x->rules.loop ? 2 : 3); first += counts[i++]) {
-        if (counts[i] == 0) continue;
-        sdv_say(&out, "%s%d to %d of %s", i ? ", " : "", first, first + counts[i] - 1, names[i]);
-        if (point < first || point - first >= counts[i]) continue;
-        x->kind = (sdv_point_kind)i;
-        x->item = point - first;
-        return;
-    }
-    sdv_fail(x->context, SUBDIV_ERROR_INDEX, "refined once, the mesh has no point %d, but %s",
-             point, ranges);
-}
-
-static void sdv_explain_point(sdv_explainer *x, int point)
-{
-    sdv_say(x->out, "Point %d of the mesh refined once is the ", point);
-    if (x->kind == SDV_VERTEX_POINT) sdv_explain_vertex(x, x->item);
-    else if (x->kind == SDV_EDGE_POINT) sdv_explain_edge(x);
-    else sdv_explain_face(x, x->item);
-    sdv_say_mask(x);
 }
 
 SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdiv_mesh *cage,
@@ -16449,37 +16521,29 @@ SUBDIV_DEF subdiv_result subdiv_explain(char *text, size_t capacity, const subdi
 {
     sdv_context context = sdv_begin(opt);
     sdv_text out = { text, 0, capacity };
-    subdiv_surface *cut = NULL;
     sdv_explainer x;
-    memset(&x, 0, sizeof x);
     if (text && capacity) text[0] = 0;
     else sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, text ? "capacity is 0" : "text is NULL");
-    sdv_request request = sdv_request_of(cage, 1, NULL, 0, opt);
-    if (!context.result) sdv_check_request(&context, &cut, &request);
-    if (context.result) return context.result;
-
-    subdiv_mesh work = *cage;
-    cut = sdv_new_surface(&context, &request);
-    x.context = &context;
-    x.arena = sdv_scratch();
+    sdv_begin_explainer(&context, &x, cage, opt);
     x.out = &out;
-    x.rules.loop = cage->scheme == SUBDIV_LOOP;
-    x.rules.linear = cage->scheme == SUBDIV_BILINEAR || (opt && opt->linear);
-    x.rules.triangles = cage->triangles;
-    if (cut) sdv_copy_faces(&context, cut, &work, cage);
-    if (!context.result) sdv_cage_build(&context, &x.arena, &x.arena, &x.cage, &work);
-    if (!context.result) sdv_check_size(&context, &work, 1, x.cage.level.edge_count);
+    if (!context.result) x.point = sdv_find_point(&x, point);
     if (!context.result)
-        sdv_set_vertex_rule(&context, &x.arena, cage, &x.cage.level, 0, &x.rules);
-    if (!context.result) sdv_find_point(&x, point);
-    if (!context.result) sdv_find_mask(&x);
+        context.result = subdiv_refined_stencils(&x.masks, x.surface, point, 1, opt);
     if (!context.result) sdv_find_groups(&x);
-    if (!context.result) sdv_explain_point(&x, point);
-    if (!context.result && out.size + 1 == capacity)
-        sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
-    if (context.result) text[0] = 0;
-    sdv_arena_free(&x.arena);
-    subdiv_surface_free(cut);
+    if (!context.result) {
+        const subdiv_point *p = &x.point;
+        sdv_say(&out, "Point %d of the mesh refined once is the ", point);
+        if (p->kind == SUBDIV_VERTEX_POINT) sdv_explain_vertex(&x);
+        else if (p->kind == SUBDIV_EDGE_POINT) sdv_explain_edge(&x);
+        else sdv_say(&out, "face point of face %d.\nFace %d has %d vertices; its face point is "
+                     "their mean.\n\n    F = (v1 + ... + vn) / n, n = %d  [CC78]\n", p->parent,
+                     p->parent, p->valence, p->valence);
+        sdv_say_mask(&x);
+        if (out.capacity == 0)
+            sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the text does not fit");
+    }
+    if (context.result && text && capacity) text[0] = 0;
+    sdv_end_explainer(&x);
     return context.result;
 }
 #endif // SUBDIV_NO_TOOLS

@@ -37,7 +37,7 @@ fi
 # Less of the library, each part left out alone and all of them together; in C++, too.
 # What is left out is not there.
 exact='subdiv_(evaluate_at|tessellate|surface_tessellate|stencils_at)'
-tools='subdiv_(explain|check|inspect|crease_by_(angle|smoothing_groups|uv_seams))'
+tools='subdiv_(explain|explain_points|check|inspect|crease_by_(angle|smoothing_groups|uv_seams))'
 obj='subdiv_(load|save|stream)_obj'
 
 # without NAME FUNCTIONS FLAGS...

@@ -547,6 +547,16 @@ static size_t explain(const subdiv_mesh *m, int which)
     return strlen(text);
 }
 
+static size_t explain_points(const subdiv_mesh *m, int unused)
+{
+    subdiv_explanation e;
+    (void)unused;
+    CHECK_EQUAL(subdiv_explain_points(&e, m, &options), SUBDIV_OK);
+    size_t size = sizeof *e.points * (size_t)e.count + sizeof(float) * e.masks.offsets[e.count];
+    subdiv_explanation_free(&e);
+    return size;
+}
+
 static void take_finding(void *user, const subdiv_finding *finding)
 {
     *(size_t *)user += strlen(finding->text);
@@ -645,6 +655,7 @@ calls[] = {
     { "samples", samples, 0 }, { "values", values, SUBDIV_EXACT }, { "values", values, 0 },
     { "values", values, 1 }, { "stencils", stencils, 1 }, { "stencils", stencils, 2 },
     { "stencils", stencils, -1 }, { "exact stencils", exact_stencils, 0 },
+    { "explain points", explain_points, 0 },
     { "explain", explain, 0 }, { "explain", explain, 1 }, { "explain", explain, 2 },
     { "check", check, 0 }, { "inspect", inspect, 0 }, { "creases", creases, 0 },
     { "creases", creases, 1 }, { "creases", creases, 2 }, { "normals", normals, 0 },

@@ -346,6 +346,10 @@ static subdiv_result call_explain(const trial *t, const subdiv_options *opt)
 {
     char text[8192];
     subdiv_result result = SUBDIV_OK;
+    subdiv_explanation points;
+    TRY((FILL(points), subdiv_explain_points(&points, t->cage, opt)));
+    if (result) CHECK(IS_ZERO(points));
+    subdiv_explanation_free(&points);
     for (int point = 0; point <= t->cage->vertex_count && !result; point += 9) {
         TRY((FILL(text), subdiv_explain(text, sizeof text, t->cage, point, opt)));
         CHECK((text[0] != 0) == (result == SUBDIV_OK));
@@ -839,6 +843,7 @@ static struct outputs {
     subdiv_mesh fine;
     subdiv_surface *made;
     subdiv_stencils stencils;
+    subdiv_explanation explanation;
     subdiv_info info;
     int   counts[SUBDIV_ODDITY_COUNT];
     size_t size;
@@ -863,6 +868,7 @@ static void check_outputs(const char *call)
     KEPT("&o.fine", o.fine);
     KEPT("&o.made", o.made);
     KEPT("&o.stencils", o.stencils);
+    KEPT("&o.explanation", o.explanation);
     KEPT("&o.info", o.info);
     KEPT("o.counts", o.counts);
     KEPT("&o.size", o.size);
@@ -1095,6 +1101,8 @@ static void wrong_tools(void)
     WRONG(ARGUMENT, subdiv_surface_tessellate(&o.fine, k.exact_values, k.positions, NULL, opt));
     WRONG(ARGUMENT, subdiv_surface_tessellate(&o.fine, k.exact, NULL, NULL, opt));
     WRONG(ARGUMENT, subdiv_surface_tessellate(&o.fine, k.exact, k.positions, &low, opt));
+    WRONG(ARGUMENT, subdiv_explain_points(NULL, cage, opt));
+    WRONG(ARGUMENT, subdiv_explain_points(&o.explanation, NULL, opt));
     WRONG(ARGUMENT, subdiv_explain(NULL, 64, cage, 0, opt));
     WRONG(ARGUMENT, subdiv_explain(o.text, 0, cage, 0, opt));
     WRONG(TOO_LARGE, subdiv_explain(o.text, 1, cage, 0, opt));
@@ -1201,6 +1209,7 @@ static void check_numbers(void)
     subdiv_surface_free(NULL);
     subdiv_mesh_free(NULL);
     subdiv_stencils_free(NULL);
+    subdiv_explanation_free(NULL);
 }
 
 static void test_wrong_arguments(void)

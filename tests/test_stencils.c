@@ -679,6 +679,137 @@ static void test_explained_loop(void)
     }
 }
 
+static void sum_of(const subdiv_stencils *s, int i, const float *positions, double *sum)
+{
+    sum[0] = sum[1] = sum[2] = 0;
+    for (size_t k = s->offsets[i]; k < s->offsets[i + 1]; k++)
+        for (int j = 0; j < 3; j++)
+            sum[j] += (double)s->weights[k] * (double)positions[3 * s->indices[k] + j];
+}
+
+// The weight of a vertex in a mask.
+static double weight_in(const subdiv_stencils *masks, int i, int vertex)
+{
+    double sum = 0;
+    for (size_t k = masks->offsets[i]; k < masks->offsets[i + 1]; k++)
+        if (masks->indices[k] == vertex) sum += (double)masks->weights[k];
+    return sum;
+}
+
+// Where a single sharp rule holds, it says what the mask is: by the vertices that the data name.
+static void check_rule(const subdiv_explanation *e, int i)
+{
+    const subdiv_point *p = &e->points[i];
+    const int *ends = p->ends, rule = p->weight < 1 ? -1 : (int)p->rule;
+    CHECK(p->weight >= 0 && p->weight <= 1);
+    if (p->kind == SUBDIV_EDGE_POINT && rule == SUBDIV_CREASE)
+        for (int k = 0; k < 2; k++)
+            CHECK_NEAR(weight_in(&e->masks, i, ends[k]), ends[0] == ends[1] ? 1 : 0.5, 1e-6);
+    if (p->kind != SUBDIV_VERTEX_POINT) return;
+    if (rule == SUBDIV_CORNER) CHECK_NEAR(weight_in(&e->masks, i, p->parent), 1, 1e-6);
+    if (rule != SUBDIV_CREASE || ends[0] == ends[1]) return;
+    if (ends[0] == p->parent || ends[1] == p->parent) return;
+    CHECK_NEAR(weight_in(&e->masks, i, p->parent), 0.75, 1e-6);
+    for (int k = 0; k < 2; k++) CHECK_NEAR(weight_in(&e->masks, i, ends[k]), 0.125, 1e-6);
+}
+
+// The text names the vertex, edge or face of the data, and weighs the cage's vertices as they do.
+static void check_same_as_text(const subdiv_explanation *e, int i, const float *positions)
+{
+    const subdiv_point *p = &e->points[i];
+    double sum[3], told[3];
+    char words[80];
+    if (p->kind == SUBDIV_VERTEX_POINT) sprintf(words, "vertex point of vertex %d.", p->parent);
+    if (p->kind == SUBDIV_EDGE_POINT)
+        sprintf(words, "edge point of edge %d-%d.", p->ends[0], p->ends[1]);
+    if (p->kind == SUBDIV_FACE_POINT) sprintf(words, "face point of face %d.", p->parent);
+    check_says(words);
+    sum_of_table(positions, told);
+    sum_of(&e->masks, i, positions, sum);
+    for (int k = 0; k < 3; k++) CHECK_NEAR(told[k], sum[k], 2e-6);
+}
+
+// The masks of all points, applied to the cage, make the points of the mesh refined once: also of a
+// mesh that was refined before.
+static void check_points(const subdiv_mesh *cage, const subdiv_options *opt)
+{
+    subdiv_explanation e;
+    subdiv_mesh fine;
+    int counts[3] = { 0, 0, 0 };
+    CHECK_EQUAL(subdiv_refine(&fine, cage, 1, opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_explain_points(&e, cage, opt), SUBDIV_OK);
+    CHECK_EQUAL(e.count, fine.vertex_count);
+    CHECK_EQUAL(e.masks.count, fine.vertex_count);
+    for (int i = 0; i < e.count; i++) {
+        const subdiv_point *p = &e.points[i];
+        double sum[3];
+        CHECK_EQUAL(p->parent, counts[p->kind]++);
+        sum_of(&e.masks, i, cage->positions, sum);
+        for (int k = 0; k < 3; k++) CHECK_NEAR(sum[k], fine.positions[3 * i + k], 2e-6);
+        check_rule(&e, i);
+        if (i % (1 + e.count / 50)) continue;
+        CHECK_EQUAL(subdiv_explain(text, sizeof text, cage, i, opt), SUBDIV_OK);
+        check_same_as_text(&e, i, cage->positions);
+    }
+    CHECK_EQUAL(counts[0], cage->vertex_count);
+    CHECK_EQUAL(counts[2], cage->scheme == SUBDIV_LOOP ? 0 : cage->face_count);
+    subdiv_explanation_free(&e);
+    CHECK(!e.points && !e.masks.weights);
+    subdiv_mesh_free(&fine);
+}
+
+static void test_explained_points(void)
+{
+    for (unsigned seed = 0; seed < 80; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_options opt = {0};
+        subdiv_mesh finer;
+        say_where("explain", seed, 0);
+        opt.linear = seed % 9 == 8;
+        check_points(&c->mesh, &opt);
+        opt.keep_holes = 1;
+        CHECK_EQUAL(subdiv_refine(&finer, &c->mesh, 1, &opt), SUBDIV_OK);
+        if (finer.face_count < 200) check_points(&finer, &opt);
+        subdiv_mesh_free(&finer);
+        random_cage_free(c);
+    }
+}
+
+// How a crease that ends, the boundary and a single face look as data.
+static void test_explained_data(void)
+{
+    static test_cage c;
+    subdiv_explanation e;
+    subdiv_options opt = {0};
+    build_prism(&c, 4);
+    cage_crease(&c, 0, 1, 0.25), cage_crease(&c, 1, 2, 0.25), cage_corner(&c, 7, 3);
+    opt.limit = 1;                                  // masks are those of refinement all the same
+    CHECK_EQUAL(subdiv_explain_points(&e, &c.mesh, &opt), SUBDIV_OK);
+    const subdiv_point *p = &e.points[1];
+    CHECK(p->rule == SUBDIV_CREASE && p->next == SUBDIV_SMOOTH && p->reason == SUBDIV_SHARP_EDGES);
+    CHECK(p->ends[0] + p->ends[1] == 2 && p->sharp_edges == 2 && p->valence == 3);
+    CHECK_NEAR(p->weight, 0.25, 0);
+    CHECK_NEAR(weight_in(&e.masks, 1, 1), 0.5, 1e-6);
+    p = &e.points[7];
+    CHECK(p->rule == SUBDIV_CORNER && p->next == SUBDIV_CORNER && p->sharpness == 3);
+    CHECK_EQUAL(p->reason, SUBDIV_OWN_SHARPNESS);
+    p = &e.points[8];
+    CHECK(p->kind == SUBDIV_EDGE_POINT && p->ends[0] == 0 && p->ends[1] == 1 && p->valence == 2);
+    CHECK(p->rule == SUBDIV_CREASE && p->next == SUBDIV_SMOOTH && p->weight == 0.25);
+    CHECK(p->faces[0] >= 0 && p->faces[1] > p->faces[0]);
+    subdiv_explanation_free(&e);
+
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 2, 2);
+    c.mesh.boundary = SUBDIV_BOUNDARY_EDGE_AND_CORNER;
+    CHECK_EQUAL(subdiv_explain_points(&e, &c.mesh, NULL), SUBDIV_OK);
+    CHECK(e.points[0].reason == SUBDIV_SINGLE_FACE && e.points[0].rule == SUBDIV_CORNER);
+    CHECK(e.points[1].reason == SUBDIV_BOUNDARY && e.points[1].rule == SUBDIV_CREASE);
+    CHECK(e.points[4].reason == SUBDIV_NOTHING_SHARP && e.points[4].valence == 4);
+    CHECK(e.points[9].reason == SUBDIV_BOUNDARY && e.points[9].faces[1] == -1);
+    CHECK(e.points[e.count - 1].kind == SUBDIV_FACE_POINT && e.points[e.count - 1].valence == 4);
+    subdiv_explanation_free(&e);
+}
+
 // Wherever the text is cut off, nothing is written beyond its room. All points of a single quad
 // have a picture.
 static void test_explained_room(void)
@@ -694,7 +825,8 @@ static void test_explained_room(void)
             CHECK_EQUAL(strlen(text), 0);
             for (size_t k = room; k < size + 64; k++) CHECK(text[k] == '#');
         }
-        CHECK_EQUAL(subdiv_explain(text, size + 2, &c.mesh, point, NULL), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_explain(text, size + 1, &c.mesh, point, NULL), SUBDIV_OK);
+        CHECK_EQUAL(strlen(text), size);
     }
 }
 
@@ -765,8 +897,11 @@ static void test_errors(void)
                               "8 to 19 of edges, 20 to 25 of faces");
     CHECK_EQUAL(subdiv_explain(text, 100, &c.mesh, 0, &opt), SUBDIV_ERROR_TOO_LARGE);
     CHECK_TEXT(text, "");
+    subdiv_explanation e;
     c.mesh.scheme = SUBDIV_LOOP;
     CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 0, &opt), SUBDIV_ERROR_NOT_TRIANGLE);
+    CHECK_EQUAL(subdiv_explain_points(&e, &c.mesh, &opt), SUBDIV_ERROR_NOT_TRIANGLE);
+    CHECK(e.count == 0 && !e.points && !e.masks.weights && !e.memory);
     opt.triangulate = 1;
     CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 26, &opt), SUBDIV_ERROR_INDEX);
     CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 25, &opt), SUBDIV_OK);
@@ -785,6 +920,8 @@ int main(void)
     RUN(test_explained_catmull_clark);
     RUN(test_explained_shapes);
     RUN(test_explained_loop);
+    RUN(test_explained_points);
+    RUN(test_explained_data);
     RUN(test_explained_room);
     RUN(test_errors);
     return test_end("stencils");

@@ -227,6 +227,7 @@ static inline void every_tool(every *e)
 {
     subdiv_mesh copy = *e->cage, loaded;
     subdiv_info info;
+    subdiv_explanation points;
     int counts[SUBDIV_ODDITY_COUNT];
     const int two = 2, ends[2] = { 0, 1 };
     const float sharpness = 4;
@@ -237,6 +238,9 @@ static inline void every_tool(every *e)
     every_add(e, &info, sizeof info);
     EVERY(e, subdiv_check(counts, e->cage, NULL, NULL, e->opt));
     every_add(e, counts, sizeof counts);
+    if (EVERY(e, subdiv_explain_points(&points, e->cage, e->opt)))
+        every_add(e, points.masks.weights, sizeof(float) * points.masks.offsets[points.count]);
+    subdiv_explanation_free(&points);
     EVERY(e, subdiv_explain(text, 1 << 16, e->cage, e->cage->vertex_count / 2, e->opt));
     every_keep(e, text, strlen(text));
     EVERY(e, subdiv_normals(&copy, e->opt));
