@@ -36,6 +36,7 @@
 enum { DONE = 0, FAILED = 1, MISUSED = 2 };   // what the program returns
 enum { LARGE = 1 << 24 };                     // vertices; results with more are streamed
 enum { MAX_THREADS = 256 };
+enum { EXPLAIN_ALL = INT_MAX };               // no point has this number
 
 // ------------------------------------------------------------------------------ command line
 
@@ -84,7 +85,8 @@ static const option options[OPTION_COUNT] = {
     {0, "triangulate", NULL, "Loop: cut larger faces into triangles first"},
     {0, "keep-holes", NULL, "keep the faces of holes, tagged as holes"},
     {0, "info", NULL, "print what the cage is made of, and what is odd about it"},
-    {0, "explain", "N", "print the rule and the mask of point N of the cage refined once"},
+    {0, "explain", "N|all", "print the rule and the mask of point N of the cage refined once; all: a\n"
+     "          line of data for each point"},
     {0, "time", NULL, "print how long each step takes"},
     {'h', "help", NULL, "print this"},
     {0, "version", NULL, "print the version"},
@@ -164,7 +166,11 @@ static int set_option(command *cmd, int id, const char *value)
         cmd->samples = value;
         return DONE;
     }
-    int number = strcmp(o->values, "N") == 0;
+    if (id == EXPLAIN && strcmp(value, "all") == 0) {
+        cmd->given[id] = EXPLAIN_ALL;
+        return DONE;
+    }
+    int number = o->values[0] == 'N';
     int read = number ? read_number(value) : find_name(o->values, value);
     int least = id == THREADS || id == TESSELLATE;
     if (number && read < least)
@@ -565,6 +571,30 @@ static int inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_opt
         subdiv_check(odd.counts, cage, keep_finding, &odd, opt)) return report(cmd->input, opt);
     if (cmd->output) *opt->error = before;
     return print_info(cage, &info, &odd);
+}
+
+// Prints what all points are, with their masks, a line each.
+static int explain_all(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt)
+{
+    static const char *const kinds[] = { "vertex", "edge", "face" };
+    static const char *const rules[] = { "smooth", "dart", "crease", "corner" };
+    static const char *const reasons[] = { "nothing-sharp", "linear", "no-faces", "boundary",
+        "non-manifold", "single-face", "own-sharpness", "sharp-edges" };
+    subdiv_explanation e;
+    if (subdiv_explain_points(&e, cage, opt)) return report(cmd->input, opt);
+    puts("# point, what of: its rule, the next level's, the share of the first, why | its mask");
+    for (int i = 0; i < e.count; i++) {
+        const subdiv_point *p = &e.points[i];
+        printf("%d %s ", i, kinds[p->kind]);
+        if (p->kind == SUBDIV_EDGE_POINT) printf("%d-%d", p->ends[0], p->ends[1]);
+        else printf("%d", p->parent);
+        printf(": %s %s %g %s |", rules[p->rule], rules[p->next], p->weight, reasons[p->reason]);
+        for (size_t k = e.masks.offsets[i]; k < e.masks.offsets[i + 1]; k++)
+            printf(" %d:%.9g", e.masks.indices[k], (double)e.masks.weights[k]);
+        putchar('\n');
+    }
+    subdiv_explanation_free(&e);
+    return flush_output();
 }
 
 // Prints the explanation of a point, however long it is.
@@ -987,6 +1017,7 @@ static int run(work *w, const command *cmd, const subdiv_options *opt)
     if (load(&w->cage, cmd, opt)) return report(cmd->input, opt);
     if (add_creases(&w->cage, cmd, opt)) return FAILED;
     end_step(w, "load");
+    if (cmd->given[EXPLAIN] == EXPLAIN_ALL) return explain_all(&w->cage, cmd, opt);
     if (cmd->given[EXPLAIN] >= 0) return explain(&w->cage, cmd, opt);
     if (info && inspect(&w->cage, cmd, opt)) return FAILED;
     if (info && cmd->output == NULL) {

@@ -452,6 +452,11 @@ fine "--explain names the rule" grep -q '^Vertex 0 is interior, of valence 3, an
 fine "--explain has fractions" grep -q '^    5/12    vertex 0$' out
 ends 0 --crease-angle 30 --explain 8 limit.obj
 fine "--explain sees creases" grep -q 'is a crease, sharp forever\.$' out
+ends 0 --explain all limit.obj
+fine "--explain all has a line for each point" test "$(grep -c ' | ' out)" = 27
+fine "--explain all names rules" grep -q '^0 vertex 0: smooth smooth 1 nothing-sharp | 0:0.41666' out
+fine "--explain all has masks" grep -q '^25 face 5: .* | [0-7]:0.25 [0-7]:0.25 [0-7]:0.25 ' out
+ends 2 --explain al limit.obj
 ends 0 -s loop --triangulate --explain 25 limit.obj
 ends 1 --explain 26 limit.obj
 says "8 to 19 of edges, 20 to 25 of faces"
