@@ -1,6 +1,7 @@
 # make          build/subdiv, the command line
 # make examples runs the numbered examples and compares what they print
 # make demo     refines the cages of examples/cages: OBJ files and pictures in build/
+# make gallery  the pictures of examples/README.md, in build/gallery
 # make test     all tests; with a C++ compiler and libosd-dev also the comparison with OpenSubdiv
 # make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop".
 #               And how long it takes to compile; with libstb-dev beside stb_image.h
@@ -40,6 +41,8 @@ PLAIN    = doors tessellate stencils exact_oracle patches limit obj_read obj_wri
            recorded creases check errors uv partial_uvs vertex_rules normals threads stack \
            limits curves conventions locations
 TESTS    = $(OWN) $(PLAIN) growth
+GALLERY  = corner_cutting b_spline masks split valences boundary sharpness features vertex_rules \
+           schemes limit reflection
 EXAMPLES = 00_lecture 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate \
            06_limit_normals 07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer \
            12_usd_mesh 13_fit
@@ -77,6 +80,20 @@ examples: $(OUT)/examples.log $(OUT)/make_cages
 
 demo: $(OUT)/demo
 	$(OUT)/demo examples/cages $(OUT)
+
+$(OUT)/gallery/drawing.o: examples/gallery/gallery.c examples/gallery/gallery.h \
+                          examples/demo/render.h
+	mkdir -p $(OUT)/gallery
+	$(CC) $(FLAGS) -Iexamples/demo -c $< -o $@
+
+$(GALLERY:%=$(OUT)/gallery/%): $(OUT)/gallery/%: examples/gallery/%.c $(OUT)/gallery/drawing.o \
+		examples/demo/render.c examples/demo/picture.c $(OUT)/plain.o
+	$(CC) $(FLAGS) $(SHARED) $^ -o $@ -lm
+
+$(GALLERY:%=$(OUT)/gallery/%.log): $(OUT)/gallery/%.log: $(OUT)/gallery/%
+	$< $(OUT)/gallery | tee $@
+
+gallery: $(GALLERY:%=$(OUT)/gallery/%.log)
 
 # ------------------------------------------------------------------------------------------ tests
 
@@ -265,5 +282,5 @@ bench: $(OUT)/bench $(OUT)/bench_obj
 clean:
 	rm -rf $(OUT)
 
-.PHONY: all demo examples test logs check sanitize_own sanitize_plain platforms fuzz coverage mutate \
+.PHONY: all demo gallery examples test logs check sanitize_own sanitize_plain platforms fuzz coverage mutate \
         bench clean FORCE
