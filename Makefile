@@ -2,6 +2,7 @@
 # make examples runs the numbered examples and compares what they print
 # make demo     refines the cages of examples/cages: OBJ files and pictures in build/
 # make gallery  the pictures of examples/README.md, in build/gallery
+# make playground   build/playground.html, a page to play on: see examples/playground/build.sh
 # make test     all tests; with a C++ compiler and libosd-dev also the comparison with OpenSubdiv
 # make bench    speed and memory; with libosd-dev beside OpenSubdiv. MESHES="a.obj:5 b.obj:4:loop".
 #               And how long it takes to compile; with libstb-dev beside stb_image.h
@@ -95,6 +96,11 @@ $(GALLERY:%=$(OUT)/gallery/%.log): $(OUT)/gallery/%.log: $(OUT)/gallery/%
 
 gallery: $(GALLERY:%=$(OUT)/gallery/%.log)
 
+$(OUT)/playground.html: $(wildcard examples/playground/* examples/cages/*) subdiv.h
+	sh examples/playground/build.sh $@
+
+playground: $(OUT)/playground.html
+
 # ------------------------------------------------------------------------------------------ tests
 
 $(OWN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(HELPERS) subdiv.h | $(OUT)
@@ -140,6 +146,10 @@ $(OUT)/fuzz_differential.log: MUTATIONS = 500
 $(FUZZERS:%=$(OUT)/fuzz_%.log): $(OUT)/fuzz_%.log: $(OUT)/fuzz_% FORCE
 	$(RUN) $< $(MUTATIONS) $(wildcard tests/fuzz/seeds/$*/*)
 
+# The page, if make playground has built it.
+$(OUT)/playground.log: $(OUT)/subdiv FORCE
+	$(RUN) sh tests/playground.sh $(OUT)/playground.html $<
+
 $(OUT)/cli.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/test_cli.sh $<
 
@@ -163,7 +173,8 @@ ifeq ($(HAVE_OSD),yes)
 TEST_LOGS = $(OUT)/opensubdiv.log
 endif
 TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) \
-             $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log $(OUT)/examples.log
+             $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log $(OUT)/examples.log \
+             $(OUT)/playground.log
 
 test: $(TEST_LOGS) $(OUT)/make_cages
 ifneq ($(HAVE_OSD),yes)
@@ -282,5 +293,5 @@ bench: $(OUT)/bench $(OUT)/bench_obj
 clean:
 	rm -rf $(OUT)
 
-.PHONY: all demo gallery examples test logs check sanitize_own sanitize_plain platforms fuzz coverage mutate \
-        bench clean FORCE
+.PHONY: all demo gallery playground examples test logs check sanitize_own sanitize_plain platforms \
+        fuzz coverage mutate bench clean FORCE

@@ -1,0 +1,573 @@
+// What is seen: the surface in soft light, the cage over it, the weights of a mask, curves.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import { FullScreenQuad } from 'three/examples/jsm/postprocessing/Pass.js';
+import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
+
+const MOST_PASSES = 64;
+const PAPER = 0xf6f4f0,
+    INK = 0x3d3d42,
+    CORAL = 0xe2583e,
+    AMBER = 0xf0a01e,
+    TEAL = 0x23908c;
+const COLOURS = {
+    '': 0xf06a50,
+    white: 0xf4f1ec,
+    black: 0x26262b,
+    coral: 0xee6a50,
+    cream: 0xffcfa8,
+    chrome: 0xcfcfcc,
+    leather: 0x2a8080,
+    glass: 0x1a2456,
+    red: 0xe54433,
+    rose: 0xeb6b99,
+    petal: 0xf294b8,
+    blush: 0xffc2d1,
+    leaf: 0x5c9e66,
+    yellow: 0xfac747,
+    blue: 0x427ac2,
+    belly: 0xe0edf5,
+    sucker: 0xcc5252,
+};
+
+function lines(width, options) {
+    const material = new LineMaterial({ linewidth: width, vertexColors: true, ...options });
+    const object = new LineSegments2(new LineSegmentsGeometry(), material);
+    object.frustumCulled = false;
+    object.visible = false;
+    return object;
+}
+
+export class Scene {
+    constructor(place, labels, eachFrame, viewChanged) {
+        this.labels = labels;
+        this.eachFrame = eachFrame;
+        this.scene = new THREE.Scene();
+        this.scene.background = new THREE.Color(PAPER);
+        this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+        this.renderer.shadowMap.enabled = true;
+        this.renderer.shadowMap.type = THREE.PCFShadowMap;
+        this.renderer.shadowMap.autoUpdate = false;
+        this.canvas = this.renderer.domElement;
+        place.appendChild(this.canvas);
+        this.camera = new THREE.PerspectiveCamera(30, 1, 0.01, 1000);
+        this.controls = new OrbitControls(this.camera, this.canvas);
+        this.controls.addEventListener('change', () => this.wake(true));
+        this.controls.addEventListener('end', viewChanged);
+        this.light();
+        this.surface = null;
+        this.materials = new Map();
+        this.refines = true;
+        this.patience = 120; // milliseconds a pass
+        this.makeTargets();
+        this.makeCage();
+        this.place_ = place;
+        new ResizeObserver(() => this.resize()).observe(place);
+        this.resize();
+    }
+
+    light() {
+        const pmrem = new THREE.PMREMGenerator(this.renderer);
+        this.scene.environment = pmrem.fromScene(new RoomEnvironment(), 0.04).texture;
+        this.scene.environmentIntensity = 0.36;
+        this.key = new THREE.DirectionalLight(0xfff2e0, 2.3);
+        this.sky = new THREE.DirectionalLight(0xe2ecff, 1);
+        for (const light of [this.key, this.sky]) {
+            light.castShadow = true;
+            light.shadow.mapSize.set(1024, 1024);
+            light.shadow.radius = 3;
+            this.scene.add(light, light.target);
+        }
+        this.rim = new THREE.DirectionalLight(0xe4eeff, 0.9);
+        this.scene.add(this.rim);
+        this.ground = new THREE.Mesh(
+            new THREE.PlaneGeometry(1, 1),
+            new THREE.ShadowMaterial({ opacity: 0.34, color: 0x4a4238 }),
+        );
+        this.ground.rotation.x = -Math.PI / 2;
+        this.ground.receiveShadow = true;
+        this.scene.add(this.ground);
+    }
+
+    makeCage() {
+        this.cageLines = lines(2, {});
+        this.hiddenLines = lines(1.2, { depthTest: false, transparent: true, opacity: 0.22 });
+        this.curveLines = lines(4, {});
+        const ball = new THREE.SphereGeometry(1, 20, 14);
+        this.dots = new THREE.InstancedMesh(ball, new THREE.MeshBasicMaterial(), 1);
+        this.made = new THREE.Mesh(
+            ball,
+            new THREE.MeshBasicMaterial({ color: TEAL, depthTest: false }),
+        );
+        this.made.renderOrder = 5;
+        this.made.visible = false;
+        this.wire = new THREE.LineSegments(
+            new THREE.BufferGeometry(),
+            new THREE.LineBasicMaterial({ color: 0x2b2622, transparent: true, opacity: 0.16 }),
+        );
+        this.wire.frustumCulled = false;
+        this.wire.visible = false;
+        this.cageLines.renderOrder = 2;
+        this.hiddenLines.renderOrder = 1;
+        this.scene.add(
+            this.cageLines,
+            this.hiddenLines,
+            this.curveLines,
+            this.dots,
+            this.made,
+            this.wire,
+        );
+    }
+
+    // ---- the frame
+
+    // Draws the next frame. moved: other light falls on the surface than before.
+    wake(moved) {
+        this.moved ||= moved;
+        this.passes = 0;
+        this.draw();
+    }
+
+    draw() {
+        if (this.waking) return;
+        this.waking = true;
+        requestAnimationFrame(() => {
+            this.waking = false;
+            if (this.passes) return this.refine();
+            this.eachFrame();
+            this.controls.update();
+            this.camera.clearViewOffset();
+            this.aimLights(0, 0);
+            this.placeLabels();
+            this.sizeDots();
+            this.renderer.shadowMap.needsUpdate = this.moved;
+            this.moved = false;
+            this.renderer.render(this.scene, this.camera);
+            if (!this.refines) return;
+            this.passes = 1;
+            clearTimeout(this.pause);
+            this.pause = setTimeout(() => {
+                this.started = performance.now();
+                if (this.passes) this.draw();
+            }, 120);
+        });
+    }
+
+    // When nothing moves, the picture becomes the mean of many, each with the lights elsewhere:
+    // soft shadows, and less light in hollows.
+    refine() {
+        const since = performance.now() - this.started;
+        if (this.passes > MOST_PASSES || since > this.patience * this.passes) return; // too slow
+        const halton = (i, base) => {
+            let value = 0;
+            for (let f = 1 / base; i > 0; i = Math.floor(i / base), f /= base)
+                value += f * (i % base);
+            return value;
+        };
+        const n = this.passes++,
+            { clientWidth: w, clientHeight: h } = this.canvas;
+        this.camera.setViewOffset(w, h, halton(n, 2) - 0.5, halton(n, 3) - 0.5, w, h);
+        this.aimLights(n, halton(n, 5));
+        this.renderer.shadowMap.needsUpdate = true;
+        this.moved = true;
+        this.renderer.setRenderTarget(this.once);
+        this.renderer.render(this.scene, this.camera);
+        this.renderer.setRenderTarget(this.mean);
+        this.renderer.autoClear = false;
+        this.blend.material.map = this.once.texture;
+        this.blend.material.opacity = 1 / n;
+        this.blend.render(this.renderer);
+        this.renderer.autoClear = true;
+        this.renderer.setRenderTarget(null);
+        if (n >= 12) this.show.render(this.renderer);
+        this.draw();
+    }
+
+    makeTargets() {
+        const target = samples =>
+            new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType, samples });
+        this.once = target(4);
+        this.mean = target(0);
+        const quad = options =>
+            new FullScreenQuad(
+                new THREE.MeshBasicMaterial({
+                    depthTest: false,
+                    depthWrite: false,
+                    toneMapped: false,
+                    ...options,
+                }),
+            );
+        this.blend = quad({ map: this.once.texture, transparent: true });
+        this.show = quad({ map: this.mean.texture });
+    }
+
+    resize() {
+        const { clientWidth: w, clientHeight: h } = this.place_;
+        if (!w || !h) return;
+        this.renderer.setSize(w, h);
+        const ratio = this.renderer.getPixelRatio();
+        this.once.setSize(w * ratio, h * ratio);
+        this.mean.setSize(w * ratio, h * ratio);
+        this.camera.aspect = w / h;
+        this.camera.updateProjectionMatrix();
+        this.wake(true);
+    }
+
+    // Frames all positions, from a little above.
+    frame(positions) {
+        const box = new THREE.Box3().setFromArray(positions),
+            ball = box.getBoundingSphere(new THREE.Sphere());
+        this.center = ball.center.clone();
+        this.radius = Math.max(ball.radius, 1e-3);
+        this.floor = box.min.y;
+        const flat = box.max.z - box.min.z < 1e-3 * this.radius;
+        const direction = flat ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0.5, 0.42, 1);
+        this.camera.position.copy(
+            direction
+                .normalize()
+                .multiplyScalar(3.9 * this.radius)
+                .add(this.center),
+        );
+        this.camera.near = this.radius / 50;
+        this.camera.far = this.radius * 100;
+        this.camera.updateProjectionMatrix();
+        this.controls.target.copy(this.center);
+        this.settle();
+        this.aim();
+    }
+
+    // Puts the ground under what is there now.
+    settle() {
+        let floor = this.surface ? Infinity : this.floor;
+        if (this.surface) {
+            const data = this.surface.geometry.attributes.position.data.array;
+            for (let i = 1; i < data.length; i += 6) floor = Math.min(floor, data[i]);
+        }
+        this.ground.position.set(this.center.x, floor - 0.002 * this.radius, this.center.z);
+        this.ground.scale.setScalar(30 * this.radius);
+        this.wake(true);
+    }
+
+    viewpoint() {
+        return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map(
+            x => +x.toFixed(4),
+        );
+    }
+
+    look(view) {
+        if (!view) return;
+        this.camera.position.fromArray(view);
+        this.controls.target.fromArray(view, 3);
+        this.aim();
+        this.wake(true);
+    }
+
+    // What is asked of the camera from now on holds for the new view, not for the last frame.
+    aim() {
+        this.controls.update();
+        this.camera.updateMatrixWorld();
+    }
+
+    // The key light is up on the left of whoever looks, as in the demo, and is large; the sky is
+    // all above. Pass 0 has both at their middles.
+    aimLights(pass, around) {
+        if (!this.radius) return;
+        const right = new THREE.Vector3()
+            .setFromMatrixColumn(this.camera.matrixWorld, 0)
+            .setY(0)
+            .normalize();
+        const front = new THREE.Vector3().crossVectors(right, this.camera.up).negate();
+        const at = (light, x, y, z) =>
+            light.position
+                .copy(this.center)
+                .addScaledVector(right, x * this.radius)
+                .addScaledVector(this.camera.up, y * this.radius)
+                .addScaledVector(front, -z * this.radius);
+        const turn = 2.39996323 * pass,
+            wide = pass ? 1.5 * Math.sqrt(pass / MOST_PASSES) : 0;
+        const height = pass ? 0.4 + 0.6 * around : 1,
+            flat = Math.sqrt(1 - height * height);
+        at(this.key, -2.2 + wide * Math.cos(turn), 4, -2 + wide * Math.sin(turn));
+        at(this.sky, 5 * flat * Math.cos(turn), 5 * height, 5 * flat * Math.sin(turn));
+        this.sky.intensity = pass ? 1.5 : 0.75;
+        at(this.rim, 3, 1.4, 3);
+        for (const light of [this.key, this.sky]) {
+            light.target.position.copy(this.center);
+            const camera = light.shadow.camera,
+                r = 1.9 * this.radius;
+            Object.assign(camera, {
+                left: -r,
+                right: r,
+                top: r,
+                bottom: -r,
+                near: 0.1 * this.radius,
+                far: 12 * this.radius,
+            });
+            camera.updateProjectionMatrix();
+            light.shadow.normalBias = 0.012 * this.radius;
+        }
+    }
+
+    // ---- the surface
+
+    materialOf(name, flat) {
+        const key = name + flat;
+        if (!this.materials.has(key)) {
+            const color = COLOURS[name] ?? COLOURS[''];
+            const gloss = { black: 0.3, glass: 0.15, white: 0.4, red: 0.35 }[name] ?? 0.52;
+            this.materials.set(
+                key,
+                new THREE.MeshStandardMaterial({
+                    color,
+                    roughness: gloss,
+                    side: THREE.DoubleSide,
+                    shadowSide: THREE.DoubleSide,
+                    flatShading: flat,
+                    polygonOffset: true,
+                    polygonOffsetFactor: 1,
+                    polygonOffsetUnits: 1,
+                }),
+            );
+        }
+        return this.materials.get(key);
+    }
+
+    clearSurface() {
+        if (this.surface) {
+            this.scene.remove(this.surface);
+            this.surface.geometry.dispose();
+            this.surface = null;
+        }
+        this.wire.visible = false;
+        this.wake(true);
+    }
+
+    showSurface(d, names, s) {
+        this.clearSurface();
+        this.clearCurve();
+        this.data = new THREE.InterleavedBuffer(d.buffer.slice(), 6);
+        this.data.setUsage(THREE.DynamicDrawUsage);
+        const position = new THREE.InterleavedBufferAttribute(this.data, 3, 0);
+        const geometry = new THREE.BufferGeometry();
+        geometry.setAttribute('position', position);
+        if (s.limit)
+            geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(this.data, 3, 3));
+        geometry.setIndex(new THREE.BufferAttribute(d.indices.slice(), 1));
+        const materials = [],
+            numbers = new Map();
+        for (let i = 0, start = 0; i < d.triangleFaces.length; i++) {
+            const name = names[d.triangleFaces[i]] ?? '',
+                next = names[d.triangleFaces[i + 1]] ?? '';
+            if (i + 1 < d.triangleFaces.length && next === name) continue;
+            if (!numbers.has(name)) {
+                numbers.set(name, materials.length);
+                materials.push(this.materialOf(name, !s.limit));
+            }
+            geometry.addGroup(3 * start, 3 * (i + 1 - start), numbers.get(name));
+            start = i + 1;
+        }
+        this.surface = new THREE.Mesh(geometry, materials);
+        this.surface.castShadow = this.surface.receiveShadow = true;
+        this.surface.frustumCulled = false;
+        this.scene.add(this.surface);
+        this.wire.geometry.dispose();
+        this.wire.geometry = new THREE.BufferGeometry();
+        this.wire.geometry.setAttribute('position', position);
+        if (s.wire) this.wire.geometry.setIndex(new THREE.BufferAttribute(d.wire.slice(), 1));
+        this.wire.visible = s.wire;
+        this.showsCage = s.cage;
+        this.settle();
+    }
+
+    moveSurface(buffer) {
+        this.data.array.set(buffer);
+        this.data.needsUpdate = true;
+        this.wake(true);
+    }
+
+    // ---- the cage
+
+    setLines(object, ends, colours) {
+        const same = object.geometry.attributes.instanceStart?.data.array.length === ends.length;
+        if (same) {
+            object.geometry.attributes.instanceStart.data.array.set(ends);
+            object.geometry.attributes.instanceStart.data.needsUpdate = true;
+        } else {
+            object.geometry.dispose();
+            object.geometry = new LineSegmentsGeometry();
+            object.geometry.setPositions(ends);
+        }
+        if (colours) object.geometry.setColors(colours);
+        object.visible = ends.length > 0;
+    }
+
+    showCage(positions, edges, sharpness, chosen) {
+        const colours = new Float32Array(6 * sharpness.length),
+            colour = new THREE.Color();
+        sharpness.forEach((s, i) => {
+            colour.set(i === chosen && s === 0 ? TEAL : s >= 10 ? CORAL : s > 0 ? AMBER : INK);
+            for (let k = 0; k < 2; k++) colour.toArray(colours, 6 * i + 3 * k);
+        });
+        this.cageLines.material.linewidth = sharpness.length > 400 ? 1.4 : 2.2;
+        this.moveCage(positions, edges, colours);
+    }
+
+    moveCage(positions, edges, colours) {
+        const ends = new Float32Array(3 * edges.length);
+        for (let i = 0; i < edges.length; i++)
+            for (let k = 0; k < 3; k++) ends[3 * i + k] = positions[3 * edges[i] + k];
+        this.setLines(this.cageLines, ends, colours);
+        this.setLines(this.hiddenLines, ends, colours);
+        this.cageLines.visible = this.hiddenLines.visible = this.showsCage && edges.length > 0;
+        this.showDots(this.showsCage ? positions : []);
+    }
+
+    // The first of them are control points, the others points of a curve.
+    showDots(positions, own = positions.length / 3) {
+        const count = positions.length / 3;
+        if (this.dots.instanceMatrix.count < count) {
+            const { geometry, material } = this.dots;
+            this.scene.remove(this.dots);
+            this.dots = new THREE.InstancedMesh(geometry, material, count);
+            this.scene.add(this.dots);
+        }
+        this.dots.frustumCulled = false;
+        this.dots.count = count;
+        this.dotsAt = Float32Array.from(positions);
+        const ink = new THREE.Color(INK),
+            coral = new THREE.Color(CORAL);
+        for (let i = 0; i < count; i++) this.dots.setColorAt(i, i < own ? ink : coral);
+        if (count) this.dots.instanceColor.needsUpdate = true;
+        this.wake();
+    }
+
+    // Dots of the same size on the screen, wherever they are.
+    sizeDots() {
+        const m = new THREE.Matrix4(),
+            p = new THREE.Vector3();
+        const pixel = (2 * Math.tan(Math.PI / 12)) / this.canvas.clientHeight;
+        const radius = this.dots.count > 200 ? 2.2 : 4.5;
+        for (let i = 0; i < this.dots.count; i++) {
+            p.fromArray(this.dotsAt, 3 * i);
+            const size = radius * pixel * p.distanceTo(this.camera.position);
+            m.makeScale(size, size, size).setPosition(p);
+            this.dots.setMatrixAt(i, m);
+        }
+        this.dots.instanceMatrix.needsUpdate = true;
+        this.made.scale.setScalar(6 * pixel * this.made.position.distanceTo(this.camera.position));
+    }
+
+    // ---- masks: a label at each vertex, and the point they make
+
+    showMask(weights, made) {
+        this.labels.textContent = '';
+        this.marks = weights.map(w => {
+            const span = document.createElement('span');
+            span.textContent = w.text;
+            span.className = w.own ? 'own' : '';
+            this.labels.appendChild(span);
+            return { span, at: new THREE.Vector3(...w.at) };
+        });
+        this.made.visible = !!made;
+        if (made) this.made.position.set(...made);
+        this.wake();
+    }
+
+    placeLabels() {
+        for (const { span, at } of this.marks ?? []) {
+            const { x, y } = this.onScreen(at.toArray());
+            span.style.left = `${x}px`;
+            span.style.top = `${y}px`;
+        }
+    }
+
+    // ---- curves
+
+    clearCurve() {
+        this.curveLines.visible = false;
+    }
+
+    showCurve(points, smooth, closed, cage, dots) {
+        const segments = (list, colour, last) => {
+            const ends = [],
+                n = list.length / 3;
+            for (let i = 0; i + 1 < n + last; i++)
+                for (const j of [i, (i + 1) % n]) ends.push(...list.slice(3 * j, 3 * j + 3));
+            const rgb = new THREE.Color(colour).toArray();
+            return [
+                new Float32Array(ends),
+                new Float32Array(ends.length).map((_, i) => rgb[i % 3]),
+            ];
+        };
+        this.setLines(this.curveLines, ...segments(smooth, CORAL, closed ? 1 : 0));
+        this.setLines(this.cageLines, ...segments(points, 0xa8a294, closed ? 1 : 0));
+        this.cageLines.visible = cage;
+        this.hiddenLines.visible = false;
+        this.showDots(
+            [...(cage ? points : []), ...(dots ? smooth : [])],
+            cage ? points.length / 3 : 0,
+        );
+    }
+
+    // ---- from and to the screen
+
+    place(event) {
+        const box = this.canvas.getBoundingClientRect();
+        return { x: event.clientX - box.left, y: event.clientY - box.top };
+    }
+
+    onScreen(p) {
+        const v = new THREE.Vector3(...p).project(this.camera);
+        return {
+            x: ((v.x + 1) / 2) * this.canvas.clientWidth,
+            y: ((1 - v.y) / 2) * this.canvas.clientHeight,
+            depth: v.z,
+        };
+    }
+
+    // The point under x, y at the depth of p.
+    unproject(x, y, p) {
+        const depth = new THREE.Vector3(...p).project(this.camera).z;
+        return new THREE.Vector3(
+            (2 * x) / this.canvas.clientWidth - 1,
+            1 - (2 * y) / this.canvas.clientHeight,
+            depth,
+        )
+            .unproject(this.camera)
+            .toArray();
+    }
+
+    // Of what is near enough, the one in front.
+    nearest(count, at, x, y, reach) {
+        let best = -1,
+            depth = Infinity;
+        for (let i = 0; i < count; i++) {
+            const p = this.onScreen(at(i));
+            if (Math.hypot(p.x - x, p.y - y) < reach && p.depth < depth)
+                ((best = i), (depth = p.depth));
+        }
+        return best;
+    }
+
+    nearestEdge(count, at, x, y, reach) {
+        let best = -1,
+            depth = Infinity;
+        for (let i = 0; i < count; i++) {
+            const [a, b] = at(i).map(p => this.onScreen(p)),
+                dx = b.x - a.x,
+                dy = b.y - a.y;
+            const t = Math.max(
+                0,
+                Math.min(1, ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy || 1)),
+            );
+            const z = a.depth + t * (b.depth - a.depth);
+            if (Math.hypot(a.x + t * dx - x, a.y + t * dy - y) < reach && z < depth)
+                ((best = i), (depth = z));
+        }
+        return best;
+    }
+}
