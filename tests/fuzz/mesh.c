@@ -584,6 +584,17 @@ static void explain(bytes *b)
         }
     } else REQUIRE(capacity == 0 || text[0] == 0);
     free(text);
+    subdiv_explanation e;
+    if (!settled(subdiv_explain_points(&e, &lent, &opt))) {
+        REQUIRE(is_zero(&e, sizeof e));
+        return;
+    }
+    REQUIRE(e.count == e.masks.count && e.count >= lent.vertex_count);
+    for (int i = 0; i < e.count; i++) {
+        REQUIRE(e.points[i].parent >= 0 && e.points[i].weight >= 0 && e.points[i].weight <= 1);
+        REQUIRE(e.masks.offsets[i] < e.masks.offsets[i + 1]);
+    }
+    subdiv_explanation_free(&e);
 }
 
 // Changes copies of the struct: a failure leaves them as they were, and the arrays stay.
