@@ -42,8 +42,10 @@ PLAIN    = doors tessellate stencils exact_oracle patches limit obj_read obj_wri
            recorded creases check errors uv partial_uvs vertex_rules normals threads stack \
            limits curves conventions locations
 TESTS    = $(OWN) $(PLAIN) growth
-GALLERY  = corner_cutting b_spline masks split valences boundary sharpness features vertex_rules \
-           schemes limit reflection
+DRAWINGS = corner_cutting b_spline masks split valences boundary
+RENDERINGS = sharpness features vertex_rules schemes limit reflection
+GALLERY  = $(DRAWINGS) $(RENDERINGS)
+SHOWING  = $(OUT)/gallery/gallery.o $(OUT)/gallery/render.o $(OUT)/gallery/picture.o
 EXAMPLES = 00_lecture 01_hello 02_cube_by_hand 03_creases 04_uv_seams 05_animate \
            06_limit_normals 07_threads 08_tessellate 09_stencils 10_spines 11_gpu_buffer \
            12_usd_mesh 13_fit
@@ -82,19 +84,20 @@ examples: $(OUT)/examples.log $(OUT)/make_cages
 demo: $(OUT)/demo
 	$(OUT)/demo examples/cages $(OUT)
 
-$(OUT)/gallery/drawing.o: examples/gallery/gallery.c examples/gallery/gallery.h \
-                          examples/demo/render.h
-	mkdir -p $(OUT)/gallery
-	$(CC) $(FLAGS) -Iexamples/demo -c $< -o $@
+$(OUT)/gallery/gallery.o: examples/gallery/gallery.c examples/gallery/gallery.h
+$(OUT)/gallery/render.o: examples/demo/render.c
+$(OUT)/gallery/picture.o: examples/demo/picture.c
+$(SHOWING): examples/demo/render.h
+	@mkdir -p $(OUT)/gallery
+	$(CC) $(FLAGS) -Iexamples/demo -c $(filter %.c,$^) -o $@
 
-$(GALLERY:%=$(OUT)/gallery/%): $(OUT)/gallery/%: examples/gallery/%.c $(OUT)/gallery/drawing.o \
-		examples/demo/render.c examples/demo/picture.c $(OUT)/plain.o
+$(GALLERY:%=$(OUT)/gallery/%): $(OUT)/gallery/%: examples/gallery/%.c $(SHOWING) $(OUT)/plain.o
 	$(CC) $(FLAGS) $(SHARED) $^ -o $@ -lm
 
-$(GALLERY:%=$(OUT)/gallery/%.log): $(OUT)/gallery/%.log: $(OUT)/gallery/%
-	$< $(OUT)/gallery | tee $@
+$(OUT)/gallery/%.svg $(OUT)/gallery/%.png: $(OUT)/gallery/%
+	$< $(OUT)/gallery
 
-gallery: $(GALLERY:%=$(OUT)/gallery/%.log)
+gallery: $(DRAWINGS:%=$(OUT)/gallery/%.svg) $(RENDERINGS:%=$(OUT)/gallery/%.png)
 
 $(OUT)/playground.html: $(wildcard examples/playground/* examples/cages/*) subdiv.h
 	sh examples/playground/build.sh $@
@@ -146,6 +149,10 @@ $(OUT)/fuzz_differential.log: MUTATIONS = 500
 $(FUZZERS:%=$(OUT)/fuzz_%.log): $(OUT)/fuzz_%.log: $(OUT)/fuzz_% FORCE
 	$(RUN) $< $(MUTATIONS) $(wildcard tests/fuzz/seeds/$*/*)
 
+# Drawings take no time; all programs are compiled.
+$(OUT)/gallery.log: $(GALLERY:%=$(OUT)/gallery/%) $(DRAWINGS:%=$(OUT)/gallery/%.svg) FORCE
+	$(RUN) sh tests/gallery.sh $(DRAWINGS)
+
 # The page, if make playground has built it.
 $(OUT)/playground.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/playground.sh $(OUT)/playground.html $<
@@ -174,7 +181,7 @@ TEST_LOGS = $(OUT)/opensubdiv.log
 endif
 TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) \
              $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log $(OUT)/examples.log \
-             $(OUT)/playground.log
+             $(OUT)/gallery.log $(OUT)/playground.log
 
 test: $(TEST_LOGS) $(OUT)/make_cages
 ifneq ($(HAVE_OSD),yes)
