@@ -50,7 +50,7 @@
              >>limit              the limit surface at the points of the result
              >>buffers            vertex buffers to draw, filled again in every frame
              >>exact              the limit surface anywhere
-             >>stencils           points as sums of cage vertices; explains a point
+             >>stencils           points as sums of cage vertices; explains points
              >>tessellation       meshes of the limit surface, each edge cut as you like
              >>curves             corner cutting and B-spline curves
              >>creases            from angles, smoothing groups, UV seams and chains
@@ -73,13 +73,13 @@
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>vertex-buffers
              >>generators  >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain
              >>cleanup
-   A student reads examples/00_lecture.c first, then >>masks and the other sections with a star, and
-   may skip the rest. The way from the first call to a mask: subdiv_refine > sdv_prepare >
-   sdv_prepare_rows > sdv_fill_level > sdv_vertex_row > sdv_vertex_mask >
-   sdv_catmull_clark_vertex. To where it is added up: subdiv_refine > sdv_make_mesh >
-   subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points > sdv_make_batches >
-   sdv_batch_sum. Under SUBDIV_PLAIN every point of every level has such a way: sdv_prepare_rows >
-   sdv_plain_rows > sdv_split_step > sdv_split_rows > sdv_vertex_row.
+   A student reads examples/README.md and examples/00_lecture.c first, then >>masks and the other
+   sections with a star, and may skip the rest. The way from the first call to a mask:
+   subdiv_refine > sdv_prepare > sdv_prepare_rows > sdv_fill_level > sdv_vertex_row >
+   sdv_vertex_mask > sdv_catmull_clark_vertex. To where it is added up: subdiv_refine >
+   sdv_make_mesh > subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points >
+   sdv_make_batches > sdv_batch_sum. Under SUBDIV_PLAIN every point of every level has such a way:
+   sdv_prepare_rows > sdv_plain_rows > sdv_split_step > sdv_split_rows > sdv_vertex_row.
 
    WORDS
    cage            the mesh you start from            level      how often it has been refined
