@@ -779,7 +779,7 @@ static void test_refusals_of_a_file(void)
         subdiv_mesh mesh;
         subdiv_error error = {0};
         subdiv_options opt = {0};
-        char place[256];
+        char place[512];
         const char *path = i % 2 ? long_path : scratch, *cut = i % 2 ? "..." : "";
         const char *name = i % 2 ? path + strlen(path) - 100 : path;
         opt.error = &error;
