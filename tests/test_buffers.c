@@ -72,6 +72,21 @@ static void check_vertices(const subdiv_buffer *b)
     free(all);
 }
 
+// The normals of face-vertices of a surface are those of its mesh.
+static void check_face_normals(const subdiv_surface *surface, const subdiv_mesh *fine)
+{
+    int count = 0, *normals;
+    for (int f = 0; f < fine->face_count; f++)
+        count += fine->face_sizes ? fine->face_sizes[f] : fine->face_size;
+    normals = (int *)malloc(((size_t)count + 1) * sizeof *normals);
+    normals[count] = -7;
+    CHECK_EQUAL(subdiv_surface_face_normals(surface, normals, NULL), SUBDIV_OK);
+    for (int i = 0; i < count; i++)
+        CHECK_EQUAL(normals[i], fine->face_normals ? fine->face_normals[i] : fine->face_vertices[i]);
+    CHECK_EQUAL(normals[count], -7);
+    free(normals);
+}
+
 // Writes vertices into one array: position, normal, UV and color, with gaps.
 static subdiv_vertices lay_out(float *data, const subdiv_mesh *mesh)
 {
@@ -151,6 +166,7 @@ static void test_random_cages(void)
         CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, c->mesh.positions, &opt), SUBDIV_OK);
         CHECK_EQUAL(subdiv_surface_normal_count(surface), fine.normal_count);
         CHECK(opt.limit ? fine.normal_count >= fine.vertex_count : fine.normal_count == 0);
+        if (opt.limit) check_face_normals(surface, &fine);
         for (int k = 0; k < 2; k++) {
             CHECK_EQUAL(subdiv_make_buffer(&b[k], &fine, 4 - 2 * k, NULL), SUBDIV_OK);
             check_indices(&b[k], &fine);
@@ -170,6 +186,7 @@ static void test_errors(void)
     int v[3] = { 0, 1, 2 }, odd[3] = { 0, 2, 1 };
     subdiv_mesh mesh = {0}, other;
     subdiv_buffer b;
+    subdiv_surface *surface;
     subdiv_vertices out = {0};
     mesh.vertex_count = 3;
     mesh.positions = p;
@@ -198,6 +215,13 @@ static void test_errors(void)
     out.stride = 0;
     CHECK_EQUAL(subdiv_fill_buffer(&b, &other, &out, NULL), SUBDIV_ERROR_ARGUMENT);
     CHECK_EQUAL(subdiv_evaluate_buffer(&b, NULL, p, &out, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_prepare(&surface, &mesh, 1, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_buffer(&b, surface, p, &out, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    subdiv_surface_free(surface);
+    CHECK_EQUAL(subdiv_prepare(&surface, &mesh, 0, NULL), SUBDIV_OK);
+    out.normals = p;
+    CHECK_EQUAL(subdiv_evaluate_buffer(&b, surface, p, &out, NULL, NULL), SUBDIV_ERROR_ARGUMENT);
+    subdiv_surface_free(surface);
     subdiv_buffer_free(&b);
     subdiv_buffer_free(&b);
     subdiv_buffer_free(NULL);

@@ -1022,6 +1022,11 @@ static void wrong_evaluation(void)
     WRONG(ARGUMENT, subdiv_evaluate_limit_faces(k.limit, NULL, 0, 1, 0, 1, &to, opt));
     WRONG(ARGUMENT, subdiv_evaluate_limit_faces(k.limit, work, 0, 1, 0, 1, NULL, opt));
     WRONG(ARGUMENT, subdiv_evaluate_limit_faces(k.plain, work, 0, 1, 0, 1, &to, opt));
+    WRONG(ARGUMENT, subdiv_surface_face_normals(NULL, o.ints, opt));
+    WRONG(ARGUMENT, subdiv_surface_face_normals(k.limit, NULL, opt));
+    WRONG(ARGUMENT, subdiv_surface_face_normals(k.plain, o.ints, opt));
+    WRONG(ARGUMENT, subdiv_surface_face_normals(k.exact, o.ints, opt));
+    WRONG(ARGUMENT, subdiv_surface_face_normals(k.values, o.ints, opt));
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
         const int *r = ranges[i];
         WRONG(INDEX, subdiv_evaluate_faces(k.plain, 3, work, r[0], r[1], r[2], r[3], out, 0, opt));
