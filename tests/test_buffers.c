@@ -81,8 +81,8 @@ static void check_face_normals(const subdiv_surface *surface, const subdiv_mesh 
     normals = (int *)malloc(((size_t)count + 1) * sizeof *normals);
     normals[count] = -7;
     CHECK_EQUAL(subdiv_surface_face_normals(surface, normals, NULL), SUBDIV_OK);
-    for (int i = 0; i < count; i++)
-        CHECK_EQUAL(normals[i], fine->face_normals ? fine->face_normals[i] : fine->face_vertices[i]);
+    const int *expected = fine->face_normals ? fine->face_normals : fine->face_vertices;
+    for (int i = 0; i < count; i++) CHECK_EQUAL(normals[i], expected[i]);
     CHECK_EQUAL(normals[count], -7);
     free(normals);
 }
