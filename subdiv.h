@@ -377,7 +377,8 @@ SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 // again: refining by 2 levels is refining by 1 level twice. Only what a mesh cannot express is
 // lost: holes, unless opt->keep_holes keeps them; an edge along which two faces are wound against
 // each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
-// the same three vertices. Lines are left out.
+// the same three vertices; where two UVs meet at a vertex under the rules "plus 1" and "plus 2",
+// that semi-sharp creases of one have faded away before those of the other. Lines are left out.
 //
 // fine must not be the cage itself. A crease between vertices that share no edge is skipped with a
 // warning; level 0 keeps it.
