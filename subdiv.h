@@ -16091,8 +16091,8 @@ static subdiv_point sdv_find_point(const sdv_explainer *x, int point)
     sdv_text out = { ranges, 0, sizeof ranges };
     for (int i = 0, first = 0; i < (x->rules->loop ? 2 : 3); first += counts[i++]) {
         p.kind = (subdiv_point_kind)i;
-        p.parent = point - first;
-        if (p.parent >= 0 && p.parent < counts[i]) {
+        if (point >= first && point - first < counts[i]) {
+            p.parent = point - first;
             if (i == SUBDIV_VERTEX_POINT) sdv_find_vertex_point(x, &p);
             else if (i == SUBDIV_EDGE_POINT) sdv_find_edge_point(x, &p);
             else p.valence = sdv_face_end(level, p.parent) - sdv_face_start(level, p.parent);

@@ -1115,6 +1115,7 @@ static void wrong_tools(void)
     WRONG(INDEX, subdiv_explain(o.text, 64, cage, -1, opt));
     WRONG(INDEX, subdiv_explain(o.text, 64, cage, k.points, opt));
     WRONG(INDEX, subdiv_explain(o.text, 64, cage, INT_MAX, opt));
+    WRONG(INDEX, subdiv_explain(o.text, 64, cage, INT_MIN, opt));
     WRONG(ARGUMENT, subdiv_inspect(NULL, cage, opt));
     WRONG(ARGUMENT, subdiv_inspect(&o.info, NULL, opt));
     WRONG(ARGUMENT, subdiv_check(o.counts, NULL, count_finding, NULL, opt));
