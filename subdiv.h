@@ -11417,7 +11417,8 @@ enum { SDV_PARTS = 6 };                 // a point and its first and second deri
 typedef struct sdv_stencil_row {        // a row: points and their weights
     int     count;
     int    *points;
-    double *weights;
+    double *weights;                    // [count]; of a limit [3 * count]: of the point, of its
+    int     limit;                      // tangents
 } sdv_stencil_row;
 
 typedef struct sdv_stencil_maker {
@@ -11582,7 +11583,8 @@ static void sdv_stencil_maker_new(sdv_context *context, sdv_stencil_maker *make,
     make->room = SDV_NEW(context, &make->arena, sdv_stencil_row, sdv_last_step(make) + 1);
     for (int i = 0; i <= sdv_last_step(make) && !context->result; i++) {
         make->room[i].points = SDV_NEW(context, &make->arena, int, make->longest);
-        make->room[i].weights = SDV_NEW(context, &make->arena, double, make->longest);
+        make->room[i].weights = SDV_NEW(context, &make->arena, double,
+                                        (size_t)parts * (size_t)make->longest);
     }
 }
 
@@ -11617,25 +11619,45 @@ static void sdv_end_sum(sdv_stencil_maker *make)
     make->size = 0;
 }
 
+// Gives the first point of a row what the others leave of a total of 1 or, for a tangent, of 0.
+static void sdv_set_first_weight(sdv_stencil_row *row, int part)
+{
+    double *w = row->weights + part * row->count;
+    w[0] = part == 0;
+    for (int i = row->count - 1; i > 0; i--) w[0] -= w[i];
+}
+
 // Gives the points of a row their weights: behind the first one, counts[k] points have weight w[k].
-// The first one has what the others leave of 1.
 static void sdv_set_weights(sdv_stencil_row *row, const int *counts, const double *w)
 {
+    row->limit = 0;
     row->count = 1;
-    row->weights[0] = 1;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < counts[k]; i++) row->weights[row->count++] = w[k];
-    for (int i = row->count - 1; i > 0; i--) row->weights[0] -= row->weights[i];
+    sdv_set_first_weight(row, 0);
+}
+
+// Gives the points of a limit row their weights w [3 * count].
+static void sdv_set_limit_weights(sdv_stencil_row *row, int count, const float *w)
+{
+    row->limit = 1;
+    row->count = count;
+    for (int i = 0; i < 3 * count; i++) row->weights[i] = (double)w[i];
+    for (int part = 0; part < 3; part++) sdv_set_first_weight(row, part);
 }
 
 static void sdv_batch_row(const sdv_stencil_maker *make, const sdv_batch *batch, const int *row,
                           sdv_stencil_row *out)
 {
     int count = sdv_row_points(&batch->shape);
+    for (int i = 0; i < count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
+    if (batch->limit) {
+        sdv_set_limit_weights(out, count, sdv_limit_weights_of(batch, row));
+        return;
+    }
     const void *own = row + 1 + count;
     const float *w = batch->shape.own ? (const float *)own : batch->shape.weight;
     const double weights[3] = { (double)w[0], (double)w[1], (double)w[2] };
-    for (int i = 0; i < count; i++) out->points[i] = sdv_whole_point(make, row[1 + i]);
     sdv_set_weights(out, batch->shape.count, weights);
 }
 
@@ -11657,33 +11679,33 @@ static const signed char sdv_grid_mask_points[2][4][9][2] = {
 static const int sdv_grid_mask_counts[2][4][3] = {
     { {0,4,4}, {1,0,4}, {1,0,4}, {3,0,0} }, { {0,6,0}, {1,0,2}, {1,0,2}, {1,0,2} } };
 
-// Makes the points of a row: kind is 2 up + right, and r, c the point at or before the new one.
-static void sdv_grid_row_points(const sdv_grid *grid, int base, int kind, int r, int c,
-                                sdv_stencil_row *out)
-{
-    const int *counts = sdv_grid_mask_counts[grid->triangle][kind];
-    const signed char (*steps)[2] = sdv_grid_mask_points[grid->triangle][kind];
-    out->count = 1 + counts[0] + counts[1] + counts[2];
-    for (int i = 0; i < out->count; i++)
-        out->points[i] = base + sdv_grid_index(grid, r + steps[i][0], c + steps[i][1]);
-}
-
-// The row of a point of a level, from 2 on, that is on a grid.
-static void sdv_grid_row_of(const sdv_stencil_maker *make, int level, int index,
+// The row of a point of a level that is on a grid, from 2 on, or of a limit, from the same level.
+static void sdv_grid_row_of(const sdv_stencil_maker *make, int level, int limit, int index,
                             sdv_stencil_row *out)
 {
     const subdiv_surface *surface = make->surface;
-    sdv_order to = sdv_order_at(surface, level, 0), from = sdv_order_at(surface, level - 1, 0);
-    int row, column, h = sdv_find_on_grid(&to, index, &row, &column), loop = make->masks.loop;
-    int kind = 2 * (row % 2) + column % 2;
+    int before = limit ? level : level - 1, half = limit ? 1 : 2;
+    int row, column, loop = make->masks.loop;
+    sdv_order to = sdv_order_at(surface, level, 0), from = sdv_order_at(surface, before, 0);
+    int h = sdv_find_on_grid(&to, index, &row, &column);
+    int kind = limit ? 0 : 2 * (row % 2) + column % 2;
+    const int *counts = sdv_grid_mask_counts[loop][kind];
+    const signed char (*steps)[2] = sdv_grid_mask_points[loop][kind];
+    int count = 1 + counts[0] + counts[1] + counts[2];
+    sdv_grid grid;
+    sdv_grid_at(&from, h, &grid);
+    for (int i = 0; i < count; i++)
+        out->points[i] = make->bases[before] + sdv_grid_index(&grid, row / half + steps[i][0],
+                                                              column / half + steps[i][1]);
+    if (limit) {
+        sdv_set_limit_weights(out, count, make->limit.w);
+        return;
+    }
     sdv_mask mask = kind ? make->masks.edge : make->masks.vertex;
     if (!loop) mask = kind ? sdv_spread_edge(mask, 2) : sdv_spread_vertex(mask, 4);
     if (!loop && kind == 3) mask.self = (double)make->masks.face;
     const double w[3] = { mask.self, mask.edge, mask.face };
-    sdv_grid grid;
-    sdv_grid_at(&from, h, &grid);
-    sdv_grid_row_points(&grid, make->bases[level - 1], kind, row / 2, column / 2, out);
-    sdv_set_weights(out, sdv_grid_mask_counts[loop][kind], w);
+    sdv_set_weights(out, counts, w);
 }
 
 // The row of a face point of the cage.
@@ -11703,12 +11725,13 @@ static const sdv_stencil_row *sdv_row_of(const sdv_stencil_maker *make, int poin
 {
     const subdiv_surface *surface = make->surface;
     int step = make->steps[point], level = step / 2, first = make->work_count;
+    int limit = surface->rules.limit && step == sdv_last_step(make);
     sdv_stencil_row *room = &make->room[step];
     if (make->rows[point]) {
         sdv_batch_row(make, make->batches[point], make->rows[point], room);
-    } else if (level > 1) {
+    } else if (level > 1 || limit) {
         if (point < first) first = make->bases[level];
-        sdv_grid_row_of(make, level, point - first, room);
+        sdv_grid_row_of(make, level, limit, point - first, room);
     } else {
         first += surface->order.first_inside_point;
         if (level == 0) first = sdv_first_face_point(surface);
@@ -11721,8 +11744,9 @@ static const sdv_stencil_row *sdv_row_of(const sdv_stencil_maker *make, int poin
 static void sdv_add_row(sdv_stencil_maker *make, const sdv_stencil_row *row, const double *w)
 {
     double product[SDV_PARTS];
+    int part = row->limit ? row->count : 0;
     for (int i = row->count - 1; i >= 0; i--) {
-        for (int k = 0; k < make->parts; k++) product[k] = row->weights[i] * w[k];
+        for (int k = 0; k < make->parts; k++) product[k] = row->weights[part * k + i] * w[k];
         sdv_add_work_point(make, row->points[i], product);
     }
 }
@@ -11898,51 +11922,17 @@ static void sdv_end_stencils(sdv_stencil_maker *make, int count, subdiv_stencils
     sdv_arena_free(&make->arena);
 }
 
-// Adds point i of a limit, as sdv_limit_row_sums does: the weight of the first point is what the
-// others leave.
-static void sdv_add_limit_point(sdv_stencil_maker *make, int i)
-{
-    const subdiv_surface *surface = make->surface;
-    const sdv_batch *batch = make->batches[make->work_count + i];
-    const int *row = make->rows[make->work_count + i];
-    const float *weights = row ? sdv_limit_weights_of(batch, row) : make->limit.w;  // [3][count]
-    sdv_stencil_row *room = &make->room[0];
-    double left[3] = { 1, 0, 0 }, w[3];
-    if (row) {
-        room->count = sdv_row_points(&batch->shape);
-        for (int k = 0; k < room->count; k++) room->points[k] = sdv_whole_point(make, row[1 + k]);
-    } else {
-        int r, c, h = sdv_find_on_grid(&surface->order, i, &r, &c);
-        sdv_grid grid;
-        sdv_grid_at(&surface->order, h, &grid);
-        sdv_grid_row_points(&grid, make->bases[surface->levels], 0, r, c, room);
-    }
-    sdv_compose(make, room->points, room->count);
-    for (int k = room->count - 1; k >= 0 && !make->context->result; k--) {
-        for (int part = 0; part < 3; part++) {
-            w[part] = k ? (double)weights[part * room->count + k] : left[part];
-            left[part] -= w[part];
-        }
-        sdv_add_work_point(make, room->points[k], w);
-    }
-}
-
 // Point i of the result.
 static void sdv_add_point(sdv_stencil_maker *make, int i)
 {
-    const subdiv_surface *surface = make->surface;
-    const double one[3] = { 1, 0, 0 };
-    if (surface->levels == 0) {
+    const double one[3] = { 1, 0, 0 }, all[3] = { 1, 1, 1 };
+    if (make->surface->levels == 0) {
         sdv_add_work_point(make, i, one);
-        return;
-    }
-    if (surface->rules.limit) {
-        sdv_add_limit_point(make, i);
         return;
     }
     const sdv_stencil_row *row = sdv_row_of(make, make->work_count + i);
     sdv_compose(make, row->points, row->count);
-    if (!make->context->result) sdv_add_row(make, row, one);
+    if (!make->context->result) sdv_add_row(make, row, row->limit ? all : one);
 }
 
 SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
