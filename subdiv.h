@@ -12615,18 +12615,16 @@ static void sdv_put_line(sdv_leaf_points *l, const sdv_line_points *line)
     const sdv_area *area = &l->area;
     double u = area->step * (area->sx * line->u - area->x), du = area->step * area->sx * line->du;
     double v = area->step * (area->sy * line->v - area->y), dv = area->step * area->sy * line->dv;
-    int row = fabs(dv) <= 0, column = fabs(du) <= 0, loop = l->tile.loop;
+    int row = fabs(dv) <= 0, column = fabs(du) <= 0 && !row, loop = l->tile.loop;
     int tangents = l->out.tangents != NULL;
-    sdv_line_points point = *line;
+    sdv_line_points part = *line;
     if (!l->ready++) sdv_make_leaf_polynomial(l);
-    if (row && loop) sdv_put_tile_line(l, 1, 0, tangents, line, (float)v, u, du);
-    else if (row && tangents) sdv_put_tile_line(l, 0, 0, 1, line, (float)v, u, du);
-    else if (row) sdv_put_tile_line(l, 0, 0, 0, line, (float)v, u, du);
-    else if (column && loop) sdv_put_tile_line(l, 1, 1, tangents, line, (float)u, v, dv);
+    if (column && loop) sdv_put_tile_line(l, 1, 1, tangents, line, (float)u, v, dv);
     else if (column) sdv_put_tile_line(l, 0, 1, tangents, line, (float)u, v, dv);
-    else for (; point.first <= line->last; point.first++, point.index += line->step) {
-        point.last = point.first;
-        sdv_put_tile_line(l, 1, 0, tangents, &point, (float)(v + (double)point.first * dv), u, du);
+    else if (!loop) sdv_put_tile_line(l, 0, 0, tangents, line, (float)v, u, du);
+    else for (; part.first <= line->last; part.first = part.last + 1, part.index += part.step) {
+        if (!row) part.last = part.first;
+        sdv_put_tile_line(l, 1, 0, tangents, &part, (float)(v + (double)part.first * dv), u, du);
     }
 }
 
