@@ -14579,7 +14579,7 @@ static void sdv_fail_io(sdv_context *context, const char *what)
 }
 
 // Appends an item.
-SDV_INLINE void sdv_push(sdv_context *context, sdv_array *array, const void *item, size_t size)
+static void sdv_push(sdv_context *context, sdv_array *array, const void *item, size_t size)
 {
     if (array->count == array->capacity &&
         !sdv_grow(context, array, 2 * array->count + 16, size)) return;
