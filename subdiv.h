@@ -9957,17 +9957,32 @@ SDV_INLINE int sdv_first_cell(const subdiv_surface *surface, int loop, int f, in
     return first + ((unsigned)corner < (unsigned)corners ? corner : 0);
 }
 
-// Is a location there?
-static int sdv_is_location(const subdiv_surface *surface, subdiv_location at)
+// Fails unless location i is there.
+static void sdv_check_location(sdv_context *context, const subdiv_surface *surface, int i,
+                               subdiv_location at)
 {
     const float under = -1e-6f, over = 1 + 1e-6f;
     int loop = surface->rules.loop;
     unsigned odd = 0;
-    if (at.face < 0 || at.face >= surface->face_count) return 0;
-    if (!(at.u >= under && at.v >= under && at.u <= over && at.v <= over)) return 0;
-    if (loop && at.u + at.v > over) return 0;
+    if (at.face < 0 || at.face >= surface->face_count) {
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
+                 at.face, surface->face_count);
+        return;
+    }
     sdv_first_cell(surface, loop, at.face, at.corner, &odd);
-    return !odd;
+    if (odd)
+        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i, at.face,
+                 at.corner);
+    if (!(at.u >= under && at.v >= under && at.u <= over && at.v <= over) ||
+        (loop && at.u + at.v > over))
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
+}
+
+static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
+                                const subdiv_location *locations)
+{
+    for (int i = 0; i < count && !context->result; i++)
+        sdv_check_location(context, surface, i, locations[i]);
 }
 
 // Locations are looked up in batches of so many, in loops without branches, which compilers
@@ -10106,8 +10121,10 @@ SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
 SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
                            const subdiv_location *locations, int count, sdv_lookup *l)
 {
+    sdv_context here = { SUBDIV_OK, NULL, NULL, NULL };
     if (!sdv_load_locations(surface, loop, locations, count, l))
-        for (int k = 0; k < count; k++) if (!sdv_is_location(surface, locations[k])) return 0;
+        sdv_check_locations(&here, surface, count, locations);
+    if (here.result) return 0;
     sdv_find_squares(l, count, loop);
     int found = sdv_find_roots(surface, loop, count, l);
     sdv_find_cells(surface, loop, count, l);
@@ -11260,27 +11277,6 @@ static void sdv_locations_job(void *context, int job)
     if (queue.count) sdv_empty_queue(e, &queue);
     e->failed[job] = queue.context.result != SUBDIV_OK;
     sdv_arena_free(&queue.arena);
-}
-
-// The first location that is not there.
-static void sdv_check_locations(sdv_context *context, const subdiv_surface *surface, int count,
-                                const subdiv_location *locations)
-{
-    int i;
-    for (i = 0; i < count && sdv_is_location(surface, locations[i]); i++);
-    if (i == count) return;
-    subdiv_location at = locations[i];
-    if (at.face < 0 || at.face >= surface->face_count) {
-        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d does not exist (of %d)", i,
-                 at.face, surface->face_count);
-        return;
-    }
-    at.u = at.v = 0;
-    if (sdv_is_location(surface, at))
-        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "location %d: u, v are not on the face", i);
-    else
-        sdv_fail(context, SUBDIV_ERROR_INDEX, "location %d: face %d has no corner %d", i, at.face,
-                 at.corner);
 }
 
 static void sdv_check_exact(sdv_context *context, const subdiv_surface *surface, int channels,
