@@ -9066,6 +9066,7 @@ typedef struct sdv_exact {
     unsigned *cells;                    // see >>cells
     int *home;                          // [vertices and edges of the cage] the face-vertex whose
                                         //      face evaluates what several faces have, or -1
+    unsigned char *hole;                // [faces of the cage] 1, or SDV_DROPPED: without a surface
     sdv_nest_kind *kinds;
     sdv_nest *nests;
     int *nest_points;                   // work points
@@ -9902,25 +9903,38 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
-// Finds the homes of vertices and edges: the first face there that has a surface.
-static void sdv_find_homes(sdv_context *context, subdiv_surface *surface)
+// Finds which faces are holes. hole: of the user's faces.
+static void sdv_find_holes(sdv_context *context, subdiv_surface *surface, const unsigned char *hole)
+{
+    unsigned char *own_hole = SDV_NEW(context, &surface->arena, unsigned char,
+                                      surface->order.cage.face_count);
+    surface->exact->hole = own_hole;
+    for (int f = 0; f < surface->face_count && own_hole; f++) {
+        int own = surface->own_face ? surface->own_face[f] : f;
+        if (own >= 0) own_hole[own] = hole[f];
+    }
+}
+
+// Finds the homes of vertices and edges: the first face there that has a surface or, if seen, the
+// first of these that is no hole.
+static int *sdv_find_homes(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
+                           int seen)
 {
     const sdv_level *cage = &surface->order.cage;
-    sdv_exact *exact = surface->exact;
-    int loop = surface->rules.loop, homes = cage->vertex_count + cage->edge_count;
-    int *home = exact->home = SDV_NEW(context, &surface->arena, int, homes);
+    int homes = cage->vertex_count + cage->edge_count;
+    int *home = SDV_NEW(context, arena, int, homes);
     for (int i = 0; i < homes && home; i++) home[i] = -1;
-    for (int h = cage->face_vertex_count - 1; h >= 0 && home; h--) {
-        int grid = sdv_grid_of(cage, loop, h);
-        if (exact->cells[sdv_root_cell(cage, loop, grid)] == SDV_CELL_NONE) continue;
-        home[cage->face_vertices[h]] = home[cage->vertex_count + cage->face_edges[h]] = h;
-    }
+    for (int most = 1; most >= 1 - seen && home; most--)
+        for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
+            if (surface->exact->hole[sdv_face_of(cage, h)] > most) continue;
+            home[cage->face_vertices[h]] = home[cage->vertex_count + cage->face_edges[h]] = h;
+        }
+    return home;
 }
 
 // Makes the cells of all faces, and one more for faces without values, which have no surface, just
 // as those that boundary "none" drops.
-static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
-                           const unsigned char *hole)
+static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
 {
     const sdv_level *cage = &surface->order.cage;
     sdv_exact *exact = surface->exact;
@@ -9930,13 +9944,10 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface,
     for (int i = 0; i < roots && cells; i++) cells[i] = SDV_CELL_NONE;
     sdv_set_leaves(&maker);
     exact->cells = SDV_KEEP(context, &surface->arena, unsigned, &maker.cells);
-    for (int f = 0; f < surface->face_count && !context->result; f++) {
-        int own = surface->own_face ? surface->own_face[f] : f;
-        if (own < 0 || hole[f] != SDV_DROPPED) continue;
-        for (int h = sdv_face_start(cage, own); h < sdv_face_end(cage, own); h++)
+    exact->home = sdv_find_homes(context, &surface->arena, surface, 0);
+    for (int h = 0; h < cage->face_vertex_count && !context->result; h++)
+        if (exact->hole[sdv_face_of(cage, h)] == SDV_DROPPED)
             exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
-    }
-    sdv_find_homes(context, surface);
 }
 
 // The cell of a face, or of the quad at its corner; *odd: there is no such corner.
@@ -10293,7 +10304,8 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result && !surface->borrows) sdv_make_cells(context, surface, hole);
+    if (!context->result) sdv_find_holes(context, surface, hole);
+    if (!context->result && !surface->borrows) sdv_make_cells(context, surface);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
 }
@@ -12170,8 +12182,7 @@ typedef struct sdv_tiling {             // points of a cage, or of the topology 
     int        *edge_rates;             // [edge_count]
     sdv_inside *insides;                // [face_count]
     int        *starts;                 // [edge_count + face_count + 1] the first point inside each
-    int        *home;                   // [vertex_count + edge_count] the face-vertex whose face
-                                        //      evaluates it, or -1
+    int        *home;                   // see sdv_find_homes
     int         count;                  // of points
     const sdv_sides *sides;             // writes normals instead of points; NULL: points
     int        *side_starts;            // [sides->edges] the first normal of each
@@ -12420,32 +12431,22 @@ static void sdv_put_tile(const sdv_tiling *tiling, int f, sdv_faces_at *out)
     }
 }
 
-// Makes a tiling without rates. Vertices and edges are evaluated on the first face that has them
-// and is no hole, or else on the first hole.
-static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena, const sdv_level *cage,
-                                 int loop, const unsigned char *hole)
+// Makes a tiling without rates.
+static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena,
+                                 const subdiv_surface *surface)
 {
+    const sdv_level *cage = &surface->order.cage;
     size_t edges = (size_t)cage->edge_count, faces = (size_t)cage->face_count;
-    size_t homes = (size_t)cage->vertex_count + edges;
     sdv_tiling tiling;
     memset(&tiling, 0, sizeof tiling);
     tiling.cage = cage;
-    tiling.hole = hole;
-    tiling.loop = loop;
+    tiling.hole = surface->exact->hole;
+    tiling.home = sdv_find_homes(context, arena, surface, 1);
+    tiling.loop = surface->rules.loop;
     tiling.edge_rates = SDV_NEW(context, arena, int, edges);
     tiling.insides = SDV_NEW(context, arena, sdv_inside, faces);
     tiling.starts = SDV_NEW(context, arena, int, edges + faces + 1);
-    tiling.home = SDV_NEW(context, arena, int, homes);
-    if (context->result) return tiling;
-    memset(tiling.starts, 0, (edges + faces + 1) * sizeof(int));
-    for (size_t i = 0; i < homes; i++) tiling.home[i] = -1;
-    for (int kind = 1; kind >= 0; kind--) {
-        for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
-            if (hole[sdv_face_of(cage, h)] != kind) continue;
-            tiling.home[cage->face_vertices[h]] = h;
-            tiling.home[cage->vertex_count + cage->face_edges[h]] = h;
-        }
-    }
+    if (!context->result) memset(tiling.starts, 0, (edges + faces + 1) * sizeof(int));
     return tiling;
 }
 
@@ -12943,10 +12944,7 @@ static void sdv_tile_uvs(sdv_context *context, sdv_tessellator *t)
 {
     const subdiv_surface *uv = t->surface->uv;
     const sdv_level *from = t->points.cage, *to = &uv->order.cage;
-    unsigned char *hole = SDV_NEW(context, &t->arena, unsigned char, to->face_count);
-    for (int f = 0; f < from->face_count && hole; f++)
-        if (uv->own_face[f] >= 0) hole[uv->own_face[f]] = t->surface->hole[f];
-    if (hole) t->uvs = sdv_new_tiling(context, &t->arena, to, t->points.loop, hole);
+    t->uvs = sdv_new_tiling(context, &t->arena, uv);
     for (int f = 0; f < from->face_count && !context->result; f++) {
         int own = uv->own_face[f], start = sdv_face_start(from, f);
         if (own < 0) continue;
@@ -13042,8 +13040,7 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     const subdiv_surface *surface = t->surface;
     subdiv_mesh made, *mesh = &t->mesh;
     int faces = surface->order.cage.face_count, *holes;
-    t->points = sdv_new_tiling(context, &t->arena, &surface->order.cage, surface->rules.loop,
-                               surface->hole);
+    t->points = sdv_new_tiling(context, &t->arena, surface);
     t->positions = sdv_begin_source(context, &t->arena, surface, 3, positions, t->opt);
     if (context->result) return;
     sdv_set_edge_rates(context, t);
