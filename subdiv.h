@@ -9844,11 +9844,9 @@ static void sdv_set_cut(sdv_cell_maker *maker, const sdv_area *area, const sdv_p
         int columns = level, rows = level;
         for (int n = 1 << SDV_STRIP_LEVELS; n > along->items[i].unit; n /= 2) columns++;
         for (int n = 1 << SDV_STRIP_LEVELS; n > up->items[j].unit; n /= 2) rows++;
-        if (columns <= area->bits && rows <= area->bits) {
-            size_t polynomial = (size_t)patch->polynomial + (size_t)(j * along->count + i);
-            sdv_set_polynomial(maker, area, polynomial, columns, rows);
-            return;
-        }
+        size_t polynomial = (size_t)patch->polynomial + (size_t)(j * along->count + i);
+        sdv_set_polynomial(maker, area, polynomial, columns, rows);
+        return;
     }
     for (int k = 0; k < 4 && area->bits < SDV_CELL_LEVELS; k++) {
         sdv_area part = sdv_child_area(area, 0, k);
@@ -12015,20 +12013,18 @@ static void sdv_add_leaf_patch(sdv_stencil_maker *make, sdv_leaf leaf)
 // w [SDV_PARTS * work_count] are those of a point and its derivatives as seen from the vertex: of
 // the nest's points, then of the points of the next level.
 
-// Gives the weights of a row's point to the points that the row sums.
-static void sdv_unrefine_row(const sdv_batch *batch, const int *row, double *w)
+// Gives the weights of a row's point to the points that the row sums. Nothing fades in a nest, so
+// its rows have no weights of their own.
+static void sdv_unrefine_row(const sdv_shape *shape, const int *row, double *w)
 {
-    const sdv_shape *shape = &batch->shape;
     const int *point = row + sdv_row_points(shape);         // the last one
-    const void *own = point + 1;
-    const float *weights = shape->own ? (const float *)own : shape->weight;
     const double *from = w + SDV_PARTS * (size_t)row[0];
     double left = 1;
     for (int k = 3; k-- > 0; ) {
         for (int i = 0; i < shape->count[k]; i++, point--)
             for (int c = 0; c < SDV_PARTS; c++)
-                w[SDV_PARTS * *point + c] += (double)weights[k] * from[c];
-        left -= shape->count[k] * (double)weights[k];
+                w[SDV_PARTS * *point + c] += (double)shape->weight[k] * from[c];
+        left -= shape->count[k] * (double)shape->weight[k];
     }
     for (int c = 0; c < SDV_PARTS; c++) w[SDV_PARTS * *point + c] += left * from[c];
 }
@@ -12038,9 +12034,9 @@ static void sdv_unrefine_nest(const sdv_nest_kind *kind, double *w)
     for (int k = 2; k-- > 0; )
         for (int b = 0; b < kind->refine[k].starts[kind->refine[k].blocks]; b++) {
             const sdv_batch *batch = &kind->refine[k].items[b];
-            int stride = 1 + sdv_row_points(&batch->shape) + batch->shape.own;
-            for (int i = 0; i < batch->rows; i++)
-                sdv_unrefine_row(batch, batch->items + (size_t)stride * (size_t)i, w);
+            const int *row = batch->items;
+            for (int i = 0; i < batch->rows; i++, row += 1 + sdv_row_points(&batch->shape))
+                sdv_unrefine_row(&batch->shape, row, w);
         }
 }
 
