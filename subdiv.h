@@ -13965,17 +13965,6 @@ static void sdv_report_nonmanifold_vertices(const sdv_checker *checker)
     }
 }
 
-// Returns the first of the items 0 to i that is the same as i: i itself if there is none before.
-static int sdv_first_same(const sdv_checker *checker, int i, uint64_t hash,
-                          int (*same)(const sdv_checker *checker, int i, int j))
-{
-    int *head = &checker->heads[(size_t)hash & checker->mask], first = *head;
-    while (first >= 0 && !same(checker, first, i)) first = checker->next[first];
-    if (first >= 0) return first;
-    checker->next[i] = *head;
-    return *head = i;
-}
-
 // Do two faces have the same vertices, each as often? checker->last is 0, before and after.
 static int sdv_same_vertices(const sdv_checker *checker, int f, int g)
 {
@@ -14004,10 +13993,15 @@ static void sdv_report_duplicate_faces(const sdv_checker *checker)
         uint64_t sum = 0;                           // the same in any order
         for (int h = sdv_face_start(level, f); h < sdv_face_end(level, f); h++)
             sum += sdv_mix((uint64_t)level->face_vertices[h] + 1);
-        int first = sdv_first_same(checker, f, sdv_mix(sum), sdv_same_vertices);
-        if (first != f)
+        int *head = &checker->heads[(size_t)sdv_mix(sum) & checker->mask], first = *head;
+        while (first >= 0 && !sdv_same_vertices(checker, first, f)) first = checker->next[first];
+        if (first >= 0) {
             sdv_found(checker, SUBDIV_ODD_DUPLICATE_FACE, f, first, -1, -1,
                       "face %d has the same vertices as face %d", f, first);
+            continue;
+        }
+        checker->next[f] = *head;
+        *head = f;
     }
 }
 
