@@ -10099,20 +10099,17 @@ SDV_INLINE void sdv_find_cells(const subdiv_surface *surface, int loop, int coun
     }
 }
 
-// Finds the scales 2^across and 2^up, by putting the bits of floats together.
-SDV_INLINE void sdv_find_scales(sdv_lookup *l, int count, int loop)
+// Finds where locations are on what their polynomials cover, by its scales 2^across and 2^up, whose
+// bits are put together.
+SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
 {
+    const float unit = 1.0f / (1 << SDV_CELL_LEVELS);
     for (int k = 0; k < count; k++) {
         uint32_t across = ((l->cells[k] >> 1 & 7) + 127) << 23;
         uint32_t up = loop ? across : ((l->cells[k] >> 4 & 7) + 127) << 23;
         memcpy(&l->sx[k], &across, sizeof across);
         memcpy(&l->sy[k], &up, sizeof up);
     }
-}
-
-SDV_INLINE void sdv_find_places(sdv_lookup *l, int count, int loop)
-{
-    const float unit = 1.0f / (1 << SDV_CELL_LEVELS);
     for (int k = 0; k < count; k++) {
         float sx = l->sx[k], sy = l->sy[k];
         float x = l->u[k] * sx - (float)(int)(l->left[k] * sx * unit);
@@ -10137,7 +10134,6 @@ SDV_INLINE int sdv_look_up(const subdiv_surface *surface, int loop,
     sdv_find_squares(l, count, loop);
     int found = sdv_find_roots(surface, loop, count, l);
     sdv_find_cells(surface, loop, count, l);
-    sdv_find_scales(l, count, loop);
     sdv_find_places(l, count, loop);
     return found;
 }
@@ -10693,21 +10689,13 @@ static void sdv_patch_polynomials(const sdv_exact_evaluation *e, const sdv_patch
         }
 }
 
-// Makes the polynomial of a child of a nest's face, number `face` of its own, after a refinement.
-static void sdv_child_polynomial(const sdv_nest_state *s, int face, int child, int turn, int lanes,
-                                 float *out)
-{
-    double c[SDV_SLOTS][4];
-    sdv_make_polynomial(s->surface, sdv_nest_patch(s->kind, face, child, turn), 0, s->w, c);
-    sdv_keep_polynomial(c[0], s, lanes, out);
-}
-
 // Makes the polynomials of a nest: on each of SDV_NEST_DEPTH levels those of the three children of
 // every face that are patches. w [4 * work_count].
 static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, double *w)
 {
     const sdv_exact *exact = e->surface->exact;
     int first = exact->nests[number].face;
+    double made[SDV_SLOTS][4];
     for (int c = 0; c < e->channels; c += 4) {
         sdv_nest_state s;
         sdv_nest_begin(&s, e->surface, number,
@@ -10716,10 +10704,12 @@ static void sdv_nest_polynomials(const sdv_exact_evaluation *e, int number, doub
         for (int depth = 0; depth < SDV_NEST_DEPTH; depth++) {
             sdv_nest_refine(&s);
             for (int i = 0; i < 3 * s.kind->faces; i++) {
-                int face = i / 3, child = i % 3 + 1;
+                int face = i / 3, child = i % 3 + 1, turn = exact->nest_faces[first + face].turn;
                 size_t at = sdv_nest_polynomial_number(exact, first + face, depth, child);
-                sdv_child_polynomial(&s, face, child, exact->nest_faces[first + face].turn,
-                                     sdv_lanes_from(e->channels, c), sdv_polynomial_at(e, at, c));
+                sdv_make_polynomial(s.surface, sdv_nest_patch(s.kind, face, child, turn), 0, w,
+                                    made);
+                sdv_keep_polynomial(made[0], &s, sdv_lanes_from(e->channels, c),
+                                    sdv_polynomial_at(e, at, c));
             }
             sdv_nest_descend(&s);
         }
