@@ -9761,17 +9761,6 @@ SDV_INLINE int sdv_root_cell(const sdv_level *cage, int loop, int h)
     return cage->face_size == (loop ? 3 : 4) ? sdv_face_of(cage, h) : h;
 }
 
-static int sdv_in_ngon(const sdv_level *cage, int loop, int h)
-{
-    return sdv_size_of(cage, h) != (loop ? 3 : 4);
-}
-
-// The face-vertex that stands for the face of h, or for the quad of an n-gon at h.
-static int sdv_grid_of(const sdv_level *cage, int loop, int h)
-{
-    return sdv_in_ngon(cage, loop, h) ? h : sdv_face_start(cage, sdv_face_of(cage, h));
-}
-
 // Returns which cell of a grid has an area; the grid is that of a face so many levels up.
 static size_t sdv_cell_in_grid(const sdv_area *area, int loop, int levels)
 {
@@ -9893,7 +9882,7 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     maker->leaf = SDV_CELL_LEAF;
     for (int i = 0; i < patches + exact->nest_face_count && !maker->context->result; i++) {
         int h = i < patches ? exact->patches[i].h : exact->nest_faces[i - patches].place.h;
-        int ngon = sdv_in_ngon(cage, loop, h);
+        int ngon = sdv_is_ngon(&maker->surface->order, sdv_face_of(cage, h));
         maker->root = (size_t)sdv_root_cell(cage, loop, h);
         if (i < patches) sdv_set_patch(maker, &exact->patches[i], ngon);
         else sdv_set_nest_face(maker, i - patches, ngon);
@@ -10157,7 +10146,6 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
     int is_leaf = cell >= SDV_CELL_LEAF;
     int number = (int)(is_leaf ? (cell - SDV_CELL_LEAF) / 2 : cell >> SDV_CELL_BITS);
     int kept = number - exact->polynomial_count;
-    leaf->nest_face = -1;
     if (is_leaf && number >= exact->patch_count) leaf->nest_face = number - exact->patch_count;
     else if (!is_leaf && kept >= 0) leaf->nest_face = kept / 3 % exact->nest_face_count;
     if (leaf->nest_face >= 0) return exact->nest_faces[leaf->nest_face].level;
@@ -10168,7 +10156,8 @@ static int sdv_leaf_of_cell(const subdiv_surface *surface, unsigned cell, sdv_le
 
 // A place on a face of the cage, or on the quad of an n-gon.
 typedef struct sdv_spot {
-    int    grid;                        // from sdv_grid_of; -1: a face without values
+    int    grid;                        // its face-vertex, of other faces the first one; -1: a
+                                        // face without values
     double u, v;
 } sdv_spot;
 
@@ -10196,24 +10185,26 @@ static double sdv_snap(double t)
 }
 
 // The place on the edge that leads on from h, after t of it.
-static sdv_spot sdv_spot_on_edge(const sdv_level *cage, int loop, int h, double t)
+static sdv_spot sdv_spot_on_edge(const sdv_order *order, int h, double t)
 {
-    sdv_spot spot = { sdv_grid_of(cage, loop, h), 2 * t, 0 }, at_end = { -1, 0, 2 - 2 * t };
-    int sides = loop ? 3 : 4, turn = h - spot.grid, ngon = sdv_in_ngon(cage, loop, h);
-    if (!ngon) sdv_turn_place(loop, turn ? sides - turn : 0, t, 0, &spot.u, &spot.v);
-    if (ngon) at_end.grid = sdv_next(cage, h);
-    return ngon && t > 0.5 ? at_end : spot;
+    int f = sdv_face_of(&order->cage, h), ngon = sdv_is_ngon(order, f), sides = order->loop ? 3 : 4;
+    int start = sdv_face_start(&order->cage, f), turn = h - start, at_end = ngon && t > 0.5;
+    sdv_spot spot = { ngon ? h : start, at_end ? 0 : 2 * t, at_end ? 2 - 2 * t : 0 };
+    if (at_end) spot.grid = sdv_next(&order->cage, h);
+    if (!ngon) sdv_turn_place(order->loop, turn ? sides - turn : 0, t, 0, &spot.u, &spot.v);
+    return spot;
 }
 
 // The place after t of the edge of h, on the face that evaluates it for all.
 static sdv_spot sdv_home_on_edge(const subdiv_surface *surface, int h, double t)
 {
-    const sdv_level *cage = &surface->order.cage;
+    const sdv_order *order = &surface->order;
+    const sdv_level *cage = &order->cage;
     const int *home = surface->exact->home, *vertices = cage->face_vertices;
-    int loop = surface->rules.loop, ends[2] = { vertices[h], vertices[sdv_next(cage, h)] };
+    int ends[2] = { vertices[h], vertices[sdv_next(cage, h)] };
     int k = ends[0] == ends[1] ? h : home[cage->vertex_count + cage->face_edges[h]];
-    if (t <= 0 || t >= 1) return sdv_spot_on_edge(cage, loop, home[ends[t > 0]], 0);
-    return sdv_spot_on_edge(cage, loop, k, vertices[k] == ends[0] ? t : 1 - t);
+    if (t <= 0 || t >= 1) return sdv_spot_on_edge(order, home[ends[t > 0]], 0);
+    return sdv_spot_on_edge(order, k, vertices[k] == ends[0] ? t : 1 - t);
 }
 
 // Finds where a place on an edge, or on a spoke of an n-gon, is evaluated: on the first face that
@@ -10225,7 +10216,7 @@ static int sdv_find_home(const subdiv_surface *surface, const sdv_spot *at, sdv_
     float u = (float)at->u, v = (float)at->v;
     if (sdv_edge_gap(loop, u, v) > 0 || sdv_first_cell_of(surface, at) == SDV_CELL_NONE) return 0;
     int side = v <= 0 ? 0 : u <= 0 && v < 1 ? 3 : loop || u >= 1 ? 1 : 2;
-    int ngon = sdv_in_ngon(cage, loop, h);
+    int ngon = !loop && sdv_size_of(cage, h) != 4;
     double t = side % 2 ? at->v : at->u;            // on sides 2 and 3 from the end
     if (!ngon) h += side - (loop && side == 3);
     else if (side >= 2) h = sdv_previous(cage, h);
@@ -10255,7 +10246,7 @@ static sdv_leaf sdv_locate(const subdiv_surface *surface, const sdv_spot *at)
         cell = surface->exact->cells[(cell >> 1) + sdv_grid_cells[loop][child]];
     }
     int level = sdv_leaf_of_cell(surface, cell, &leaf);
-    level -= sdv_in_ngon(&surface->order.cage, loop, at->grid);
+    level -= !loop && sdv_size_of(&surface->order.cage, at->grid) != 4;
     leaf.x = at->u;
     leaf.y = at->v;
     leaf.sx = 1;
