@@ -9890,33 +9890,26 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
-// Finds which faces are holes. hole: of the user's faces.
-static void sdv_find_holes(sdv_context *context, subdiv_surface *surface, const unsigned char *hole)
-{
-    unsigned char *own_hole = SDV_NEW(context, &surface->arena, unsigned char,
-                                      surface->order.cage.face_count);
-    surface->exact->hole = own_hole;
-    for (int f = 0; f < surface->face_count && own_hole; f++) {
-        int own = surface->own_face ? surface->own_face[f] : f;
-        if (own >= 0) own_hole[own] = hole[f];
-    }
-}
-
-// Finds the homes of vertices and edges: the first face there that has a surface or, if seen, the
-// first of these that is no hole.
-static int *sdv_find_homes(sdv_context *context, sdv_arena *arena, const subdiv_surface *surface,
-                           int seen)
+// Finds the holes and the homes of vertices and edges: the first face there that is no hole, or else
+// the first hole that has a surface. hole: of the user's faces.
+static void sdv_find_homes(sdv_context *context, subdiv_surface *surface, const unsigned char *hole)
 {
     const sdv_level *cage = &surface->order.cage;
+    sdv_exact *exact = surface->exact;
     int homes = cage->vertex_count + cage->edge_count;
-    int *home = SDV_NEW(context, arena, int, homes);
-    for (int i = 0; i < homes && home; i++) home[i] = -1;
-    for (int most = 1; most >= 1 - seen && home; most--)
+    int *home = exact->home = SDV_NEW(context, &surface->arena, int, homes);
+    exact->hole = SDV_NEW(context, &surface->arena, unsigned char, cage->face_count);
+    if (context->result) return;
+    for (int f = 0; f < surface->face_count; f++) {
+        int own = surface->own_face ? surface->own_face[f] : f;
+        if (own >= 0) exact->hole[own] = hole[f];
+    }
+    for (int i = 0; i < homes; i++) home[i] = -1;
+    for (int kind = 1; kind >= 0; kind--)
         for (int h = cage->face_vertex_count - 1; h >= 0; h--) {
-            if (surface->exact->hole[sdv_face_of(cage, h)] > most) continue;
+            if (exact->hole[sdv_face_of(cage, h)] != kind) continue;
             home[cage->face_vertices[h]] = home[cage->vertex_count + cage->face_edges[h]] = h;
         }
-    return home;
 }
 
 // Makes the cells of all faces, and one more for faces without values, which have no surface, just
@@ -9931,7 +9924,6 @@ static void sdv_make_cells(sdv_context *context, subdiv_surface *surface)
     for (int i = 0; i < roots && cells; i++) cells[i] = SDV_CELL_NONE;
     sdv_set_leaves(&maker);
     exact->cells = SDV_KEEP(context, &surface->arena, unsigned, &maker.cells);
-    exact->home = sdv_find_homes(context, &surface->arena, surface, 0);
     for (int h = 0; h < cage->face_vertex_count && !context->result; h++)
         if (exact->hole[sdv_face_of(cage, h)] == SDV_DROPPED)
             exact->cells[sdv_root_cell(cage, loop, h)] = SDV_CELL_NONE;
@@ -10289,7 +10281,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
         level = next;
     }
     sdv_keep_exact(context, &maker);
-    if (!context->result) sdv_find_holes(context, surface, hole);
+    if (!context->result) sdv_find_homes(context, surface, hole);
     if (!context->result && !surface->borrows) sdv_make_cells(context, surface);
     sdv_writer_free(&writer);
     sdv_arena_free(arena);
@@ -12159,7 +12151,7 @@ typedef struct sdv_tiling {             // points of a cage, or of the topology 
     int        *edge_rates;             // [edge_count]
     sdv_inside *insides;                // [face_count]
     int        *starts;                 // [edge_count + face_count + 1] the first point inside each
-    int        *home;                   // see sdv_find_homes
+    const int  *home;                   // see sdv_exact
     int         count;                  // of points
     const sdv_sides *sides;             // writes normals instead of points; NULL: points
     int        *side_starts;            // [sides->edges] the first normal of each
@@ -12418,7 +12410,7 @@ static sdv_tiling sdv_new_tiling(sdv_context *context, sdv_arena *arena,
     memset(&tiling, 0, sizeof tiling);
     tiling.cage = cage;
     tiling.hole = surface->exact->hole;
-    tiling.home = sdv_find_homes(context, arena, surface, 1);
+    tiling.home = surface->exact->home;
     tiling.loop = surface->rules.loop;
     tiling.edge_rates = SDV_NEW(context, arena, int, edges);
     tiling.insides = SDV_NEW(context, arena, sdv_inside, faces);
