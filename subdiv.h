@@ -147,6 +147,8 @@
      deeper for a larger mesh.
    * A result has up to 2^31-1 vertices and faces, a cage up to 2^30 face-vertices. Larger ones are
      refused before they are built.
+   * Meshes have positions of any size that floats have. UVs, colours and what is evaluated may be
+     up to 2^116: sums of larger values may not be finite.
 
    REFERENCES
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes

@@ -214,6 +214,7 @@ static void poke(bytes *b)
     int *indices[] = { m->face_vertices, m->face_uvs, m->crease_vertices, m->corner_vertices,
                        m->holes, m->statement_faces, m->face_sizes };
     float *numbers[] = { m->positions, m->uvs, m->colors, m->normals, m->crease_sharpness };
+    float *number;
     int i, *index;
     switch (below(b, 6)) {
     case 0:
@@ -228,7 +229,11 @@ static void poke(bytes *b)
         break;
     case 3:
         i = below(b, 5);
-        if (numbers[i]) numbers[i][below(b, i < 1 ? 3 * c.vertices : 4)] = any_float(b);
+        if (!numbers[i]) break;
+        number = &numbers[i][below(b, i < 1 ? 3 * c.vertices : 4)];
+        *number = any_float(b);
+        // Larger UVs and colours may give what is not finite.
+        if ((i == 1 || i == 2) && fabsf(*number) <= FLT_MAX) *number /= 4096;
         break;
     case 4:
         i = below(b, 6);
