@@ -6758,35 +6758,6 @@ SDV_INLINE void sdv_edge_points(const sdv_lines *q, int k, int end, sdv_points_r
     }
 }
 
-// Makes the next level's points on the cells of a region of quads.
-static void sdv_refine_quads(const sdv_region *region, const sdv_grid_step *step,
-                             const sdv_region_out *to)
-{
-    sdv_four faces[2][SDV_REGION + 1], made[2 * SDV_REGION];
-    sdv_lines q = sdv_begin_lines(step, to->origin);
-    const sdv_cells *cells = &region->cells;
-    int skip = cells->left > 0, low = cells->left - skip, end = cells->right - low;
-    int column = skip ? 2 * cells->left : 1, count = 2 * cells->right - column;
-    if (cells->bottom > 0)
-        sdv_face_points(sdv_region_at(region, cells->bottom - 1, low),
-                        sdv_region_at(region, cells->bottom, low), end, step->face,
-                        faces[(cells->bottom + 1) % 2]);
-    for (int r = cells->bottom; r < cells->top; r++) {
-        q.a = r > 0 ? sdv_region_at(region, r - 1, low) : NULL;
-        q.b = sdv_region_at(region, r, low);
-        q.c = sdv_region_at(region, r + 1, low);
-        q.f = faces[(r + 1) % 2];
-        q.g = faces[r % 2];
-        sdv_face_points(q.b, q.c, end, step->face, faces[r % 2]);
-        if (r > 0) {
-            sdv_points_run run = sdv_begin_row(to, 2 * r, column, count, made);
-            sdv_vertex_points(&q, skip, end, &run);
-        }
-        sdv_points_run run = sdv_begin_row(to, 2 * r + 1, column, count, made);
-        sdv_edge_points(&q, skip, end, &run);
-    }
-}
-
 // Makes an edge point inside a triangle. On row b there are vertex points and edge points, between
 // b and the row above, c, the edge points of the two other directions:
 //
@@ -6846,30 +6817,45 @@ SDV_INLINE void sdv_triangle_edges(const sdv_lines *q, int k, int end, int whole
     }
 }
 
-// Makes the next level's points on the cells of a region of a triangle of n segments a side.
-static void sdv_refine_triangles(const sdv_region *region, int n, const sdv_grid_step *step,
-                                 const sdv_region_out *to)
+// Makes the next level's points on the cells of a region of a grid of n segments a side.
+// loop is a constant in calls.
+SDV_INLINE void sdv_refine_cells_of(const sdv_region *region, int n, int loop,
+                                const sdv_grid_step *step, const sdv_region_out *to)
 {
-    sdv_four made[2 * SDV_REGION];
+    sdv_four faces[2][SDV_REGION + 1], made[2 * SDV_REGION];
     sdv_lines q = sdv_begin_lines(step, to->origin);
     const sdv_cells *cells = &region->cells;
     int skip = cells->left > 0, low = cells->left - skip;
     int column = skip ? 2 * cells->left : 1;
-    for (int r = cells->bottom; r < cells->top && r < n - cells->left; r++) {
-        int end = cells->right < n - r ? cells->right : n - r, whole = end == n - r;
+    for (int r = cells->bottom; r < cells->top && (!loop || r < n - cells->left); r++) {
+        int end = loop && n - r < cells->right ? n - r : cells->right, whole = loop && end == n - r;
         int count = 2 * end - column;
         q.a = r > 0 ? sdv_region_at(region, r - 1, low) : NULL;
         q.b = sdv_region_at(region, r, low);
         q.c = sdv_region_at(region, r + 1, low);
+        q.f = faces[(r + 1) % 2];
+        q.g = faces[r % 2];
+        end -= low;
+        if (!loop && r == cells->bottom && r > 0)
+            sdv_face_points(q.a, q.b, end, step->face, faces[(r + 1) % 2]);
+        if (!loop) sdv_face_points(q.b, q.c, end, step->face, faces[r % 2]);
         if (r > 0) {
             sdv_points_run run = sdv_begin_row(to, 2 * r, column, count, made);
-            sdv_triangle_vertices(&q, skip, end - low, &run);
+            if (loop) sdv_triangle_vertices(&q, skip, end, &run);
+            else sdv_vertex_points(&q, skip, end, &run);
         }
-        if (count > whole) {
-            sdv_points_run run = sdv_begin_row(to, 2 * r + 1, column, count - whole, made);
-            sdv_triangle_edges(&q, skip, end - low, whole, &run);
-        }
+        if (count == whole) continue;
+        sdv_points_run run = sdv_begin_row(to, 2 * r + 1, column, count - whole, made);
+        if (loop) sdv_triangle_edges(&q, skip, end, whole, &run);
+        else sdv_edge_points(&q, skip, end, &run);
     }
+}
+
+static void sdv_refine_cells(const sdv_region *region, int n, const sdv_grid_step *step,
+                             const sdv_region_out *to)
+{
+    if (step->loop) sdv_refine_cells_of(region, n, 1, step, to);
+    else sdv_refine_cells_of(region, n, 0, step, to);
 }
 
 // Makes the 9 points of level 2 inside a quad from its points on level 1, p, e and F:
@@ -7145,8 +7131,7 @@ static void sdv_refine_region(const sdv_region *from, int n, const sdv_grid_step
     region->width = 2 * (cells->right - cells->left) + 1;
     int first = (1 - region->row) * region->width + 1 - region->column;
     sdv_region_out to = { &out, first, region->width + 1, 0, sdv_all(0) };
-    if (step->loop) sdv_refine_triangles(from, n, step, &to);
-    else sdv_refine_quads(from, step, &to);
+    sdv_refine_cells(from, n, step, &to);
 }
 
 // Makes the points on cells of level in->level. Regions of earlier levels take turns in two rooms.
@@ -7175,8 +7160,7 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
     }
     to->origin = sdv_plus(to->origin, to->out->origin);
     if (in->limit) sdv_limit_region(&region, in->grids[last].columns, in->limit, to);
-    else if (in->step.loop) sdv_refine_triangles(&region, in->grids[last].columns, &in->step, to);
-    else sdv_refine_quads(&region, &in->step, to);
+    else sdv_refine_cells(&region, in->grids[last].columns, &in->step, to);
 }
 
 // Makes the points inside grid i of face f.
