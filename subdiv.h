@@ -7271,42 +7271,6 @@ static void sdv_make_faces(const subdiv_surface *surface, const float *work, int
     sdv_refine_faces(surface, surface->levels - 1, work, face, end, 0, out);
 }
 
-// Makes the normals of the other sides of creases that belong to cage faces face to end - 1.
-static void sdv_make_side_normals(const subdiv_surface *surface, const float *work, int face,
-                                  int end, const subdiv_limit *limit, int count)
-{
-    sdv_tangents tangents;
-    sdv_window out = sdv_window_of(NULL, 3, 3, surface->fine.vertex_count, count, 1);
-    memset(&tangents, 0, sizeof tangents);
-    tangents.normals = limit->sides;
-    tangents.stride = limit->stride ? (size_t)limit->stride : 3;
-    tangents.left_handed = surface->rules.left_handed;
-    out.tangents = &tangents;
-    if (surface->side_rows.rows) sdv_make_batches(&surface->side_rows, work, face, end, &out);
-    sdv_flush_tangents(&tangents);
-}
-
-// Makes the limit points that belong to cage faces face to end - 1, with normals and tangents.
-static void sdv_make_limit_faces(const subdiv_surface *surface, const float *work, int face,
-                                 int end, const subdiv_limit *limit, int first, int count)
-{
-    sdv_tangents tangents;
-    int clip = count < surface->fine.vertex_count;
-    sdv_window out = sdv_window_of(limit->positions, 3, 3, first, count, clip);
-    memset(&tangents, 0, sizeof tangents);
-    tangents.normals = limit->normals;
-    tangents.tangents = limit->tangents;
-    tangents.stride = 3;
-    tangents.tangent_stride = 6;
-    tangents.left_handed = surface->rules.left_handed;
-    if (limit->stride) out.stride = tangents.stride = tangents.tangent_stride =
-                                                                        (size_t)limit->stride;
-    sdv_see_from(&out, work + 4 * (size_t)surface->work_count);
-    if (limit->normals || limit->tangents) out.tangents = &tangents;
-    sdv_make_faces(surface, work, face, end, &out);
-    sdv_flush_tangents(&tangents);
-}
-
 // -------------------------------------------------------------------------------- >>evaluate
 // Takes values through a surface. Batches and grids make the work points, level by level. The last
 // step makes the points of the result, cage face by cage face and in any order, since each point is
@@ -7453,23 +7417,46 @@ static sdv_window sdv_result_window(const sdv_evaluation *e, int c)
     return out;
 }
 
+// Makes the limit points that belong to cage faces face to end - 1, with normals and tangents, and
+// the normals of the other sides of creases there.
+static void sdv_make_limit_faces(const sdv_evaluation *e, int face, int end)
+{
+    const subdiv_surface *surface = e->surface;
+    const subdiv_limit *limit = e->limit;
+    int points = surface->fine.vertex_count, count = e->end_point - e->first_point;
+    size_t stride = limit->stride ? (size_t)limit->stride : 3;
+    sdv_tangents tangents;
+    sdv_window out = sdv_window_of(limit->positions, stride, 3, e->first_point, count,
+                                   count < points);
+    sdv_window sides = sdv_window_of(NULL, stride, 3, points, e->sides, 1);
+    memset(&tangents, 0, sizeof tangents);
+    tangents.normals = limit->normals;
+    tangents.tangents = limit->tangents;
+    tangents.stride = stride;
+    tangents.tangent_stride = limit->stride ? stride : 6;
+    tangents.left_handed = surface->rules.left_handed;
+    sdv_see_from(&out, e->work + 4 * (size_t)surface->work_count);
+    if (limit->normals || limit->tangents) out.tangents = &tangents;
+    sdv_make_faces(surface, e->work, face, end, &out);
+    sdv_flush_tangents(&tangents);
+    if (!limit->sides || !e->sides) return;
+    tangents.normals = limit->sides;
+    tangents.tangents = NULL;
+    sides.tangents = &tangents;
+    sdv_make_batches(&surface->side_rows, e->work, face, end, &sides);
+    sdv_flush_tangents(&tangents);
+}
+
 // Makes the points of the result that belong to a share of the cage's faces.
 static void sdv_face_job(void *context, int job)
 {
     const sdv_evaluation *e = (const sdv_evaluation *)context;
-    const subdiv_surface *surface = e->surface;
     int face = sdv_share_faces(e->first_face, e->end_face, job, e->jobs);
     int end = sdv_share_faces(e->first_face, e->end_face, job + 1, e->jobs);
-    if (e->limit) {
-        sdv_make_limit_faces(surface, e->work, face, end, e->limit, e->first_point,
-                             e->end_point - e->first_point);
-        if (e->limit->sides && e->sides)
-            sdv_make_side_normals(surface, e->work, face, end, e->limit, e->sides);
-        return;
-    }
-    for (int c = 0; c < e->channels; c += 4) {
+    if (e->limit) sdv_make_limit_faces(e, face, end);
+    for (int c = 0; c < (e->limit ? 0 : e->channels); c += 4) {
         sdv_window out = sdv_result_window(e, c);
-        sdv_make_faces(surface, sdv_work_of(e, c), face, end, &out);
+        sdv_make_faces(e->surface, sdv_work_of(e, c), face, end, &out);
     }
 }
 
