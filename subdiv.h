@@ -4177,27 +4177,6 @@ static void sdv_spoke_points(sdv_filler *fill, int f, int i)
     }
 }
 
-// Adds the rows of the points inside the spokes of an n-gon, and of its centre.
-static void sdv_spoke_rows(sdv_filler *fill, int f)
-{
-    const sdv_level *cage = &fill->from.cage;
-    int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
-    int centre = fill->target + sdv_first_inside(&fill->to, f), *points = fill->writer.points;
-    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
-    sdv_mask mask = sdv_spread_vertex(sdv_vertex_mask(fill->rules, smooth, sides), sides);
-    int around = mask.edge != 0 ? sides : 0;
-    sdv_runs runs = { { (float)mask.self, 0, (float)mask.edge, (float)mask.face },
-                      { 1, 0, around, around }, 0 };
-    for (int i = 0; i < sides; i++) {
-        sdv_spoke_points(fill, f, i);
-        sdv_smooth_rows(fill, 0, m, sdv_seen_side(centre + 1 + i * (2 * m - 1), 2 * m, 1));
-        points[0] = fill->line[m];
-        points[1 + i] = fill->line[m - 1];
-        points[1 + sides + i] = fill->left[m - 1];
-    }
-    sdv_add_runs(&fill->writer, &runs, centre);
-}
-
 // Adds the rows of points first to last between a line and the points beside it: face points and
 // edge points or, under Loop, edge points alone. Row t makes point fill->made[t]; -1: no row.
 static void sdv_beside_rows(sdv_filler *fill, const int *beside, int first, int last)
@@ -5465,25 +5444,39 @@ static void sdv_limit_edge(sdv_limit_writer *limit, sdv_filler *fill, const subd
     sdv_limit_line(limit, fill, h, sdv_edge_side(&fill->to, h, 0));
 }
 
-// Adds the limit rows of the points inside the spokes of an n-gon, and of its centre.
-static void sdv_limit_spokes(sdv_limit_writer *limit, sdv_filler *fill, int f)
+// Adds the row of the centre of an n-gon with so many sides, whose points are in writer->points.
+static void sdv_centre_row(sdv_filler *fill, int sides, int target)
+{
+    sdv_fading smooth = { SDV_SMOOTH, SDV_SMOOTH, 0 };
+    sdv_mask mask = sdv_spread_vertex(sdv_vertex_mask(fill->rules, smooth, sides), sides);
+    int around = mask.edge != 0 ? sides : 0;
+    sdv_runs runs = { { (float)mask.self, 0, (float)mask.edge, (float)mask.face },
+                      { 1, 0, around, around }, 0 };
+    sdv_add_runs(&fill->writer, &runs, target);
+}
+
+// Adds the rows of the points inside the spokes of an n-gon, and of its centre: of the next level
+// or, if limit is not NULL, of the limit.
+static void sdv_spoke_rows(sdv_filler *fill, sdv_limit_writer *limit, int f)
 {
     const sdv_level *cage = &fill->from.cage;
     int start = sdv_face_start(cage, f), sides = sdv_face_end(cage, f) - start, m = fill->from.m;
-    int centre = sdv_first_inside(&fill->to, f), *points = limit->writer->points;
+    int centre = fill->target + sdv_first_inside(&fill->to, f), size = fill->to.m;
+    int *points = fill->writer.points, *around = points + 9;   // wait behind those of line rows
     for (int i = 0; i < sides; i++) {
-        sdv_side target = sdv_seen_side(centre + 1 + i * (m - 1), m, 1);
+        sdv_side target = sdv_seen_side(centre + 1 + i * (size - 1), size, 1);
         sdv_spoke_points(fill, f, i);
-        for (int t = 1; t < m; t++)
+        if (!limit) sdv_smooth_rows(fill, 0, m, target);
+        for (int t = 1; t < m && limit; t++)
             sdv_limit_line_row(limit, fill, t, 0, NULL, target.first + target.step * t);
+        around[0] = fill->line[m];
+        around[1 + i] = fill->line[m - 1];
+        around[1 + sides + i] = (limit ? fill->right : fill->left)[m - 1];
     }
-    for (int i = 0; i < sides; i++) {
-        sdv_spoke_points(fill, f, i);
-        points[0] = fill->line[m];
-        points[1 + i] = fill->line[m - 1];
-        points[1 + sides + i] = fill->right[m - 1];
-    }
-    if (fill->rules->linear) {              // two edges of the quad at vertex 0
+    memmove(points, around, (1 + 2 * (size_t)sides) * sizeof *points);
+    if (!limit) {
+        sdv_centre_row(fill, sides, centre);
+    } else if (fill->rules->linear) {       // two edges of the quad at vertex 0
         points[2] = points[1];
         points[1] = points[sides];
         sdv_settled_row(limit, SDV_LINEAR, 0, centre);
@@ -5528,8 +5521,7 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
             else if (level > 0) sdv_line_rows(fill, h);
             else sdv_edge_row(cage, rules, h, fill->target + fill->to.first_edge_point + e, writer);
         }
-        if (level > 0 && sdv_is_ngon(&fill->from, f) && limit) sdv_limit_spokes(limit, fill, f);
-        else if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, f);
+        if (level > 0 && sdv_is_ngon(&fill->from, f)) sdv_spoke_rows(fill, limit, f);
         if (fill->to.frame) sdv_frame_rows(fill, f);
     }
     sdv_end_batches(writer, limit ? &surface->limit_rows : &surface->refine[level]);
