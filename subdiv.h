@@ -5824,7 +5824,6 @@ static void sdv_take_cage(sdv_context *context, subdiv_surface *surface, const s
     const subdiv_mesh *cage = request->cage;
     const sdv_values uvs = { cage->uv_count, cage->face_uvs, cage->uv_rule };
     *work = *cage;
-    work->line_count = 0;                               // see sdv_keep_data
     *values = request->alone ? request->values : uvs;
     if (values->count > 0) surface->uv = sdv_new_surface(context, request);
     surface->cage_vertex_count = cage->vertex_count;
@@ -5899,46 +5898,28 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     sdv_arena_free(&scratch);
 }
 
-// Prepares level 0 of values: a copy of their indices.
-static void sdv_copy_values(sdv_context *context, subdiv_surface *made, const subdiv_mesh *work,
-                            const sdv_values *values)
-{
-    size_t count = sdv_face_vertex_count(work);
-    made->fine = *work;
-    made->fine.memory = NULL;
-    made->fine.normal_count = 0;
-    made->fine.vertex_count = made->cage_vertex_count = made->work_count = values->count;
-    made->cage_face_count = made->face_count = work->face_count;
-    made->fine.face_vertices = (int *)sdv_duplicate(context, &made->arena, values->indices, count,
-                                                    sizeof(int));
-    if (!work->face_size)
-        made->fine.face_sizes = (int *)sdv_duplicate(context, &made->arena, work->face_sizes,
-                                                     (size_t)work->face_count, sizeof(int));
-}
+// The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
+typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
 
-// Prepares level 0: a copy of the cage.
+static void sdv_new_mesh(sdv_context *context, subdiv_mesh *mesh, const subdiv_mesh *model,
+                         sdv_extras extras);                    // see >>results-as-meshes
+
+// Prepares level 0: a copy of the cage, without what goes with the surface. indices: of its
+// vertices or values, of which there are count.
 static void sdv_prepare_copy(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *work,
-                             const sdv_values *values)
+                             const int *indices, int count)
 {
-    subdiv_mesh *fine = &surface->fine;
-    sdv_arena *arena = &surface->arena;
-    size_t creases = (size_t)work->crease_count, corners = (size_t)work->corner_count;
-    *fine = *work;
-    surface->work_count = work->vertex_count;
+    subdiv_mesh kept = *work, *fine = &surface->fine;
+    kept.uv_count = kept.normal_count = kept.statement_count = 0;
+    kept.colors = kept.normals = NULL;
+    kept.face_normals = NULL;
+    sdv_new_mesh(context, fine, &kept, SDV_PLAIN);
+    if (context->result) return;
+    sdv_copy(fine->face_vertices, indices, sdv_face_vertex_count(work), sizeof(int));
+    sdv_copy(fine->holes, work->holes, (size_t)work->hole_count, sizeof(int));
     fine->positions = NULL;
-    fine->memory = NULL;
-    fine->normal_count = 0;
-    fine->crease_vertices = (int *)sdv_duplicate(context, arena, work->crease_vertices, creases,
-                                                 2 * sizeof(int));
-    fine->crease_sharpness = (float *)sdv_duplicate(context, arena, work->crease_sharpness, creases,
-                                                    sizeof(float));
-    fine->corner_vertices = (int *)sdv_duplicate(context, arena, work->corner_vertices, corners,
-                                                 sizeof(int));
-    fine->corner_sharpness = (float *)sdv_duplicate(context, arena, work->corner_sharpness, corners,
-                                                    sizeof(float));
-    fine->holes = (int *)sdv_duplicate(context, arena, work->holes, (size_t)work->hole_count,
-                                       sizeof(int));
-    if (surface->uv && !context->result) sdv_copy_values(context, surface->uv, work, values);
+    fine->vertex_count = surface->cage_vertex_count = surface->work_count = count;
+    surface->cage_face_count = surface->face_count = work->face_count;
 }
 
 // Copies the statements. Each stands before the first fine face of its face, or of the next face
@@ -5964,11 +5945,10 @@ static void sdv_keep_statements(sdv_context *context, subdiv_surface *surface,
     }
 }
 
-// Copies the UVs, colours and statements that go with the surface and, on level 0, the lines.
+// Copies the UVs, colours and statements that go with the surface.
 static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const subdiv_mesh *cage)
 {
     subdiv_mesh *fine = &surface->fine;
-    size_t line_vertices = 0;
     size_t uvs = 2 * (size_t)cage->uv_count;
     size_t colors = cage->colors ? 3 * (size_t)cage->vertex_count : 0;
     sdv_arena *arena = &surface->arena;
@@ -5980,13 +5960,6 @@ static void sdv_keep_data(sdv_context *context, subdiv_surface *surface, const s
     fine->face_uvs = fine->face_normals = NULL;
     fine->colors = surface->colors;
     sdv_keep_statements(context, surface, cage);
-    if (surface->levels != 0) return;
-    for (int i = 0; i < cage->line_count; i++) line_vertices += (size_t)cage->line_sizes[i];
-    fine->line_count = cage->line_count;
-    fine->line_sizes = (int *)sdv_duplicate(context, arena, cage->line_sizes,
-                                            (size_t)cage->line_count, sizeof(int));
-    fine->line_vertices = (int *)sdv_duplicate(context, arena, cage->line_vertices, line_vertices,
-                                               sizeof(int));
 }
 
 // May a vertex be smooth, or the end of a single crease, on this level or a later one?
@@ -6080,7 +6053,10 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
     int levels = request->levels, exact = levels == SUBDIV_EXACT;
     made->rules.limit = !exact && !request->alone && request->opt && request->opt->limit;
     if (!context.result) sdv_take_cage(&context, made, request, &work, &values);
-    if (levels == 0 && !context.result) sdv_prepare_copy(&context, made, &work, &values);
+    if (levels == 0 && !context.result)
+        sdv_prepare_copy(&context, made, &work, work.face_vertices, work.vertex_count);
+    if (levels == 0 && !context.result && made->uv)
+        sdv_prepare_copy(&context, made->uv, &work, values.indices, values.count);
     if (levels != 0 && !context.result) {
         sdv_cage_build(&context, &made->arena, &scratch, &built, &work);
         if (!exact) sdv_check_size(&context, &work, levels, built.level.edge_count);
@@ -7554,9 +7530,6 @@ static void *sdv_carve_copy(char *base, size_t *size, const void *from, size_t c
 #define SDV_CARVE(type, from, count, numbers) \
     ((type *)sdv_carve_copy(base, &size, from, count, (numbers) * sizeof(type)))
 
-// The arrays that a new mesh has on top of its model's: a result cage_faces, a limit normals, too.
-typedef enum sdv_extras { SDV_PLAIN, SDV_RESULT, SDV_LIMIT } sdv_extras;
-
 // Lays out the arrays of a mesh with the counts of a model, see sdv_new_mesh. Returns the size of
 // the block.
 static size_t sdv_carve_mesh(subdiv_mesh *mesh, const subdiv_mesh *model, char *base,
@@ -7829,6 +7802,7 @@ SUBDIV_DEF void subdiv_surface_free(subdiv_surface *surface)
     if (!surface) return;
     subdiv_surface_free(surface->uv);
     subdiv_surface_free(surface->at_level_1);
+    subdiv_mesh_free(&surface->fine);
     sdv_arena arena = surface->arena;
     sdv_arena_free(&surface->points);
     sdv_arena_free(&arena);
