@@ -2057,12 +2057,13 @@ static int sdv_is_edge_at(const sdv_level *level, int h, int outgoing)
     return q <= h;
 }
 
-// Allocates what each level has besides face_vertices and across; chaikin: also half_sharpness.
+// Allocates what each level has besides face_vertices; chaikin: also half_sharpness.
 static void sdv_level_new(sdv_context *context, sdv_arena *arena, sdv_level *level, int chaikin)
 {
     size_t vertices = (size_t)level->vertex_count, faces = (size_t)level->face_count;
     size_t face_vertices = (size_t)level->face_vertex_count;
-    sdv_reserve(context, arena, 16 * face_vertices + 32 * faces + 16 * vertices + 1024);
+    sdv_reserve(context, arena, 20 * face_vertices + 32 * faces + 16 * vertices + 1024);
+    level->across = SDV_NEW(context, arena, int, face_vertices);
     level->vertex_first = SDV_NEW(context, arena, int, vertices);
     level->vertex_next = SDV_NEW(context, arena, int, face_vertices);
     level->vertex_faces = SDV_NEW(context, arena, int, vertices);
@@ -2370,7 +2371,6 @@ static void sdv_cage_build(sdv_context *context, sdv_arena *keep, sdv_arena *scr
     sdv_cage_faces(context, keep, level, mesh);
     if (context->result) return;
     level->face_edges = SDV_NEW(context, keep, int, level->face_vertex_count);
-    level->across = SDV_NEW(context, scratch, int, level->face_vertex_count);
     cage->hole = SDV_NEW(context, keep, unsigned char, level->face_count);
     sdv_level_new(context, scratch, level, mesh->creasing == SUBDIV_CREASING_CHAIKIN);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
@@ -4490,7 +4490,6 @@ static void sdv_seams_build(sdv_context *context, sdv_arena *keep, sdv_arena *sc
     if (context->result) return;
     sdv_find_seams(seams);
     sdv_seam_vertices(context, keep, scratch, seams);
-    level->across = SDV_NEW(context, scratch, int, level->face_vertex_count);
     sdv_level_new(context, scratch, level, chaikin);
     level->edge_first = SDV_NEW(context, scratch, int, level->face_vertex_count);
     level->partner = SDV_NEW(context, scratch, int, level->vertex_count);
@@ -5732,12 +5731,19 @@ static void sdv_find_sides(sdv_context *context, sdv_arena *arena, subdiv_surfac
     surface->fine.normal_count = (int)all;
 }
 
-// Empties the result of a surface for SUBDIV_EXACT, which has no points and no faces.
-static void sdv_clear_result(subdiv_surface *surface)
+// Prepares what makes the points of a surface. For SUBDIV_EXACT, whose result has no points and no
+// faces, that frees scratch. sharpness: see sdv_prepare_rows.
+static void sdv_prepare_points(sdv_context *context, subdiv_surface *surface, sdv_level *cage,
+                               const unsigned char *hole, int sharpness, sdv_arena *scratch)
 {
+    if (!surface->exact) {
+        sdv_prepare_rows(context, surface, cage, sharpness, scratch);
+        return;
+    }
     surface->fine.vertex_count = surface->fine.face_count = surface->fine.hole_count = 0;
     surface->fine.normal_count = 0;
     surface->first_face = NULL;
+    surface->exact_calls->prepare(context, surface, cage, hole, scratch);
 }
 
 // ---------------------------------------------------------------------------------- >>create
@@ -5889,12 +5895,7 @@ static void sdv_prepare_values(sdv_context *context, subdiv_surface *made,
     made->rules.straight = values->rule == SUBDIV_UV_BOUNDARIES && !made->exact;
     made->rules.limit = 0;
     sdv_set_order(made);
-    if (made->exact) {
-        sdv_clear_result(made);
-        made->exact_calls->prepare(context, made, &seams.level, cage->hole, &scratch);
-        return;
-    }
-    sdv_prepare_rows(context, made, &seams.level, 0, &scratch);
+    sdv_prepare_points(context, made, &seams.level, cage->hole, 0, &scratch);
     sdv_arena_free(&scratch);
 }
 
@@ -6069,13 +6070,9 @@ static subdiv_result sdv_prepare(subdiv_surface **surface, const sdv_request *re
                                           : sdv_vertex_rules[made->rules.vertex_rule]);
     if (levels != 0 && made->uv && !context.result)
         sdv_prepare_values(&context, made->uv, made, &work, &built, &values);
-    if (exact && !request->alone && !context.result) {
-        sdv_clear_result(made);
-        made->exact_calls->prepare(&context, made, &built.level, built.hole, &scratch);
-    } else if (levels != 0 && !request->alone && !context.result) {
-        sdv_prepare_rows(&context, made, &built.level, work.crease_count || work.corner_count,
-                         &scratch);
-    }
+    if (levels != 0 && !request->alone && !context.result)
+        sdv_prepare_points(&context, made, &built.level, built.hole,
+                           work.crease_count || work.corner_count, &scratch);
     sdv_arena_free(&scratch);
     if (!context.result && !request->alone) sdv_keep_data(&context, made, request->cage);
     if (!context.result && levels == 0 && made->rules.limit) {
@@ -8382,7 +8379,6 @@ static void sdv_split_level(sdv_context *context, sdv_arena *arena, const sdv_le
     next->first_point = level->first_point + level->vertex_count;
     sdv_level_new(context, arena, next, level->half_sharpness != NULL);
     next->face_vertices = SDV_NEW(context, arena, int, next->face_vertex_count);
-    next->across = SDV_NEW(context, arena, int, next->face_vertex_count);
     next->places = SDV_NEW(context, arena, sdv_place, next->face_count);
     sdv_split_partners(context, arena, level, split, next);
     if (context->result) return;
