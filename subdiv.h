@@ -3131,7 +3131,7 @@ static inline sdv_side sdv_seen_edge(const sdv_order *order, int edge, int backw
 }
 
 // Returns the cage edge that leads on from face-vertex h, seen from h or from its other end.
-static sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
+static inline sdv_side sdv_edge_side(const sdv_order *order, int h, int backwards)
 {
     const sdv_level *cage = &order->cage;
     int a = cage->face_vertices[h], b = cage->face_vertices[sdv_next(cage, h)];
@@ -3790,7 +3790,7 @@ static int sdv_inside_corner(const sdv_order *order, int f, int i)
 
 // Return a point next to the vertex of h: along the edge that leads on, along the one before, or
 // across the face.
-static int sdv_point_ahead(const sdv_level *level, int h)
+static inline int sdv_point_ahead(const sdv_level *level, int h)
 {
     if (!level->order) return level->first_point + level->face_vertices[sdv_next(level, h)];
     sdv_side side = sdv_edge_side(level->order, h, 0);
@@ -3805,12 +3805,11 @@ static int sdv_point_behind(const sdv_level *level, int h)
     return level->first_point + side.first + side.step;
 }
 
-static int sdv_point_across(const sdv_level *level, int h)
+static inline int sdv_point_across(const sdv_level *level, int h)
 {
-    int f = sdv_face_of(level, h), across = sdv_next(level, sdv_next(level, h));
-    return level->first_point + (level->order ?
-                                 sdv_inside_corner(level->order, f, h - sdv_face_start(level, f)) :
-                                 level->face_vertices[across]);
+    int f = sdv_face_of(level, h), first = level->first_point;
+    if (!level->order) return first + level->face_vertices[sdv_next(level, sdv_next(level, h))];
+    return first + sdv_inside_corner(level->order, f, h - sdv_face_start(level, f));
 }
 
 // Appends the neighbours of v along its sharp edges (sharp 1) or along the others (0). An edge is
@@ -3840,18 +3839,11 @@ static int *sdv_known_batch(sdv_writer *writer, sdv_fading fading, int faces)
 // Appends the neighbours of v, if edges, and a point for each of its faces, if faces.
 SDV_INLINE int *sdv_add_ring(const sdv_level *level, int v, int edges, int faces, int *point)
 {
-    const int *vertices = level->face_vertices;
-    int count = level->vertex_faces[v], base = level->first_point;
-    int *across = edges ? point + count : point;
+    int *across = edges ? point + level->vertex_faces[v] : point;
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-        int f = sdv_face_of(level, h), start = sdv_face_start(level, f);
-        int next = h + 1 < sdv_face_end(level, f) ? h + 1 : start;
-        if (edges && level->order) {
-            sdv_side side = sdv_seen_edge(level->order, level->face_edges[h], v > vertices[next]);
-            *point++ = base + side.first + side.step;
-        } else if (edges) *point++ = base + vertices[next];
-        if (faces) *across++ = level->order ? base + sdv_inside_corner(level->order, f, h - start)
-                                            : level->face_point[f];
+        if (edges) *point++ = sdv_point_ahead(level, h);
+        if (faces) *across++ = level->order ? sdv_point_across(level, h)
+                                            : level->face_point[sdv_face_of(level, h)];
     }
     return faces ? across : point;
 }
