@@ -6910,16 +6910,14 @@ typedef struct sdv_grid_limit {         // the limit of what is regular and smoo
 static sdv_grid_limit sdv_regular_limit(const sdv_rules *rules)
 {
     sdv_grid_limit limit;
-    int n = rules->loop ? 6 : 4, count = rules->loop ? 7 : 9;
-    sdv_mask mask = sdv_limit_mask(rules, SDV_SMOOTH, n);
-    double t0[9], t1[9];
-    sdv_smooth_tangents(rules, n, t0, t1);
+    sdv_ray rays[6];
+    sdv_sector s = { 0, 0, 0, rays, 0, NULL };
+    double rows[3 * 9], room[9];
+    sdv_settle(&s, SDV_SMOOTH, rules->loop ? 6 : 4, 0);
+    sdv_settled_rows(rules, &s, rows, room);
     limit.linear = rules->linear;
-    for (int k = 0; k < count; k++) {
-        limit.w[k] = (float)(k == 0 ? mask.self : k <= n ? mask.edge : mask.face);
-        limit.w[count + k] = rules->linear ? (float)(k == 1) : (float)t0[k];
-        limit.w[2 * count + k] = rules->linear ? (float)(k == 2) : (float)t1[k];
-    }
+    for (int i = 0, n = sdv_sector_points(rules, &s); i < 3 * n; i++)
+        limit.w[i] = (float)(rules->linear ? i == 0 || i == n + 1 || i == 2 * n + 2 : rows[i]);
     return limit;
 }
 
