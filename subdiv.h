@@ -8419,45 +8419,32 @@ static void sdv_split_step(sdv_writer *writer, const sdv_rules *rules, sdv_level
 // mask is asked for every point, even if the same one is known. The last rows bring the points of
 // the last level, or their limit, into THE ORDER OF THE RESULT.
 
-// Adds the rows of the normals of all sides of creases but the first, each at the first face that
-// has it. done [their count]: 0 to begin with.
-static void sdv_plain_sides(const subdiv_surface *surface, const sdv_level *cage,
-                            sdv_limit_writer *limit, unsigned char *done)
-{
-    const sdv_level *level = limit->level;
-    int loop = surface->rules.loop, size = loop ? 3 : 4, points = surface->order.count;
-    for (int h = 0; h < level->face_vertex_count && !limit->writer->context->result; h++) {
-        sdv_place at = level->places[h / size];
-        sdv_grid grid;
-        sdv_grid_at(&surface->order, at.h, &grid);
-        sdv_see_sides(&surface->order, &surface->sides, at.h, &grid);
-        sdv_batch_face(limit->writer, sdv_face_of(cage, at.h));
-        at = sdv_vertex_place(at, loop, h % size);
-        int side = sdv_grid_index(&grid, at.row, at.column) - points;
-        if (side >= 0 && !done[side]++) sdv_limit_row(limit, h, points + side);
-    }
-}
-
-// Adds the rows of the result, each at the first face that has the point.
+// Adds the rows of the result, each at the first face that has the point. done [their count], 0 to
+// begin with: those of the normals of all sides of creases but the first instead; NULL: no.
 static void sdv_plain_result(const subdiv_surface *surface, const sdv_level *cage,
-                             sdv_limit_writer *limit)
+                             sdv_limit_writer *limit, unsigned char *done)
 {
     const sdv_level *level = limit->level;
     sdv_writer *writer = limit->writer;
     int loop = surface->rules.loop, size = loop ? 3 : 4, limits = surface->rules.limit;
-    for (int v = 0; v < cage->vertex_count; v++)
+    int points = surface->order.count;
+    for (int v = 0; v < cage->vertex_count && !done; v++)
         if (cage->vertex_first[v] < 0) sdv_stay_row(writer, limits, v, v);
     for (int f = 0; f < level->face_count && !writer->context->result; f++) {
+        sdv_place place = level->places[f];
         sdv_grid grid;
-        sdv_grid_at(&surface->order, level->places[f].h, &grid);
-        sdv_batch_face(writer, sdv_face_of(cage, level->places[f].h));
+        sdv_grid_at(&surface->order, place.h, &grid);
+        if (done) sdv_see_sides(&surface->order, &surface->sides, place.h, &grid);
+        sdv_batch_face(writer, sdv_face_of(cage, place.h));
         for (int i = 0; i < size; i++) {
             int h = size * f + i, v = level->face_vertices[h];
-            sdv_place at = sdv_vertex_place(level->places[f], loop, i);
-            int target = sdv_grid_index(&grid, at.row, at.column);
-            if (level->vertex_first[v] != h) continue;
-            if (limits) sdv_limit_row(limit, sdv_first_seen(surface, level, level->vertex_next, h),
-                                      target);
+            if (!done && level->vertex_first[v] != h) continue;
+            sdv_place at = sdv_vertex_place(place, loop, i);
+            int target = sdv_grid_index(&grid, at.row, at.column), side = target - points;
+            if (done && (side < 0 || done[side]++)) continue;
+            if (done) sdv_limit_row(limit, h, target);
+            else if (limits)
+                sdv_limit_row(limit, sdv_first_seen(surface, level, level->vertex_next, h), target);
             else sdv_stay_row(writer, 0, level->first_point + v, target);
         }
     }
@@ -8480,12 +8467,12 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
     if (context->result) return;
     surface->work_count = level.first_point + level.vertex_count;
     sdv_begin_limit(writer, &surface->rules, &level, NULL, &limit);
-    sdv_plain_result(surface, cage, &limit);
+    sdv_plain_result(surface, cage, &limit, NULL);
     sdv_end_batches(writer, &surface->limit_rows);
     size_t sides = (size_t)sdv_count_sides(&surface->sides, surface->order.n);
     unsigned char *done = SDV_NEW(context, scratch, unsigned char, sides);
     if (sides && done) memset(done, 0, sides);
-    if (sides && done) sdv_plain_sides(surface, cage, &limit, done);
+    if (sides && done) sdv_plain_result(surface, cage, &limit, done);
     sdv_end_batches(writer, &surface->side_rows);
 }
 
