@@ -3287,24 +3287,18 @@ static int sdv_grid_index(const sdv_grid *grid, int row, int column)
     return sdv_inside_index(grid, row, column);
 }
 
-// Returns the indices of a row as first + step * column. Its two ends may stand elsewhere.
-static sdv_side sdv_grid_line(const sdv_grid *grid, int row)
-{
-    sdv_side line = { sdv_inside_index(grid, row, 0), 1 };
-    if (row == 0) return grid->side[0];
-    if (!grid->triangle && row == grid->rows) return grid->side[2];
-    return line;
-}
-
 typedef struct sdv_row {                // a part of a row of points
     sdv_side line;                      // the points between its two ends
     int size, left, right;              // segments; the two ends
 } sdv_row;
 
-// Returns a row from column first to column last.
+// Returns a row from column first to column last. Its points are evenly spaced; its two ends may
+// stand elsewhere.
 static sdv_row sdv_grid_row(const sdv_grid *grid, int row, int first, int last)
 {
-    sdv_row points = { sdv_grid_line(grid, row), last - first, 0, 0 };
+    sdv_row points = { { sdv_inside_index(grid, row, 0), 1 }, last - first, 0, 0 };
+    if (row == 0) points.line = grid->side[0];
+    else if (!grid->triangle && row == grid->rows) points.line = grid->side[2];
     points.line.first += points.line.step * first;
     points.left = sdv_grid_index(grid, row, first);
     points.right = sdv_grid_index(grid, row, last);
