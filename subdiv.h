@@ -6809,29 +6809,34 @@ static void sdv_refine_cells(const sdv_region *region, int n, const sdv_grid_ste
     else sdv_refine_cells_of(region, n, 0, step, to);
 }
 
-// Makes the 9 points of level 2 inside a quad from its points on level 1, p, e and F:
+// Makes the 9 points of level 2 inside a quad from its points on level 1, p, e and F; inside any
+// other polygon, those that are not on its spokes: the face points. quad is a constant.
 //
 //     p3---e2---p2      face points f, an edge point on each line from F to an e, and the vertex
 //     |  f3| f2 |       point of F
 //     e3---F---e1
 //     |  f0| f1 |
 //     p0---e0---p1
-SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_step *step,
+SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, int quad, const sdv_grid_step *step,
                                 int target, const float *work, const sdv_window *out)
 {
     const int start = sdv_face_start(&order->cage, f);
+    const int sides = quad ? 4 : sdv_face_end(&order->cage, f) - start;
     const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
     const float *on_edges = work + 4 * (size_t)order->first_edge_point;
     const sdv_four origin = sdv_load(work + 4 * (size_t)sdv_first_inside(order, f));
     const sdv_four half = sdv_all((float)step->edge.self), across = sdv_all((float)step->edge.face);
-    const sdv_four quarter = sdv_all(step->face);
-    sdv_four p[4], e[4], face[4], edge[4], made[9], room[9], sum = sdv_all(0), fours = sum;
-    for (int i = 0; i < 4; i++) {
-        p[i] = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
-        e[i] = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
+    sdv_four e[4], face[4], edge[4], made[9], room[9], sum = sdv_all(0), fours = sum;
+    sdv_four before = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[sides - 1]), origin);
+    for (int i = 0; i < sides; i++) {   // F is the origin: it adds 0
+        sdv_four p = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
+        sdv_four next = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
+        p = sdv_times(sdv_all(step->face), sdv_plus(p, sdv_plus(next, before)));
+        before = next;
+        if (quad) e[i] = next, face[i] = p;
+        else sdv_put_point(out, target + i, sdv_plus(origin, p));
     }
-    for (int i = 0; i < 4; i++)         // F is the origin: it adds 0
-        face[i] = sdv_times(quarter, sdv_plus(p[i], sdv_plus(e[i], e[(i + 3) & 3])));
+    if (!quad) return;
     for (int i = 0; i < 4; i++) {
         edge[i] = sdv_plus(sdv_times(half, e[i]),
                            sdv_times(across, sdv_plus(face[i], face[(i + 1) & 3])));
@@ -6852,26 +6857,6 @@ SDV_INLINE void sdv_refine_four(const sdv_order *order, int f, const sdv_grid_st
     for (int i = 0; i < 9; i++) made[i] = sdv_plus(out->origin, sdv_plus(origin, made[i]));
     for (int i = 0; i < 8; i++) sdv_put_next(&run, made[i]);
     sdv_put_last(&run, made[8]);
-}
-
-// Makes the face points of the quads of an n-gon on level 1, each from a vertex of the n-gon, two
-// edge points and the n-gon's face point.
-SDV_INLINE void sdv_refine_corners(const sdv_order *order, int f, const sdv_grid_step *step,
-                                   int target, const float *work, const sdv_window *out)
-{
-    const int start = sdv_face_start(&order->cage, f);
-    const int sides = sdv_face_end(&order->cage, f) - start;
-    const int *v = order->cage.face_vertices + start, *edges = order->cage.face_edges + start;
-    const float *on_edges = work + 4 * (size_t)order->first_edge_point;
-    const sdv_four origin = sdv_load(work + 4 * (size_t)sdv_first_inside(order, f));
-    sdv_four before = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[sides - 1]), origin);
-    for (int i = 0; i < sides; i++) {
-        sdv_four p = sdv_minus(sdv_load(work + 4 * (size_t)v[i]), origin);
-        sdv_four e = sdv_minus(sdv_load(on_edges + 4 * (size_t)edges[i]), origin);
-        p = sdv_times(sdv_all(step->face), sdv_plus(p, sdv_plus(e, before)));
-        sdv_put_point(out, target + i, sdv_plus(origin, p));
-        before = e;
-    }
 }
 
 // Makes the 3 points of level 2 inside a triangle: the edge points of e0 e1 e2, its middle triangle
@@ -7155,9 +7140,10 @@ static void sdv_make_grids(const subdiv_surface *surface, int level, const sdv_g
     }
     for (int f = face; f < end; f++) {
         int at = target + sdv_inside_grid(order, f, 0), grids = sdv_grids_of(order, f);
-        if (level == 1 && grids > 1) sdv_refine_corners(from, f, &in.step, at, points, out);
-        else if (level == 1 && from->loop) sdv_refine_three(from, f, &in.step, at, points, out);
-        else if (level == 1) sdv_refine_four(from, f, &in.step, at, points, out);
+        if (level == 1 && from->loop) sdv_refine_three(from, f, &in.step, at, points, out);
+        else if (level == 1 && grids > 1)
+            sdv_refine_four(from, f, 0, &in.step, at, points, out);
+        else if (level == 1) sdv_refine_four(from, f, 1, &in.step, at, points, out);
         else for (int i = 0; i < grids; i++) sdv_make_grid(&in, order, target, f, i, out);
     }
 }
