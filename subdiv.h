@@ -8620,15 +8620,6 @@ static int sdv_has_regular_faces(const sdv_level *level, int v, int count, int s
     return 1;
 }
 
-// Returns the kind of a vertex where nothing is sharp: free, if it has the regular valence and its
-// faces the regular size, or rough.
-static sdv_kind sdv_smooth_kind(const sdv_level *level, const sdv_rules *rules, int v)
-{
-    int regular = rules->loop ? sdv_has_regular_faces(level, v, 6, 3)
-                              : sdv_has_regular_faces(level, v, 4, 4);
-    return regular ? SDV_FREE : SDV_ROUGH;
-}
-
 // Do two creases that cross fade each for itself? Then the blend of the vertex point, which is by
 // the mean of what ends on this level, is that of one crease, or there is none.
 static int sdv_cross_freely(float a, float b, const sdv_rules *rules)
@@ -8672,14 +8663,16 @@ static sdv_kind sdv_sharp_kind(const sdv_level *level, const sdv_rules *rules, i
     return stay < sharp || s > 0 || sharp != 2 ? SDV_ROUGH : SDV_EDGED;
 }
 
+// Returns the kind of a vertex. Where nothing is sharp it is rough or free: free if it has the
+// regular valence and its faces the regular size.
 static sdv_kind sdv_vertex_kind(const sdv_level *level, const sdv_rules *rules, int v)
 {
-    int dependent = level->partner && level->partner[v] >= 0;
+    int dependent = level->partner && level->partner[v] >= 0, loop = rules->loop;
     if (rules->linear) return SDV_FREE;
     if (dependent) v = level->partner[v];
-    if (level->vertex_sharpness[v] <= 0 && !level->creased[v])
-        return sdv_smooth_kind(level, rules, v);
-    return sdv_sharp_kind(level, rules, v, dependent);
+    if (level->vertex_sharpness[v] > 0 || level->creased[v])
+        return sdv_sharp_kind(level, rules, v, dependent);
+    return sdv_has_regular_faces(level, v, loop ? 6 : 4, loop ? 3 : 4) ? SDV_FREE : SDV_ROUGH;
 }
 
 // A face's place among the faces at its vertex: in a ring without sharp edges; between two sharp
