@@ -5377,9 +5377,10 @@ static void sdv_line_sector(sdv_limit_writer *limit, const sdv_edge_line *line, 
 
 // Adds the limit row of point t of a line. A crease gets the limit of the side to its left. Linear
 // surfaces have two edges for tangents. line: where it is semi-sharp; else NULL.
-static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, int t, int sharp,
-                               const sdv_edge_line *line, int target)
+static void sdv_limit_line_row(sdv_limit_writer *limit, int t, int sharp, const sdv_edge_line *line,
+                               int target)
 {
+    const sdv_filler *fill = limit->fill;
     const int *p = fill->line, *left = fill->left, *right = fill->right;
     int loop = fill->rules->loop, *points = limit->writer->points, n = 0;
     int kind = sharp ? SDV_CREASE : SDV_SMOOTH;
@@ -5406,27 +5407,27 @@ static void sdv_limit_line_row(sdv_limit_writer *limit, const sdv_filler *fill, 
 
 // Adds the limit rows of the points inside the edge of h as seen from its face. target: with where
 // they stand, seen from h.
-static void sdv_limit_line(sdv_limit_writer *limit, sdv_filler *fill, int h, sdv_side target)
+static void sdv_limit_line(sdv_limit_writer *limit, int h, sdv_side target)
 {
-    const sdv_level *level = fill->level;
+    const sdv_level *level = limit->level;
+    const sdv_filler *fill = limit->fill;
     sdv_edge_line line = sdv_line_at(fill, h);
     sdv_points_on_edge(&fill->from, fill->base, h, fill->line);
     sdv_points_beside(&fill->from, fill->base, h, 0, fill->left);
     if (line.sharpness <= 0 || line.now)
         sdv_points_beside(&fill->from, fill->base, level->across[h], 1, fill->right);
     for (int t = 1; t < line.n; t++)
-        sdv_limit_line_row(limit, fill, t, !line.now && line.sharpness > 0, line.now ? &line : NULL,
+        sdv_limit_line_row(limit, t, !line.now && line.sharpness > 0, line.now ? &line : NULL,
                            target.first + target.step * t);
 }
 
 // Adds the limit rows of the points inside the edge of h, on the side that is seen first.
-static void sdv_limit_edge(sdv_limit_writer *limit, sdv_filler *fill, const subdiv_surface *surface,
-                           int h)
+static void sdv_limit_edge(sdv_limit_writer *limit, const subdiv_surface *surface, int h)
 {
-    const sdv_level *level = fill->level;
-    if (fill->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE)
+    const sdv_level *level = limit->level;
+    if (limit->rules->linear || level->sharpness[h] >= SUBDIV_INFINITE)
         h = sdv_first_seen(surface, level, level->across, h);
-    sdv_limit_line(limit, fill, h, sdv_edge_side(&fill->to, h, 0));
+    sdv_limit_line(limit, h, sdv_edge_side(&limit->fill->to, h, 0));
 }
 
 // Adds the row of the centre of an n-gon with so many sides, whose points are in writer->points.
@@ -5453,7 +5454,7 @@ static void sdv_spoke_rows(sdv_filler *fill, sdv_limit_writer *limit, int f)
         sdv_spoke_points(fill, f, i);
         if (!limit) sdv_smooth_rows(fill, 0, m, target);
         for (int t = 1; t < m && limit; t++)
-            sdv_limit_line_row(limit, fill, t, 0, NULL, target.first + target.step * t);
+            sdv_limit_line_row(limit, t, 0, NULL, target.first + target.step * t);
         around[0] = fill->line[m];
         around[1 + i] = fill->line[m - 1];
         around[1 + sides + i] = (limit ? fill->right : fill->left)[m - 1];
@@ -5502,7 +5503,7 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
             else if (cage->vertex_first[v] == h)
                 sdv_vertex_row(cage, rules, v, fill->target + v, writer);
             if (cage->edge_first[e] != h) continue;
-            if (limit) sdv_limit_edge(limit, fill, surface, h);
+            if (limit) sdv_limit_edge(limit, surface, h);
             else if (level > 0) sdv_line_rows(fill, h);
             else sdv_edge_row(cage, rules, h, fill->target + fill->to.first_edge_point + e, writer);
         }
@@ -5513,21 +5514,21 @@ static void sdv_fill_level(sdv_filler *fill, subdiv_surface *surface, int level,
 }
 
 // Adds the limit rows of all sides of creases but the first, each at the face that makes it.
-static void sdv_fill_sides(sdv_filler *fill, subdiv_surface *surface, sdv_limit_writer *limit)
+static void sdv_fill_sides(sdv_limit_writer *limit, subdiv_surface *surface)
 {
     const sdv_sides *sides = &surface->sides;
-    const sdv_level *cage = fill->level;
+    const sdv_level *cage = limit->level;
     int count = sides->vertex ? cage->face_vertex_count : 0, points = surface->order.count;
     int along = surface->order.n - 1;
-    for (int h = 0; h < count && !fill->writer.context->result; h++) {
+    for (int h = 0; h < count && !limit->writer->context->result; h++) {
         int v = sides->vertex[h], e = sides->edge[h], first = points + sides->vertices + e * along;
         int back = cage->face_vertices[h] > cage->face_vertices[sdv_next(cage, h)];
-        sdv_batch_face(&fill->writer, sdv_face_of(cage, h));
+        sdv_batch_face(limit->writer, sdv_face_of(cage, h));
         if (v >= 0 && sides->vertex_home[v] == h) sdv_limit_row(limit, h, points + v);
         if (e >= 0 && sides->edge_home[e] == h)
-            sdv_limit_line(limit, fill, h, sdv_seen_side(first, along + 1, back));
+            sdv_limit_line(limit, h, sdv_seen_side(first, along + 1, back));
     }
-    sdv_end_batches(&fill->writer, &surface->side_rows);
+    sdv_end_batches(limit->writer, &surface->side_rows);
 }
 
 // Finds the first work point of each level. The last level has work points for a limit alone.
@@ -5601,7 +5602,7 @@ static void sdv_prepare_rows(sdv_context *context, subdiv_surface *surface, sdv_
         sdv_limit_writer of_limit;
         sdv_begin_limit(&fill.writer, &surface->rules, cage, &fill, &of_limit);
         sdv_fill_level(&fill, surface, levels, &of_limit);
-        sdv_fill_sides(&fill, surface, &of_limit);
+        sdv_fill_sides(&of_limit, surface);
     }
     sdv_writer_free(&fill.writer);
 }
