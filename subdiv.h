@@ -7170,14 +7170,10 @@ static void sdv_make_face_points(const subdiv_surface *surface, float *work, int
 static void sdv_copy_face_points(const subdiv_surface *surface, const float *work, int face,
                                  int end, const sdv_window *out)
 {
-    const float *from = work + 4 * ((size_t)sdv_first_face_point(surface) + (size_t)face);
-    int index = sdv_first_inside(&surface->order, face) - out->first;
+    const float *from = work + 4 * (size_t)sdv_first_face_point(surface);
+    int first = surface->order.first_inside_point;
     if (end > surface->cage_face_count) end = surface->cage_face_count;
-    if (end - face > out->count - index) end = face + out->count - index;
-    for (int f = face; f < end; f++, index++, from += 4)
-        if (index >= 0)
-            sdv_store_some(out->values + out->stride * (size_t)index,
-                           sdv_plus(out->origin, sdv_load(from)), out->lanes);
+    for (int f = face; f < end; f++) sdv_put_point(out, first + f, sdv_load(from + 4 * (size_t)f));
 }
 
 // Makes the points of level + 1 that belong to cage faces face to end - 1.
