@@ -6135,15 +6135,13 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     sdv_put_whole(out, index, sdv_plus(out->origin, a));
 }
 
-// Writes four points to places at in the window, if below count. Lane i of x[k] is channel k of
-// point i.
-SDV_INLINE void sdv_put_four(float *values, size_t stride, int lanes, sdv_four *x,
-                                const int *at, int count)
+// Writes four vectors to places at in the window, if not below 0. Lane i of x[k] is channel k of
+// vector i.
+SDV_INLINE void sdv_put_four(float *values, size_t stride, sdv_four *x, const int *at)
 {
     sdv_transpose(x);
     for (int i = 0; i < 4; i++)
-        if ((unsigned)at[i] < (unsigned)count)
-            sdv_store_some(values + stride * (size_t)at[i], x[i], lanes);
+        if (at[i] >= 0) sdv_store_three(values + stride * (size_t)at[i], x[i]);
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
@@ -6246,10 +6244,10 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const flo
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// Writes the normals and tangents of four points, given channel by channel, to places at, if below
-// count.
-static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, int count,
-                                  sdv_four *along, sdv_four *across, const int *from)
+// Writes the normals and tangents of four points, given channel by channel, to places at, if not
+// below 0.
+static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, sdv_four *along,
+                                  sdv_four *across, const int *from)
 {
     const float *points[4];
     sdv_four normal[4];
@@ -6259,11 +6257,11 @@ static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, i
         int left = tangents->left_handed;
         sdv_unit_normals(left ? across : along, left ? along : across, points, normal);
         normal[3] = normal[2];
-        sdv_put_four(tangents->normals, tangents->stride, 3, normal, at, count);
+        sdv_put_four(tangents->normals, tangents->stride, normal, at);
     }
     if (!tangents->tangents) return;
-    sdv_put_four(tangents->tangents, tangents->tangent_stride, 3, along, at, count);
-    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, 3, across, at, count);
+    sdv_put_four(tangents->tangents, tangents->tangent_stride, along, at);
+    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, across, at);
 }
 
 // Writes the normals and tangents of the points that wait.
@@ -6273,7 +6271,7 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     for (int i = 0; i < tangents->count; i += 4) {
         sdv_transpose(tangents->along + i);
         sdv_transpose(tangents->across + i);
-        sdv_put_four_tangents(tangents, tangents->at + i, INT_MAX, tangents->along + i,
+        sdv_put_four_tangents(tangents, tangents->at + i, tangents->along + i,
                               tangents->across + i, tangents->from + i);
     }
     tangents->count = 0;
