@@ -9770,8 +9770,8 @@ static void sdv_set_leaves(sdv_cell_maker *maker)
     }
 }
 
-// Finds the holes and the homes of vertices and edges: the first face there that is no hole, or else
-// the first hole that has a surface. hole: of the user's faces.
+// Finds the holes and the homes of vertices and edges: the first face there that is no hole, or
+// else the first hole that has a surface. hole: of the user's faces.
 static void sdv_find_homes(sdv_context *context, subdiv_surface *surface, const unsigned char *hole)
 {
     const sdv_level *cage = &surface->order.cage;
