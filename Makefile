@@ -114,7 +114,7 @@ $(PLAIN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(OUT)/plain.o $(HELPERS
 
 # Its implementation reports each block of code that runs, and what it copies and clears.
 $(OUT)/counted.o: subdiv.h | $(OUT)
-	$(CC) $(FLAGS) -fsanitize-coverage=trace-pc -U_FORTIFY_SOURCE -Dmemcpy=counted_memcpy \
+	$(CC) $(TEST_FLAGS) -fsanitize-coverage=trace-pc -U_FORTIFY_SOURCE -Dmemcpy=counted_memcpy \
 		-Dmemset=counted_memset -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o $@
 
 $(OUT)/test_growth: tests/test_growth.c $(OUT)/counted.o $(HELPERS)
