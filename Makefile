@@ -66,8 +66,11 @@ $(OUT):
 
 # --------------------------------------------------------------------------------------- examples
 
-$(OUT)/subdiv: examples/subdiv_cli.c $(OUT)/plain.o
-	$(CC) $(FLAGS) $(THREADS) $(SHARED) $^ -o $@ -lm
+CLI = examples/subdiv_cli.c $(wildcard examples/cli/*.c) examples/demo/render.c \
+      examples/demo/picture.c
+
+$(OUT)/subdiv: $(CLI) $(OUT)/plain.o examples/cli/cli.h examples/demo/render.h
+	$(CC) $(FLAGS) $(THREADS) $(SHARED) $(filter-out %.h,$^) -o $@ -lm
 
 $(EXAMPLES:%=$(OUT)/%): $(OUT)/%: examples/%.c $(OUT)/plain.o
 	$(CC) $(FLAGS) $(THREADS) $(SHARED) $^ -o $@ -lm

@@ -28,7 +28,7 @@ for level in -O0 -O3; do
     done
 done
 
-for program in tests/test_*.c examples/*.c examples/demo/*.c examples/bench/*.c; do
+for program in tests/test_*.c examples/*.c examples/cli/*.c examples/demo/*.c examples/bench/*.c; do
     step "$program alone" $compiler -std=c99 -Wall -Wextra -Wpedantic -Werror -pthread -I. \
         -fsyntax-only $program
 done

@@ -87,7 +87,8 @@ fi
 mingw=x86_64-w64-mingw32-gcc
 if command -v $mingw > $out/log; then
     step "the command line with MinGW" $mingw -std=c99 -Wall -Wextra -Wpedantic -Werror -I. \
-        examples/subdiv_cli.c -o $out/subdiv.exe
+        examples/subdiv_cli.c examples/cli/*.c examples/demo/render.c examples/demo/picture.c \
+        -o $out/subdiv.exe
 fi
 
 more=

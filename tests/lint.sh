@@ -27,7 +27,7 @@ recursion() {
 
 if has clang-tidy; then
     step clang-tidy clang-tidy --quiet $out/subdiv.c -- -std=c99 -I.
-    step "clang-tidy: examples" clang-tidy --quiet examples/*.c -- -std=c99 -I. \
+    step "clang-tidy: examples" clang-tidy --quiet examples/*.c examples/cli/*.c -- -std=c99 -I. \
         -DSUBDIV_IMPLEMENTED
     step recursion recursion
 fi

@@ -2,7 +2,6 @@
 #include "render.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -361,7 +360,7 @@ static unsigned char *filtered(const render_picture *picture, size_t *size)
     return result;
 }
 
-int render_save_png(const render_picture *picture, const char *path)
+int render_write_png(const render_picture *picture, FILE *stream)
 {
     static const unsigned char signature[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
     bytes file = {0}, header = {0}, body = {0};
@@ -378,9 +377,7 @@ int render_save_png(const render_picture *picture, const char *path)
     put_chunk(&file, "IDAT", body.data, body.size);
     put_chunk(&file, "IEND", NULL, 0);
     int ok = !file.failed && !header.failed && !body.failed;
-    FILE *stream = ok ? fopen(path, "wb") : NULL;
-    ok = stream && fwrite(file.data, 1, file.size, stream) == file.size;
-    if (stream && fclose(stream)) ok = 0;
+    ok = ok && fwrite(file.data, 1, file.size, stream) == file.size;
     free(file.data);
     free(header.data);
     free(body.data);

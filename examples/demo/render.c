@@ -120,8 +120,8 @@ static vec face_normal(const subdiv_mesh *mesh, const int *face, int size)
     return sum;
 }
 
-// A normal for each face-vertex: the face's own, or the mean over the faces around the vertex that
-// can be reached without crossing a sharp edge.
+// A normal for each face-vertex: the mesh's; or the face's own, or the mean over the faces around
+// the vertex that can be reached without crossing a sharp edge.
 static vec *face_vertex_normals(const subdiv_mesh *mesh, const side *sides, int side_count,
                                 int flat)
 {
@@ -129,6 +129,11 @@ static vec *face_vertex_normals(const subdiv_mesh *mesh, const side *sides, int 
     vec *normals = calloc((size_t)count, sizeof *normals);
     int *parent = malloc((size_t)count * sizeof *parent);
     if (!normals || !parent) { free(normals); free(parent); return NULL; }
+    for (int i = 0; i < count && mesh->normals && !flat; i++) {
+        int n = mesh->face_normals ? mesh->face_normals[i] : mesh->face_vertices[i];
+        normals[i] = vec_of(mesh->normals + 3 * n);
+    }
+    if (mesh->normals && !flat) { free(parent); return normals; }
     for (int i = 0; i < count; i++) parent[i] = i;
     for (int i = 0; i + 1 < side_count && !flat; i++) {
         side s = sides[i], t = sides[i + 1];
@@ -514,6 +519,8 @@ void render_view_fit(render_view *view, const subdiv_mesh *mesh, float yaw, floa
         x0 = least(x0, p.x);  x1 = most(x1, p.x);
         y0 = least(y0, p.y);  y1 = most(y1, p.y);
     }
+    x1 = most(x1, x0 + FLT_MIN);      // of a single point
+    y1 = most(y1, y0 + FLT_MIN);
     view->scale = 0.90f * least((float)width / (x1 - x0), (float)height / (y1 - y0));
     view->x = (float)width / 2 - view->scale * (x0 + x1) / 2;
     view->y = (float)height / 2 - view->scale * (y0 + y1) / 2;
@@ -556,7 +563,7 @@ int render_mesh(render_picture *picture, int left, int top, int width, int heigh
     s.ground = b.low.y - style->lift;
     s.shadow.centre = b.centre;
     s.shadow.texel = 2 * b.radius / MAP;
-    s.shadow.scale = (MAP - 4) / (2 * b.radius);
+    s.shadow.scale = (MAP - 4) / most(2 * b.radius, FLT_MIN);
     s.received = calloc((size_t)samples, sizeof *s.received);
     int ok = new_target(&s.view_target, width * SAMPLES, height * SAMPLES) && normals && s.received;
     if (ok) {

@@ -5,6 +5,8 @@
 
 #include "subdiv.h"
 
+#include <stdio.h>
+
 typedef struct render_picture {
     int    width, height;
     float *rgb;                       // [3 * width * height]  0 to 1, as shown on a screen
@@ -24,7 +26,8 @@ typedef struct render_view {          // a camera, and where its picture goes
 typedef struct render_style {
     const render_material *materials;
     const unsigned char   *face_materials;  // of each face of the cage, into materials
-    int   flat;                       // 1: facets, 0: smooth normals, broken at creases
+    int   flat;                       // 1: facets, 0: the mesh's normals or, if it has none, means
+                                      // of its faces' that are broken at creases
     float edge_width, edge_opacity;   // of all edges, in pixels and 0 to 1
     float crease_width;               // of the sharp edges; corners become dots of thrice this
     float lift;                       // height of the mesh above the ground
@@ -48,6 +51,6 @@ int  render_mesh(render_picture *picture, int left, int top, int width, int heig
 void render_text(render_picture *picture, float x, float y, float size, const char *text);
 
 // Writes a PNG file. Returns 0 on failure.
-int  render_save_png(const render_picture *picture, const char *path);
+int  render_write_png(const render_picture *picture, FILE *file);
 
 #endif
