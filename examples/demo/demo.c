@@ -94,14 +94,6 @@ static int draw(render_picture *picture, const exhibit *e, const subdiv_mesh *me
     return ok;
 }
 
-static int save_png(const render_picture *picture, const char *path)
-{
-    FILE *file = fopen(path, "wb");
-    int ok = file && render_write_png(picture, file);
-    if (file && fclose(file)) ok = 0;
-    return ok;
-}
-
 // Loads, refines, saves and draws one cage. Returns 0 on failure.
 static int show(render_picture *picture, const exhibit *e, const char *cages, const char *output)
 {
@@ -121,7 +113,7 @@ static int show(render_picture *picture, const exhibit *e, const char *cages, co
     if (failed) printf("%s\n", error.message);
     else printf("%s\n", obj);
     int ok = !failed && read_materials(face_materials, in) == cage.face_count &&
-             draw(picture, e, mesh, face_materials) && save_png(picture, png);
+             draw(picture, e, mesh, face_materials) && render_save_png(picture, png);
     if (ok) printf("%s\n", png);
     else if (!failed) printf("%s: cannot be drawn\n", png);
     for (int i = 0; i < LEVELS; i++) subdiv_mesh_free(mesh + i);
@@ -145,7 +137,7 @@ int main(int argc, char **argv)
         render_picture_free(&picture);
     }
     snprintf(path, sizeof path, "%s/hero.png", argv[2]);
-    ok = ok && save_png(&hero, path);
+    ok = ok && render_save_png(&hero, path);
     printf(ok ? "%s\n" : "%s: not written\n", path);
     render_picture_free(&hero);
     return !ok;

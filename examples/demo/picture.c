@@ -384,3 +384,11 @@ int render_write_png(const render_picture *picture, FILE *stream)
     free(data);
     return ok;
 }
+
+int render_save_png(const render_picture *picture, const char *path)
+{
+    FILE *file = fopen(path, "wb");
+    int ok = file && render_write_png(picture, file);
+    if (file && fclose(file)) ok = 0;
+    return ok;
+}

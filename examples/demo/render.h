@@ -52,5 +52,6 @@ void render_text(render_picture *picture, float x, float y, float size, const ch
 
 // Writes a PNG file. Returns 0 on failure.
 int  render_write_png(const render_picture *picture, FILE *file);
+int  render_save_png(const render_picture *picture, const char *path);
 
 #endif
