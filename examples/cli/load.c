@@ -20,7 +20,7 @@ static char filter_uvs(reader *r, char c)
     if (is_end && !r->continued) r->keyword = 0;
     if (!is_end) r->continued = c == '\\';
     if (is_blank || c == '\\') r->in_slash = 0;
-    if (is_blank && r->keyword != 'v') return r->keyword == 't' && !is_end ? 0 : c;
+    if (is_blank && r->keyword != 'v') return (char)(r->keyword == 't' && !is_end ? 0 : c);
     switch (r->keyword) {
     case 0:
         r->keyword = (char)(c == 'v' ? 'v' : c == 'f' || c == 'l' ? 'f' : '?');

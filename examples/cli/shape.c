@@ -75,8 +75,10 @@ static void mark_creases(subdiv_mesh *mesh, const subdiv_mesh *cage, const segme
         const int *ends = cage->crease_vertices + 2 * (size_t)c;
         segment crease = {ends[0] < ends[1] ? ends[0] : ends[1],
                           ends[0] < ends[1] ? ends[1] : ends[0], 0};
-        const segment *found = pieces == 1 ? &crease : (const segment *)
-            bsearch(&crease, edges, edge_count, sizeof *edges, compare_segments);
+        const segment *found = &crease;
+        if (edges)
+            found = (const segment *)bsearch(&crease, edges, edge_count, sizeof *edges,
+                                             compare_segments);
         if (found == NULL || cage->crease_sharpness[c] <= 0) continue;
         int inside = cage->vertex_count + found->edge * (pieces - 1);
         for (int i = 0; i < pieces; i++, mesh->crease_count++) {
