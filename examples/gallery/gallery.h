@@ -2,8 +2,9 @@
 // PNG. Each program draws one picture of examples/README.md, and make gallery runs them all. To
 // build one alone:
 //
-//     cc -I. -Iexamples/demo -DSUBDIV_IMPLEMENTATION examples/gallery/sharpness.c
-//         examples/gallery/gallery.c examples/demo/render.c examples/demo/picture.c -lm
+//     cc -I. -Iexamples/demo -DSUBDIV_STATIC -DSUBDIV_IMPLEMENTATION
+//         examples/gallery/sharpness.c examples/gallery/gallery.c
+//         examples/demo/render.c examples/demo/picture.c -o sharpness -lm && ./sharpness .
 #ifndef GALLERY_H
 #define GALLERY_H
 
