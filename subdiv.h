@@ -861,7 +861,8 @@ typedef enum subdiv_curve_rule {
     SUBDIV_CURVE_B_SPLINE,            // cubic, as boundaries and creases are: a vertex moves to
                                       // (a + 6v + b) / 8, an edge gets a point (a + b) / 2 [HDD94]
     SUBDIV_CURVE_CHAIKIN              // quadratic: a vertex becomes two, (a + 3v) / 4 and
-} subdiv_curve_rule;                  // (3v + b) / 4, which cut its corner off [Chaikin74]
+                                      // (3v + b) / 4, which cut its corner off [Chaikin74]
+} subdiv_curve_rule;
 
 typedef enum subdiv_curve_ends {      // each level makes of n points       B-spline    Chaikin
     SUBDIV_ENDS_KEPT,                 // open: the first and last stay      2n - 1      2n
