@@ -566,7 +566,7 @@ typedef struct subdiv_buffer {
     int    index_size;                // bytes of an index: 2 or 4
     void  *indices;                   // [index_count]   unsigned short or int
     void  *memory;                    // the library's own
-    int   *face_vertices;             // [vertex_count]  a face-vertex that each one is for, or 0
+    int   *face_vertices;             // [vertex_count]  a face-vertex that has it; 0 if none has
 } subdiv_buffer;
 
 // Where to write the vertices: arrays with this many floats a vertex, or NULL.
@@ -630,8 +630,9 @@ typedef struct subdiv_location {
 // Tells where the points [vertex_count] and face-vertices [sum of face sizes] of a result are; one
 // may be NULL. A face-vertex is on the face of the cage that its face is a part of. A point is on
 // the first face around it, on a hole only if there is no other face, and on face -1 if no face has
-// a surface; on level 0 it is on the first face, whatever that is. Error ARGUMENT: the surface is
-// one of face-varying values, or prepared for SUBDIV_EXACT.
+// a surface; on level 0 it is on the first face of all. Faces that boundary "none" drops are there
+// with opt->keep_holes, though subdiv_evaluate_at gives zeros on them. Error ARGUMENT: the surface
+// is one of face-varying values, or prepared for SUBDIV_EXACT.
 SUBDIV_DEF subdiv_result subdiv_surface_locations(const subdiv_surface *surface,
                                                   subdiv_location *points,
                                                   subdiv_location *face_vertices,
@@ -666,10 +667,11 @@ typedef struct subdiv_derivatives {
 //   is no tangent plane: the crease, or boundary, shrinks by 1/2 a level, and other waves across
 //   those faces by less.
 //
-// Errors: ARGUMENT if normals have fewer than 3 channels or the surface was not prepared for
-// SUBDIV_EXACT. Three errors may come after part of out has been written: INDEX for a location that
-// does not exist, ARGUMENT for one outside its face by more than rounding, and MEMORY, as samples
-// close to an extraordinary vertex take some: one call for many of them shares most of the work.
+// Errors: ARGUMENT if normals have fewer than 3 channels, the surface was not prepared for
+// SUBDIV_EXACT or subdiv_evaluate_begin has not filled scratch for it. Three errors may come after
+// part of out has been written: INDEX for a location that does not exist, ARGUMENT for one outside
+// its face by more than rounding, and MEMORY, as samples close to an extraordinary vertex take
+// some: one call for many of them shares most of the work.
 SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int channels,
                                             const void *scratch, int count,
                                             const subdiv_location *locations,
@@ -888,10 +890,10 @@ SUBDIV_DEF subdiv_result subdiv_curve(subdiv_curve_rule rule, subdiv_curve_ends 
 
 #ifndef SUBDIV_NO_TOOLS
 // ------------------------------------------------------------------------------- >>creases
-// These functions find edges and add them to the mesh's crease list with the given sharpness. An
-// edge that is already listed keeps the larger sharpness; other entries stay. Boundary and
-// non-manifold edges are sharp by themselves and never added. A list that changes is replaced by a
-// new one. To try several angles, use copies of the struct with memory = NULL: freeing a copy frees
+// Add edges to the mesh's crease list. The functions named crease_by find them: an edge that is
+// listed already keeps the larger sharpness; boundary and non-manifold edges, which are sharp by
+// themselves, are never added. Other entries stay. A list that changes is replaced by a new one. To
+// try several angles, use copies of the struct with memory = NULL: freeing a copy frees
 // its new list alone. Error NOT_FINITE: also if sharpness is not a number.
 
 // Finds edges where the normals of the two faces differ by more than this many degrees, 0 to 180;
@@ -3926,7 +3928,7 @@ static void sdv_edge_row(const sdv_level *level, const sdv_rules *rules, int h, 
 //     v-o-o-o-v   line                                            v-o-o-o-v
 //     . . . . .   right                                            . . . .     right
 //
-// These rows need no face points. A face point is the mean of its face's four vertices, so its
+// Rows of lines need no face points. A face point is the mean of its face's four vertices, so its
 // weight in a mask goes to them in equal parts: to ends of edges and to points across faces.
 //
 // The next level's lines follow from this level's lines and the points beside them, and so do the
@@ -8461,7 +8463,7 @@ static void sdv_plain_rows(sdv_context *context, subdiv_surface *surface, const 
 //
 //     Catmull-Clark   outside = 2 edge - inside            Loop   outside = a + b - inside
 //
-// This gives the B-spline curve along the edge, on every level: the masks of a crease.
+// So the edge is the B-spline curve, on every level: the masks of a crease make it.
 
 typedef struct sdv_patch {
     int h;                              // the cage face-vertex of its grid (see >>order)
@@ -8742,8 +8744,8 @@ static inline void sdv_gather_quad(const sdv_level *level, int h, sdv_patch *pat
 //     row -1        0  1  2
 //       column  -1  0  1  2
 //
-// Those around vertex i, counter-clockwise: its two neighbours in the face, the one across edge
-// i-1, two more, the one across edge i.
+// Lists the ring of vertex i, counter-clockwise: its two neighbours in the face, the one across
+// edge i-1, two more, the one across edge i.
 static const int sdv_triangle_ring[3][6] = {
     { 5, 8, 6, 3, 0, 1 }, { 8, 4, 1, 2, 7, 11 }, { 4, 5, 11, 10, 9, 6 } };
 
@@ -9465,8 +9467,8 @@ SDV_INLINE size_t sdv_nest_polynomial_number(const sdv_exact *exact, int face, i
 static const int sdv_corners[2][5][2] = {
     { {0, 0}, {0, 1}, {1, 1}, {1, 0}, {0, 0} }, { {0, 0}, {0, 1}, {1, 0}, {0, 0}, {0, 0} } };
 
-// What a leaf of the exact surface, or one of its polynomials, covers of the grid of its face: a
-// rectangle or, under Loop, the lower half of a square or, turned, the upper half.
+// The part of its face's grid that a leaf of the exact surface, or one of its polynomials, covers:
+// a rectangle or, under Loop, the lower half of a square or, turned, the upper half.
 typedef struct sdv_area {
     int     bits;                       // 2^bits units are a side of the grid: it is, in these,
     int64_t left, right, bottom, top;   // from left to right and from bottom to top
@@ -10169,7 +10171,7 @@ static void sdv_prepare_exact(sdv_context *context, subdiv_surface *surface, sdv
 }
 
 // --------------------------------------------------------------------------- >>polynomials
-// What an evaluation of the exact surface begins with: the polynomials of all leaves.
+// Makes the polynomials of all leaves, with which an evaluation of the exact surface begins.
 
 // A step of Horner's scheme, for a polynomial, its first derivative and half its second one.
 SDV_INLINE void sdv_horner_step(sdv_four *p, sdv_four t, sdv_four next)
@@ -10444,6 +10446,7 @@ typedef struct sdv_exact_memory {
     double *work;                       // [4 * work_count] for every four channels
     double *nest;                       // [4 * most_work]
     double *kept;                       // [4 * (nest_count + nest_point_count)] for every four
+    const subdiv_surface **begun;       // the surface that all this was made for
     float  *polynomials;                // [SDV_SLOTS] each, channel by channel
 } sdv_exact_memory;
 
@@ -10471,6 +10474,7 @@ static size_t sdv_carve_exact(const subdiv_surface *surface, int channels, char 
     memory->work = SDV_CARVE(double, NULL, 4 * fours, (size_t)surface->work_count);
     memory->nest = SDV_CARVE(double, NULL, 4, (size_t)exact->most_work);
     memory->kept = SDV_CARVE(double, NULL, 4 * fours, sdv_exact_kept_count(exact));
+    memory->begun = SDV_CARVE(const subdiv_surface *, NULL, 1, 1);
     size = (size + line - 1) / line * line;
     memory->polynomials = SDV_CARVE(float, NULL, SDV_SLOTS * polynomials + 4, 1);
     return size + line;
@@ -10625,6 +10629,7 @@ static void sdv_exact_begin(const subdiv_surface *surface, int channels, const f
     sdv_run(opt, sdv_exact_nests_job, &e, e.jobs);
     for (int i = 0; i < exact->nest_count; i++)         // they are few, and there is room for one
         if (sdv_nest_work(exact, i) > SDV_NEST_STACK) sdv_nest_polynomials(&e, i, e.memory.nest);
+    *e.memory.begun = surface;
 }
 
 static const sdv_exact_calls *sdv_find_exact_calls(void)
@@ -11180,6 +11185,9 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
     e.surface = surface;
     e.channels = channels;
     sdv_carve_exact(surface, channels, (char *)(size_t)scratch, &e.memory);     // only read
+    if (*e.memory.begun != surface)
+        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "subdiv_evaluate_begin has not filled scratch");
+    if (context.result) return context.result;
     e.count = count;
     e.locations = locations;
     memcpy(e.out, to, sizeof to);
@@ -11657,7 +11665,7 @@ static void sdv_take_from_sum(sdv_stencil_maker *make, int i, double *w)
     make->vertices[i] = make->vertices[last];
 }
 
-// Each long point becomes what it is made of, once: when all that are made of it have been.
+// Replaces each long point by what it is made of, once: when all that are made of it have been.
 static void sdv_expand_sum(sdv_stencil_maker *make)
 {
     int step = 0;
@@ -13613,7 +13621,7 @@ static void sdv_check_chains(sdv_context *context, const subdiv_mesh *mesh, int 
         for (int k = 0; k < own; k++, sharpness++)
             if (*sharpness != *sharpness)
                 sdv_fail_mesh(context, SUBDIV_ERROR_NOT_FINITE, -1, vertices[k],
-                              "chain %d: sharpness %d is not a number", i, k);
+                              "chain %d: the sharpness at %d is not a number", i, k);
     }
 }
 
@@ -13721,7 +13729,8 @@ SUBDIV_DEF subdiv_result subdiv_inspect(subdiv_info *info, const subdiv_mesh *me
 }
 
 // ------------------------------------------------------------------------------ >>oddities
-// What subdiv_check finds, kind by kind. Each kind looks at every face, edge, vertex or entry once.
+// Finds what subdiv_check reports, kind by kind. Each kind looks once at every face, edge, vertex
+// or entry.
 
 typedef struct sdv_checker {
     const subdiv_mesh *mesh;
@@ -15802,7 +15811,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
 
 #ifndef SUBDIV_NO_TOOLS
 // -------------------------------------------------------------------------------- >>explain
-// What >>sharpness and >>masks decide for a point, as data, and the words for these data.
+// Tells as data what >>sharpness and >>masks decide for a point, and puts these data into words.
 
 typedef struct sdv_group {              // of vertices that weigh the same
     char text[32];                      // their weight

@@ -482,7 +482,9 @@ static int run_folder(command *cmd, const subdiv_options *opt)
     int result = DONE;
     if (make_folder(cmd->texts[FOLDER])) return FAILED;
     for (int i = 0; i < cmd->file_count; i++) {
-        snprintf(path, sizeof path, "%s/%s", cmd->texts[FOLDER], file_name(cmd->files[i]));
+        const char *folder = cmd->texts[FOLDER], *name = file_name(cmd->files[i]);
+        if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, name) >= sizeof path)
+            return misused("%s/%s is too long a name", folder, name);
         cmd->input = cmd->files[i];
         cmd->output = path;
         if (run_input(cmd, *opt)) result = FAILED;

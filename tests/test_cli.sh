@@ -911,6 +911,8 @@ for file in form turns; do
     fine "$file.glb has the length that it says" test \
         "$(od -An -tu4 -j 8 -N 4 $file.glb | tr -d ' ')" -eq "$(wc -c < $file.glb)"
 done
+sed -n 's/.*"name":"default"[^[]*\[\([^]]*\)\].*/\1/p' form.glb | head -n 1 > color
+fine "glb: faces without a material are blue" awk -F , '{ exit !($3 > $2 && $2 > $1) }' color
 fine "glb: a material for each usemtl" grep -qa '"name":"red".*"name":"blue"' turns.glb
 validator=../node_modules/gltf-validator
 if [ -d $validator ]; then
@@ -948,6 +950,9 @@ ends 2 --picture box.png --stream box.obj
 ends 0 -l 1 -o results box.obj limit.obj
 ends 0 -l 1 box.obj single.obj
 same results/box.obj single.obj
+cp box.obj 'back\slash.obj'
+ends 0 -l 1 -o results 'back\slash.obj'
+same 'results/back\slash.obj' single.obj
 echo 'f 1 2 3' > broken.obj
 rm -r results
 subdiv -l 1 -o results broken.obj box.obj > out 2> err

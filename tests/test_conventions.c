@@ -243,8 +243,10 @@ static void test_wrong_chains(void)
         { { 2, 1 }, { 0, 1, 2 }, 2, { 1, 1 }, "chain 1 has 1 vertices" },
         { { 2, 3 }, { 0, 1, 2, 0, 12 }, 2, { 1, 1 },
           "chain 1: vertex 12 does not exist (the mesh has 9)" },
-        { { 2, 3 }, { 0, 1, 2, 0, 3 }, 2, { 1, NAN }, "chain 1: sharpness 0 is not a number" },
-        { { 2, 3 }, { 0, 1, 2, 0, 3 }, 3, { 1, 1, NAN }, "chain 1: sharpness 1 is not a number" },
+        { { 2, 3 }, { 0, 1, 2, 0, 3 }, 2, { 1, NAN },
+          "chain 1: the sharpness at 0 is not a number" },
+        { { 2, 3 }, { 0, 1, 2, 0, 3 }, 3, { 1, 1, NAN },
+          "chain 1: the sharpness at 1 is not a number" },
         { { 2, 3 }, { 0, 1, 2, 0, 3 }, 4, { 1, 1, 1 },
           "sharpness_count is 4, but there are 2 chains with 3 edges" }
     };

@@ -12,30 +12,10 @@ static size_t most_cell_polynomials = (size_t)1 << 24;
 #define CAGE_SCALE 2
 #include "lib/cages.h"
 #include "lib/random_cage.h"
+#include "lib/ready.h"
 #include "lib/test.h"
 
 // ---------------------------------------------------------------------------------- evaluation
-
-// A surface that is ready for three channels.
-typedef struct ready {
-    subdiv_surface *surface;
-    void *scratch;
-} ready;
-
-static ready get_ready(const subdiv_mesh *cage, const subdiv_options *opt)
-{
-    ready r = { NULL, NULL };
-    CHECK_EQUAL(subdiv_prepare(&r.surface, cage, SUBDIV_EXACT, opt), SUBDIV_OK);
-    r.scratch = malloc(subdiv_scratch_size(r.surface, 3));
-    CHECK_EQUAL(subdiv_evaluate_begin(r.surface, 3, cage->positions, 0, r.scratch, opt), SUBDIV_OK);
-    return r;
-}
-
-static void put_away(ready *r)
-{
-    subdiv_surface_free(r->surface);
-    free(r->scratch);
-}
 
 // All there is at one place.
 typedef struct sample {

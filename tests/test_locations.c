@@ -9,35 +9,15 @@
 #include "subdiv.h"
 #include "lib/cages.h"
 #include "lib/random_cage.h"
+#include "lib/ready.h"
 #include "lib/test.h"
 
 enum { CAGES = 250, RANDOM_SMOOTH = RANDOM_MANIFOLD & ~RANDOM_CORNERS & ~RANDOM_BILINEAR };
 
 static char context[64];
 
-typedef struct exact_surface {
-    subdiv_surface *surface;
-    void *scratch;
-} exact_surface;
-
-static exact_surface open_exact(const subdiv_mesh *cage, const subdiv_options *opt)
-{
-    exact_surface e = { NULL, NULL };
-    CHECK_EQUAL(subdiv_prepare(&e.surface, cage, SUBDIV_EXACT, opt), SUBDIV_OK);
-    e.scratch = malloc(subdiv_scratch_size(e.surface, 3));
-    CHECK_EQUAL(subdiv_evaluate_begin(e.surface, 3, cage->positions, 0, e.scratch, NULL),
-                SUBDIV_OK);
-    return e;
-}
-
-static void close_exact(exact_surface *e)
-{
-    free(e->scratch);
-    subdiv_surface_free(e->surface);
-}
-
 // The surface has the point there; whether it has the normal.
-static int check_place(const exact_surface *e, subdiv_location at, const float *expected,
+static int check_place(const ready *e, subdiv_location at, const float *expected,
                        const float *normal, double extent)
 {
     float point[3], n[3];
@@ -60,7 +40,7 @@ static void check_locations(const subdiv_mesh *cage, int levels, int smooth,
 {
     subdiv_surface *surface = NULL;
     subdiv_mesh fine;
-    exact_surface e = open_exact(cage, opt);
+    ready e = get_ready(cage, opt);
     double extent = mesh_extent(cage) + 1e-3 * mesh_reach(cage);
     int bad = 0, all = 0;
     CHECK_EQUAL(subdiv_prepare(&surface, cage, levels, opt), SUBDIV_OK);
@@ -91,7 +71,7 @@ static void check_locations(const subdiv_mesh *cage, int levels, int smooth,
     free(used);
     free(p);
     free(h);
-    close_exact(&e);
+    put_away(&e);
     subdiv_mesh_free(&fine);
     subdiv_surface_free(surface);
 }
@@ -191,7 +171,7 @@ static void test_splines(void)
     }
     for (int left = 0; left < 2; left++) {
         torus.left_handed = left;
-        exact_surface e = open_exact(&torus, NULL);
+        ready e = get_ready(&torus, NULL);
         for (int i = 0; i < 9 * ROWS * COLUMNS; i++) {
             int f = i / 9;
             subdiv_location at = { f, 0, (float)(i % 3) / 2, (float)(i / 3 % 3) / 2 };
@@ -210,12 +190,12 @@ static void test_splines(void)
             CHECK_NEAR(tangent[3], expect_tangent(du, dv, uv_du, uv_dv, n, t), 0);
             for (int k = 0; k < 3; k++) CHECK_NEAR(tangent[k], t[k], 1e-4);
         }
-        close_exact(&e);
+        put_away(&e);
     }
 }
 
 // Tangents of any cage are those of its derivatives and of the derivatives of its UVs.
-static void check_tangents(const subdiv_mesh *cage, const exact_surface *e, int count,
+static void check_tangents(const subdiv_mesh *cage, const ready *e, int count,
                            const subdiv_location *at, const float *tangents)
 {
     subdiv_surface *uv = NULL;
@@ -281,13 +261,13 @@ static void test_tangents(void)
             CHECK_EQUAL(fine.face_normals ? fine.face_normals[h] : b.points[i], b.normals[i]);
             CHECK_EQUAL(fine.uv_count ? fine.face_uvs[h] : -1, b.uvs[i]);
         }
-        exact_surface e = open_exact(&c->mesh, &opt);
+        ready e = get_ready(&c->mesh, &opt);
         CHECK_EQUAL(subdiv_tangents_at(e.surface, e.scratch, b.vertex_count, at, data + 8, STRIDE,
                                        NULL), c->mesh.uv_count ? SUBDIV_OK : SUBDIV_ERROR_ARGUMENT);
         for (size_t i = 0; i < count; i++)
             memcpy(dense + 4 * i, data + STRIDE * i + 8, 4 * sizeof(float));
         if (c->mesh.uv_count) check_tangents(&c->mesh, &e, b.vertex_count, at, dense);
-        close_exact(&e);
+        put_away(&e);
         free(where), free(at), free(data), free(dense);
         subdiv_buffer_free(&b);
         subdiv_mesh_free(&fine);

@@ -1049,6 +1049,8 @@ static void wrong_places(void)
         { 0, 0, nan, 0 } };
     const subdiv_surface *exact = k.exact;
     void *work = k.scratch;
+    memset(work, 0, subdiv_scratch_size(exact, 3));
+    WRONG(ARGUMENT, subdiv_evaluate_at(exact, 3, work, 1, &at, &to, opt));
     CHECK_EQUAL(subdiv_evaluate_begin(exact, 3, k.positions, 0, work, opt), SUBDIV_OK);
     WRONG(ARGUMENT, subdiv_evaluate_at(NULL, 3, work, 1, &at, &to, opt));
     WRONG(ARGUMENT, subdiv_evaluate_at(k.plain, 3, work, 1, &at, &to, opt));

@@ -9,8 +9,10 @@
 #include <sys/stat.h>
 #ifdef _WIN32
 #include <direct.h>
+#define SEPARATORS "/\\"
 #else
 #include <unistd.h>
+#define SEPARATORS "/"
 #endif
 
 // Everything on standard output has to arrive: a full disk is an error as any other.
@@ -32,7 +34,7 @@ const char *file_name(const char *path)
 {
     const char *name = path;
     for (; *path; path++)
-        if (*path == '/' || *path == '\\') name = path + 1;
+        if (strchr(SEPARATORS, *path)) name = path + 1;
     return name;
 }
 

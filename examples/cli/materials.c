@@ -56,7 +56,7 @@ void material_color(int material, float rgb[3])
 {
     float hue = 0.58f + 0.618034f * (float)(material > 1 ? material - 1 : 0);
     for (int k = 0; k < 3; k++) {
-        float away = fabsf(6 * (hue + (float)k / 3 - floorf(hue + (float)k / 3)) - 3) - 1;
+        float h = hue - (float)k / 3, away = fabsf(6 * (h - floorf(h)) - 3) - 1;
         float light = away < 0 ? 0 : away > 1 ? 1 : away;
         rgb[k] = 0.42f + 0.42f * light;
     }
