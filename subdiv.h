@@ -1497,12 +1497,18 @@ static void *sdv_duplicate(sdv_context *context, sdv_arena *arena, const void *f
     return copy;
 }
 
+// Frees the blocks of a struct that the user holds.
+static void sdv_free_memory(void *memory)
+{
+    sdv_arena owned = sdv_new_arena(0);
+    owned.blocks = (sdv_block *)memory;
+    sdv_arena_free(&owned);
+}
+
 SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh)
 {
     if (!mesh) return;
-    sdv_arena owned = sdv_new_arena(0);
-    owned.blocks = (sdv_block *)mesh->memory;
-    sdv_arena_free(&owned);
+    sdv_free_memory(mesh->memory);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -11826,10 +11832,8 @@ SUBDIV_DEF subdiv_result subdiv_refined_stencils(subdiv_stencils *stencils,
 
 SUBDIV_DEF void subdiv_stencils_free(subdiv_stencils *stencils)
 {
-    sdv_arena owned = sdv_new_arena(0);
     if (!stencils) return;
-    owned.blocks = (sdv_block *)stencils->memory;
-    sdv_arena_free(&owned);
+    sdv_free_memory(stencils->memory);
     memset(stencils, 0, sizeof *stencils);
 }
 
@@ -13302,10 +13306,8 @@ SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_
 
 SUBDIV_DEF void subdiv_buffer_free(subdiv_buffer *buffer)
 {
-    sdv_arena owned = sdv_new_arena(0);
     if (!buffer) return;
-    owned.blocks = (sdv_block *)buffer->memory;
-    sdv_arena_free(&owned);
+    sdv_free_memory(buffer->memory);
     memset(buffer, 0, sizeof *buffer);
 }
 
@@ -15996,10 +15998,8 @@ SUBDIV_DEF subdiv_result subdiv_explain_points(subdiv_explanation *explanation,
 
 SUBDIV_DEF void subdiv_explanation_free(subdiv_explanation *explanation)
 {
-    sdv_arena owned = sdv_new_arena(0);
     if (!explanation) return;
-    owned.blocks = (sdv_block *)explanation->memory;
-    sdv_arena_free(&owned);
+    sdv_free_memory(explanation->memory);
     subdiv_stencils_free(&explanation->masks);
     memset(explanation, 0, sizeof *explanation);
 }
