@@ -4755,7 +4755,8 @@ typedef struct sdv_sector {
     int      faces, edges;              // an open sector has one edge more than faces
     sdv_ray *rays;                      // [edges]
     float    corner;                    // the sharpness of the vertex
-    const sdv_sharp_edges *sharp;       // of all sectors at the vertex, on this and later levels
+    const sdv_sharp_edges *sharp;       // of all sectors at the vertex, on this and later levels;
+                                        //      NULL: there is no other, and nobody asked yet
 } sdv_sector;
 
 enum { SDV_FADE_LEVELS = 11 };          // after so many, all that is semi-sharp is gone
@@ -4787,7 +4788,7 @@ static void sdv_settle(sdv_sector *s, sdv_rule rule, int faces, int open)
 static int sdv_sector_fades(const sdv_sector *s)
 {
     int fades = sdv_is_semi_sharp(s->corner);
-    if (s->corner < SUBDIV_INFINITE) fades |= s->sharp->now > s->sharp->forever;
+    if (s->corner < SUBDIV_INFINITE && s->sharp) fades |= s->sharp->now > s->sharp->forever;
     for (int i = 0; i < s->edges; i++) fades |= sdv_is_semi_sharp(s->rays[i].now);
     return fades;
 }
@@ -4813,6 +4814,10 @@ static void sdv_fade_edges(const sdv_rules *rules, sdv_ray *rays, int count, sdv
 {
     memset(edges, 0, (SDV_FADE_LEVELS + 1) * sizeof *edges);
     for (int i = 0; i <= SDV_FADE_LEVELS; i++, edges++) {
+        if (i > 0 && edges[-1].semi == 0) {             // nothing fades any more
+            edges->now = edges->next = edges->forever = edges[-1].forever;
+            continue;
+        }
         for (int k = 0; k < count; k++) sdv_meet_edge(edges, rays[k].now, rays[k].half);
         sdv_fade_rays(rules, edges, rays, count, rays);
     }
@@ -4931,7 +4936,7 @@ typedef struct sdv_limit_writer {       // writes limit rows
     sdv_faded   faded[SDV_FADED];       // the latest ones that fade, by a hash
     const sdv_sharp_edges **sharp;      // [vertex_count] NULL: not known yet; else see
                                         //      sdv_find_sharp_edges
-    sdv_sharp_edges *on_line;           // those at a point of a semi-sharp line
+    sdv_sharp_edges *own;               // those of the sector alone
     unsigned char *last;                // [vertex_count] twice its last rule, and is it settled?
                                         //      UCHAR_MAX: not known yet
 } sdv_limit_writer;
@@ -5058,7 +5063,7 @@ static void sdv_find_rays(sdv_limit_writer *limit, sdv_sector *s)
     const sdv_level *level = limit->level;
     int v = level->face_vertices[s->first];
     s->corner = limit->last[v] / 2 == SDV_CORNER ? SUBDIV_INFINITE : level->vertex_sharpness[v];
-    s->sharp = sdv_find_sharp_edges(limit, v);
+    s->sharp = s->faces < level->vertex_faces[v] ? sdv_find_sharp_edges(limit, v) : NULL;
     for (int i = 0, at = s->first; i < s->edges; i++) {
         int before = sdv_previous(level, at), end = i == s->faces;
         sdv_find_ray(limit, end ? before : at, end, &s->rays[i]);
@@ -5071,13 +5076,14 @@ static int sdv_same_sector(const sdv_sector *a, const sdv_sector *b)
     return a->edges == b->edges && a->faces == b->faces &&
            memcmp(&a->corner, &b->corner, sizeof a->corner) == 0 &&
            memcmp(a->rays, b->rays, (size_t)a->edges * sizeof *a->rays) == 0 &&
-           memcmp(a->sharp, b->sharp, (SDV_FADE_LEVELS + 1) * sizeof *a->sharp) == 0;
+           !a->sharp == !b->sharp &&
+           (!a->sharp || memcmp(a->sharp, b->sharp, (SDV_FADE_LEVELS + 1) * sizeof *a->sharp) == 0);
 }
 
 // Returns the rows of sector states[0], which fades. Makes them unless a sector like it was there.
 static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
 {
-    const sdv_sector *s = &limit->states[0];
+    sdv_sector *s = &limit->states[0];
     sdv_context *context = limit->writer->context;
     sdv_arena *scratch = &limit->writer->scratch;
     uint32_t hash = (uint32_t)s->faces, bits[3];
@@ -5098,7 +5104,13 @@ static const double *sdv_find_fading_rows(sdv_limit_writer *limit)
     sdv_ray *rays = of->rays;
     *of = *s;
     of->rays = (sdv_ray *)memcpy(rays, s->rays, (size_t)s->edges * sizeof *rays);
-    of->sharp = (sdv_sharp_edges *)memcpy(known->sharp, s->sharp, levels * sizeof *s->sharp);
+    if (s->sharp) {
+        of->sharp = (sdv_sharp_edges *)memcpy(known->sharp, s->sharp, levels * sizeof *s->sharp);
+    } else {
+        rays = (sdv_ray *)memcpy(limit->states[1].rays, s->rays, (size_t)s->edges * sizeof *rays);
+        sdv_fade_edges(limit->rules, rays, s->edges, limit->own);
+        s->sharp = limit->own;
+    }
     sdv_sector_rows(limit->rules, limit->states, known->rows, limit->room);
     return known->rows;
 }
@@ -5192,7 +5204,7 @@ static void sdv_begin_limit(sdv_writer *writer, const sdv_rules *rules, const sd
     limit->room = SDV_NEW(context, scratch, double, 2 * most + 2);
     limit->states[0].rays = SDV_NEW(context, scratch, sdv_ray, 3 * most + 1);
     limit->sharp = SDV_NEW(context, scratch, const sdv_sharp_edges *, level->vertex_count);
-    limit->on_line = SDV_NEW(context, scratch, sdv_sharp_edges, SDV_FADE_LEVELS + 1);
+    limit->own = SDV_NEW(context, scratch, sdv_sharp_edges, SDV_FADE_LEVELS + 1);
     for (size_t i = 0; i < known && !context->result; i++) limit->known[i] = -1;
     for (int v = 0; v < level->vertex_count && !context->result; v++) limit->sharp[v] = NULL;
 }
@@ -5375,13 +5387,12 @@ static void sdv_line_sector(sdv_limit_writer *limit, const sdv_edge_line *line, 
 {
     sdv_sector *s = &limit->states[0];
     int loop = limit->rules->loop;
-    sdv_ray rays[2] = { { line->now[t], line->next[2 * t], line->next[2 * t + 1] },
-                        { line->now[t - 1], line->next[2 * t - 1], line->next[2 * t - 2] } };
+    const sdv_ray ahead = { line->now[t], line->next[2 * t], line->next[2 * t + 1] };
+    const sdv_ray back = { line->now[t - 1], line->next[2 * t - 1], line->next[2 * t - 2] };
     sdv_settle(s, SDV_SMOOTH, loop ? 6 : 4, 0);
-    s->rays[0] = rays[0];
-    s->rays[loop ? 3 : 2] = rays[1];
-    sdv_fade_edges(limit->rules, rays, 2, limit->on_line);
-    s->sharp = limit->on_line;
+    s->rays[0] = ahead;
+    s->rays[loop ? 3 : 2] = back;
+    s->sharp = NULL;
 }
 
 // Adds the limit row of point t of a line. A crease gets the limit of the side to its left. Linear
