@@ -37,10 +37,10 @@ endif
 # Tests that look inside or bring an allocator compile the implementation themselves. The compiler
 # takes longer for tests than they run, so they are optimised less.
 TEST_FLAGS = $(subst -O2,-O1,$(FLAGS)) $(THREADS)
-OWN      = buffers evaluate memory exact obj_numbers
+OWN      = evaluate memory exact obj_numbers
 PLAIN    = doors tessellate stencils exact_oracle patches limit obj_read obj_write masks order invariants \
            recorded creases check errors uv partial_uvs vertex_rules normals threads stack \
-           limits curves conventions locations
+           limits curves conventions locations buffers
 TESTS    = $(OWN) $(PLAIN) growth
 DRAWINGS = corner_cutting b_spline masks split valences boundary
 RENDERINGS = sharpness features vertex_rules schemes limit reflection

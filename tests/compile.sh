@@ -26,9 +26,9 @@ if nm -u $out/two_files_a.o > $out/symbols 2> $out/log && [ -s $out/symbols ]; t
     global='(.*printf|puts|f?putc(har)?|std(out|err)|_?exit|abort|setlocale|signal|raise|s?rand|setenv)'
     step "prints nothing, changes nothing global" sh -c "! grep -E ' _?$global(@|\$)' $out/symbols"
 fi
-c include_twice $from/include_twice.c
 # Private copies of all functions are more than one file uses.
-c private -Wno-unused-function $from/private_a.c $from/private_b.c
+c private -Wno-unused-function -DSUBDIV_NO_TOOLS -DSUBDIV_NO_OBJ $from/private_a.c \
+    $from/private_b.c
 
 # Nothing that opens, reads, writes or prints may be left under SUBDIV_NO_STDIO.
 step "no_stdio with assert" $CC -std=c99 $warn -I. -fsyntax-only $from/no_stdio.c

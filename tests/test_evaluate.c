@@ -823,9 +823,28 @@ static void check_allocations(const subdiv_mesh *m, const prepared *p)
     end(&e);
 }
 
+// Nor does filling a vertex buffer allocate, frame by frame.
+static void check_buffer_allocations(const subdiv_mesh *m, const prepared *p)
+{
+    subdiv_mesh fine = {0};
+    subdiv_buffer buffer;
+    subdiv_vertices out = {0};
+    CHECK_EQUAL(subdiv_surface_mesh(&fine, p->surface, m->positions, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_make_buffer(&buffer, &fine, 4, NULL), SUBDIV_OK);
+    void *scratch = malloc(subdiv_scratch_size(p->surface, 3) + 1);
+    out.positions = (float *)malloc(3 * sizeof(float) * (size_t)buffer.vertex_count + 1);
+    allocations = 0;
+    CHECK_EQUAL(subdiv_evaluate_buffer(&buffer, p->surface, m->positions, &out, scratch, NULL),
+                SUBDIV_OK);
+    CHECK_EQUAL(allocations, 0);
+    free(scratch), free(out.positions);
+    subdiv_buffer_free(&buffer), subdiv_mesh_free(&fine);
+}
+
 static void test_allocations(void)
 {
     for_cages(60, check_allocations);
+    for_cages(60, check_buffer_allocations);
 }
 
 int main(void)
