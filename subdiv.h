@@ -363,6 +363,7 @@ typedef struct subdiv_options {
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
     int           one_normal;         // limit, tessellation: one normal a point, also on creases
+    int           part, part_count;   // stream OBJ: only part number part, from 0 to part_count - 1
 } subdiv_options;
 
 // Returns the text of a result, such as "index out of range". Never NULL.
@@ -1030,7 +1031,10 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
                                                   void *user, const subdiv_options *opt);
 
 // Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
-// subdiv_save_obj. From level 1 on, the mesh is never in memory as a whole.
+// subdiv_save_obj. From level 1 on, the mesh is never in memory as a whole. With opt->part_count,
+// writes only one of so many parts, which make the whole text when they are put in order one behind
+// the other: several processes or machines can share the work. Parts take about as long as each
+// other. Level 0 is all in the first part. Error ARGUMENT: there is no such part.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
@@ -15274,6 +15278,8 @@ typedef struct sdv_output {
     char        *buffer;                // [SDV_OUTPUT_SIZE]
     size_t       used;
     int          left_handed;           // faces are turned round, as OBJ has them counter-clockwise
+    int64_t      begin, end;            // the part of a stream to be written, and the place of what
+    int64_t      at;                    // comes next: see sdv_take
 } sdv_output;
 
 enum {
@@ -15410,10 +15416,17 @@ static void sdv_write_faces(sdv_output *out, char keyword, const int *vertices, 
     }
 }
 
+// The number of the first statement behind a face, from number i on.
+static int sdv_next_statement(const subdiv_mesh *mesh, int i, int face)
+{
+    while (i < mesh->statement_count && mesh->statement_faces[i] <= face) i++;
+    return i;
+}
+
 // Writes the statements before a face, from number i on. Returns the number of the next.
 static int sdv_write_statements(sdv_output *out, const subdiv_mesh *mesh, int i, int face)
 {
-    for (; i < mesh->statement_count && mesh->statement_faces[i] <= face; i++) {
+    for (int end = sdv_next_statement(mesh, i, face); i < end; i++) {
         const char *text = mesh->statements[i];
         sdv_write_text(out, text);
         // A backslash at the end of a line would join it with the next.
@@ -15449,41 +15462,100 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
     sdv_write_tags(out, mesh);
 }
 
-enum { SDV_STREAM_POINTS = 1 << 20 };
+// A stream is a row of lines: v, vt, vn, then f. Each takes as long as the numbers in it; a float
+// takes three times as long as an index.
+enum { SDV_STREAM_POINTS = 1 << 20, SDV_FLOAT_TIME = 3 };
 
-// Writes the points of a surface, width numbers each, a window at a time. The first windows hold
-// the points of vertices and edges, which any face may make; the others those inside a few faces or
-// a part of one. The first three numbers are a position, to be multiplied by factor. sides: writes
-// the points' normals instead, and fills in those of other sides of creases; NULL: points.
+typedef struct sdv_range { int first, end; } sdv_range;
+
+// Which of the next lines, that take so long each, belong to the part?
+static sdv_range sdv_take(sdv_output *out, int lines, int time)
+{
+    int64_t place[2] = { out->begin - out->at, out->end - out->at };
+    for (int i = 0; i < 2; i++) {
+        place[i] = place[i] < 0 ? 0 : (place[i] + time - 1) / time;
+        if (place[i] > lines) place[i] = lines;
+    }
+    sdv_range range = { (int)place[0], (int)place[1] };
+    out->at += (int64_t)lines * time;
+    return range;
+}
+
+typedef struct sdv_stream {             // of the points of a surface, a window at a time
+    sdv_output *out;
+    const subdiv_surface *surface;
+    int    width;                       // numbers a point
+    int    inside;                      // the first point inside a face
+    char  *scratch;
+    float *window;                      // [width] a point
+    float *sides;                       // the window has normals; here go those of other sides
+} sdv_stream;
+
+static sdv_stream sdv_begin_stream(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
+                                   const float *values, int width, float *sides)
+{
+    sdv_context *context = out->context;
+    int most = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0);
+    if (most > SDV_STREAM_POINTS) most = SDV_STREAM_POINTS;
+    sdv_stream stream = { out, surface, width, inside, NULL, NULL, sides };
+    stream.scratch = SDV_NEW(context, arena, char, subdiv_scratch_size(surface, width));
+    stream.window = SDV_NEW(context, arena, float, (size_t)width * (size_t)most);
+    if (!context->result)
+        context->result = subdiv_evaluate_begin(surface, width, values, width, stream.scratch,
+                                                out->opt);
+    return stream;
+}
+
+// Evaluates the window that begins with point first, and returns the point behind it, at most end.
+// The first windows hold the points of vertices and edges, which any face may make; the others
+// those inside a few faces or a part of one.
+static int sdv_stream_window(const sdv_stream *stream, int first, int end)
+{
+    const subdiv_surface *surface = stream->surface;
+    const subdiv_options *opt = stream->out->opt;
+    const subdiv_limit normals = { NULL, stream->window, NULL, 0, stream->sides };
+    int face = 0, faces = surface->cage_face_count, width = stream->width;
+    if (first < stream->inside && end > stream->inside) end = stream->inside;
+    if (end - first > SDV_STREAM_POINTS) end = first + SDV_STREAM_POINTS;
+    if (first >= stream->inside) {
+        face = sdv_face_inside(&surface->order, first);
+        faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
+    }
+    if (stream->sides)
+        subdiv_evaluate_limit_faces(surface, stream->scratch, face, faces, first, end - first,
+                                    &normals, opt);
+    else subdiv_evaluate_faces(surface, width, stream->scratch, face, faces, first, end - first,
+                               stream->window, width, opt);
+    return end;
+}
+
+// Writes those points of a surface that belong to the part. The first three numbers of each are a
+// position, to be multiplied by factor. sides: writes the normals of the points instead.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
                               const char *keyword, int width, const float *values, float factor,
                               float *sides)
 {
-    const subdiv_options *opt = out->opt;
-    int total = surface->fine.vertex_count, inside = subdiv_first_inside(surface, 0), end;
-    size_t stride = (size_t)width;
-    int most = total < SDV_STREAM_POINTS ? total : (int)SDV_STREAM_POINTS;
-    float *window = SDV_NEW(out->context, arena, float, stride * (size_t)most);
-    char *scratch = SDV_NEW(out->context, arena, char, subdiv_scratch_size(surface, width));
-    const subdiv_limit normals = { NULL, window, NULL, 0, sides };
-    if (out->context->result) return;
-    out->context->result = subdiv_evaluate_begin(surface, width, values, width, scratch, opt);
-    for (int first = 0; first < total && !out->context->result; first = end) {
-        int limit = first < inside ? inside : total, face = 0, faces = surface->cage_face_count;
-        end = limit - first > SDV_STREAM_POINTS ? first + SDV_STREAM_POINTS : limit;
-        if (first >= inside) {
-            face = sdv_face_inside(&surface->order, first);
-            faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
-        }
-        if (sides)
-            subdiv_evaluate_limit_faces(surface, scratch, face, faces, first, end - first,
-                                        &normals, opt);
-        else subdiv_evaluate_faces(surface, width, scratch, face, faces, first, end - first,
-                                   window, width, opt);
-        for (size_t i = 0; i < (size_t)(end - first) && factor != 1; i++)
-            sdv_multiply(window + i * stride, 3, factor);
-        sdv_write_lines(out, keyword, width, window, NULL, end - first);
+    sdv_range part = sdv_take(out, surface->fine.vertex_count, SDV_FLOAT_TIME * width);
+    if (part.first == part.end) return;
+    sdv_stream stream = sdv_begin_stream(out, arena, surface, values, width, sides);
+    for (int first = part.first, end; first < part.end && !out->context->result; first = end) {
+        end = sdv_stream_window(&stream, first, part.end);
+        for (int i = 0; i < end - first && factor != 1; i++)
+            sdv_multiply(stream.window + (size_t)i * (size_t)width, 3, factor);
+        sdv_write_lines(out, keyword, width, stream.window, NULL, end - first);
     }
+}
+
+// Writes the normals of other sides of creases, which points of vertices and edges have.
+static void sdv_stream_sides(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
+                             const float *positions, float *sides, int count)
+{
+    sdv_range part = sdv_take(out, count, SDV_FLOAT_TIME * 3);
+    if (part.first == part.end) return;
+    sdv_stream stream = sdv_begin_stream(out, arena, surface, positions, 3, sides);
+    for (int first = 0; first < stream.inside && !out->context->result; )
+        first = sdv_stream_window(&stream, first, stream.inside);
+    sdv_write_lines(out, "vn", 3, sides + 3 * (size_t)part.first, NULL, part.end - part.first);
 }
 
 // Returns positions with the colour behind each, or alone if there are no colours.
@@ -15500,8 +15572,14 @@ static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
     return joined;
 }
 
-// Writes the faces, a row of a grid at a time, and before them their statements. row, uvs and
-// normals have room for the indices of a row.
+// How many numbers a fine face has in the text?
+static int sdv_face_numbers(const subdiv_surface *surface)
+{
+    return surface->fine.face_size * (1 + (surface->uv != NULL) + surface->rules.limit);
+}
+
+// Writes the faces of the part, a row of a grid at a time, and before them their statements. row,
+// uvs and normals have room for the indices of a row.
 static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs,
                              int *normals)
 {
@@ -15510,9 +15588,12 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     const sdv_sides *sides = surface->sides.vertex ? &surface->sides : NULL;
     const int *seen = !surface->rules.limit ? NULL : sides ? normals : row;
     int size = surface->fine.face_size, statement = 0;
+    sdv_range part = sdv_take(out, surface->fine.face_count, sdv_face_numbers(surface));
     for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
         int first = sdv_first_fine_face(surface, f);
         if (first == sdv_first_fine_face(surface, f + 1)) continue;
+        if (first < part.first) statement = sdv_next_statement(&surface->fine, statement, first);
+        if (first < part.first || first >= part.end) continue;
         int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, first);
@@ -15532,7 +15613,30 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
             }
         }
     }
-    sdv_write_statements(out, &surface->fine, statement, surface->fine.face_count);
+}
+
+// Writes what stands behind the faces, in the last part.
+static void sdv_stream_end(sdv_output *out, const subdiv_mesh *fine)
+{
+    sdv_range part = sdv_take(out, 1, 1);
+    if (part.first == part.end) return;
+    int statement = sdv_next_statement(fine, 0, fine->face_count - 1);
+    sdv_write_statements(out, fine, statement, fine->face_count);
+    sdv_write_tags(out, fine);
+}
+
+static int sdv_part(const subdiv_options *opt)
+{
+    return opt && opt->part_count ? opt->part : 0;
+}
+
+// Finds the part of a text that takes so long.
+static void sdv_cut_stream(sdv_output *out, int64_t time)
+{
+    const subdiv_options *opt = out->opt;
+    int64_t part = sdv_part(opt), count = opt && opt->part_count ? opt->part_count : 1;
+    out->begin = time / count * part + time % count * part / count;
+    out->end = time / count * (part + 1) + time % count * (part + 1) / count;
 }
 
 static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
@@ -15550,14 +15654,20 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
     const float *values = sdv_join_colors(context, arena, surface, positions);
     if (context->result) return;
     sdv_list_holes(surface, fine.holes);
-    sdv_stream_points(out, arena, surface, "v", surface->colors ? 6 : 3, values, factor, NULL);
+    int width = surface->colors ? 6 : 3;
+    int64_t floats = width * (int64_t)fine.vertex_count;
+    if (surface->uv) floats += 2 * (int64_t)surface->uv->fine.vertex_count;
+    if (surface->rules.limit) floats += 3 * (int64_t)fine.normal_count;
+    sdv_cut_stream(out, SDV_FLOAT_TIME * floats +
+                        (int64_t)fine.face_count * sdv_face_numbers(surface) + 1);
+    sdv_stream_points(out, arena, surface, "v", width, values, factor, NULL);
     if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1, NULL);
     if (surface->rules.limit) {
         sdv_stream_points(out, arena, surface, "vn", 3, positions, 1, sides);
-        sdv_write_lines(out, "vn", 3, sides, NULL, other);
+        sdv_stream_sides(out, arena, surface, positions, sides, other);
     }
     sdv_stream_faces(out, surface, row, uvs, normals);
-    sdv_write_tags(out, &fine);
+    sdv_stream_end(out, &fine);
 }
 
 // Writes a mesh or, if that is NULL, a surface with positions while it is refined.
@@ -15569,13 +15679,14 @@ static subdiv_result sdv_write_obj(sdv_context *context, const subdiv_mesh *mesh
     memset(&copy, 0, sizeof copy);
     if (context->result) return context->result;
     if (surface && surface->levels == 0) {                      // no larger than the cage
-        context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
+        if (sdv_part(opt) == 0)
+            context->result = subdiv_surface_mesh(&copy, surface, positions, opt);
         mesh = &copy;
     }
     sdv_arena arena = sdv_scratch();
     sdv_figures *figures = SDV_NEW(context, &arena, sdv_figures, 1);
-    sdv_output out = { context, write, user, opt, figures, NULL, 0,
-                       mesh ? mesh->left_handed : surface->rules.left_handed };
+    sdv_output out = { context, write, user, opt, figures, NULL, 0, 0, 0, 0, 0 };
+    out.left_handed = mesh ? mesh->left_handed : surface->rules.left_handed;
     out.buffer = SDV_NEW(context, &arena, char, SDV_OUTPUT_SIZE);
     if (!context->result) {
         sdv_make_figures(figures);
@@ -15597,12 +15708,23 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
     return sdv_write_obj(&context, mesh, NULL, NULL, write, user, opt);
 }
 
+// Checks the arguments of a stream. others: those that are not checked here are there.
+static void sdv_check_stream(sdv_context *context, const subdiv_surface *surface, int others,
+                             const subdiv_options *opt)
+{
+    sdv_check_mesh_surface(context, surface, others);
+    if (!opt || !opt->part_count || context->result) return;
+    if (opt->part < 0 || opt->part >= opt->part_count)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "there is no part %d of %d, counted from 0",
+                 opt->part, opt->part_count);
+}
+
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_mesh_surface(&context, surface, write != NULL);
+    sdv_check_stream(&context, surface, write != NULL, opt);
     return sdv_write_obj(&context, NULL, surface, positions, write, user, opt);
 }
 
@@ -15814,7 +15936,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_mesh_surface(&context, surface, path != NULL);
+    sdv_check_stream(&context, surface, path != NULL, opt);
     if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
     return sdv_write_path(&context, NULL, surface, positions, path, opt);
 }
@@ -15959,7 +16081,7 @@ static subdiv_point sdv_find_point(const sdv_explainer *x, int point)
 static void sdv_begin_explainer(sdv_context *context, sdv_explainer *x, const subdiv_mesh *cage,
                                 const subdiv_options *opt)
 {
-    subdiv_options refined = { 0, 0, 0, 0, 0, NULL, NULL, NULL, 0 };
+    subdiv_options refined = { 0, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0 };
     sdv_request request = sdv_request_of(cage, 1, NULL, 1, &refined);
     memset(x, 0, sizeof *x);
     x->context = context;

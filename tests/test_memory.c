@@ -1182,6 +1182,13 @@ static void wrong_texts(void)
     WRONG(ARGUMENT, subdiv_stream_obj(k.exact, p, path, opt));
     WRONG(ARGUMENT, subdiv_stream_obj(k.values, p, path, opt));
     WRONG(IO, subdiv_stream_obj(k.plain, p, "build/none/of/these.obj", opt));
+    for (int part = -1; part < 4; part++) {
+        subdiv_options of_part = *opt;
+        of_part.part = part, of_part.part_count = part < 0 ? 2 : part < 3 ? part : -3;
+        if (part == 0) continue;                                // no parts
+        WRONG(ARGUMENT, subdiv_stream_obj_callback(k.copy, p, write_away, &sink, &of_part));
+        WRONG(ARGUMENT, subdiv_stream_obj(k.plain, p, path, &of_part));
+    }
     k.positions[7] = HUGE_VALF;
     WRONG(NOT_FINITE, subdiv_stream_obj_callback(k.copy, p, write_away, &sink, opt));
     WRONG(NOT_FINITE, subdiv_stream_obj_callback(k.plain, p, write_away, &sink, opt));
