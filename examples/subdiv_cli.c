@@ -61,6 +61,9 @@ static const option options[OPTION_COUNT] = {
      "draw the result; if OUTPUT is named, too, the cage beside it. Creases are orange,\n"
      "          those that never fade red"},
     {0, "stream", NULL, "refine and save piece by piece, in little memory; large results always"},
+    {0, "part", "K/N",
+     "save only part K of N of the OBJ file, --stream; put in order one behind the other (cat),\n"
+     "          the N parts are the file. N processes share the work"},
     {0, "no-tags", NULL, "save no tags for creases, corners, holes and rules"},
     {0, "no-uvs", NULL, "read no UVs, for instance because they are broken"},
     {0, "merge-materials", NULL,
@@ -129,6 +132,22 @@ static int set_number(command *cmd, int id, const char *text)
     return DONE;
 }
 
+// Stores K and N of K/N, and that the part is streamed.
+static int set_part(command *cmd, const char *text)
+{
+    char first[16] = "";
+    const char *slash = strchr(text, '/');
+    if (slash && (size_t)(slash - text) < sizeof first)
+        memcpy(first, text, (size_t)(slash - text));
+    int part = read_number(first), count = slash ? read_number(slash + 1) : -1;
+    if (part < 1 || part > count)
+        return misused("--part needs K/N, part K from 1 to N, not '%s'", text);
+    cmd->given[PART] = part;
+    cmd->part_count = count;
+    cmd->given[STREAM] = 1;
+    return DONE;
+}
+
 // Stores the value of an option. value is NULL when the command line holds none.
 static int set_option(command *cmd, int id, const char *value)
 {
@@ -140,6 +159,7 @@ static int set_option(command *cmd, int id, const char *value)
     }
     if (value == NULL) return misused("--%s needs a value", o->name);
     if (id == CREASE_ANGLE || id == CREASE_SHARPNESS) return set_number(cmd, id, value);
+    if (id == PART) return set_part(cmd, value);
     if (id == EVAL || id == FOLDER || id == PICTURE) {
         cmd->texts[id] = value;
         cmd->given[id] = 1;
@@ -507,6 +527,7 @@ int main(int argc, char **argv)
     opt.keep_holes = cmd.given[KEEP_HOLES] == 1;
     opt.limit = cmd.given[LIMIT] == 1;
     opt.no_tags = cmd.given[NO_TAGS] == 1;
+    if (cmd.given[PART] > 0) opt.part = cmd.given[PART] - 1, opt.part_count = cmd.part_count;
     start_threads(cmd.given[THREADS], &opt);
     result = cmd.given[FOLDER] == 1 ? run_folder(&cmd, &opt) : run_input(&cmd, opt);
     end_threads();

@@ -132,7 +132,7 @@ ends 0 --help
 for option in --scheme --levels --boundary --creasing --triangles --uv --limit --threads \
               --tessellate --curve --vertex-rule \
               --crease-angle --crease-smoothing-groups --crease-seams --crease-sharpness \
-              --stream --triangulate --info --explain --time --help --version; do
+              --stream --part --triangulate --info --explain --time --help --version; do
     fine "--help names $option" grep -q -e "$option" out
 done
 for option in "-s, --scheme" "-l, --levels" "-b, --boundary" "-c, --creasing" "-t, --triangles" \
@@ -508,9 +508,9 @@ if [ -d /proc/self/task ] && mkfifo pipe; then
 fi
 
 # While it waits for its output to be read, they have worked.
-# busy PROCESS: another thread than the first comes to have run for 1 ms within two seconds.
+# busy PROCESS: another thread than the first comes to have run for 1 ms within ten seconds.
 busy() {
-    for try in 1 2 3 4 5 6 7 8 9 10; do
+    for try in $(seq 50); do
         sleep 0.2
         if cat /proc/$1/task/*/schedstat 2> /dev/null |
             awk 'NR > 1 && $1 > 1e6 { busy = 1 } END { exit !busy }'; then return 0; fi
@@ -684,6 +684,31 @@ same form.obj two.obj
 cp box.obj itself.obj
 ends 0 --stream -l 2 itself.obj itself.obj
 same itself.obj two.obj
+
+# Parts of the text: one behind the other they are the whole.
+for cage in box_chaikin.obj warnings.obj zoo.obj $cages; do
+    for form in '-l 0' '-l 2' '-L -l 2'; do
+        ends 0 $form --stream $cage whole.obj
+        for n in 1 2 7; do
+            k=1
+            : > parts.obj
+            while [ $k -le $n ]; do
+                subdiv --part $k/$n $form $cage >> parts.obj 2> err
+                k=$((k + 1))
+            done
+            same parts.obj whole.obj
+        done
+    done
+done
+ends 0 -l 4 --part 2/3 box.obj part.obj
+fine "a part is a third" awk -v part="$(wc -c < part.obj)" -v whole="$(subdiv -l 4 box.obj | wc -c)" \
+    'BEGIN { exit !(part > whole / 4 && part < whole / 2) }'
+for part in 0/2 3/2 2 /2 2/ 1/0 x/2 1/2/3 -1/2 99999999999/2; do
+    ends 2 --part $part box.obj kept.obj
+    says "--part needs K/N"
+done
+ends 2 --part 1/2 box.obj form.ply
+ends 2 --part 1/2 --tessellate 2 box.obj
 
 for arguments in 'bad_index.obj' '-s loop box.obj' '-l 30 box.obj'; do
     ends 1 --stream $arguments kept.obj

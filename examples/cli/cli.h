@@ -21,13 +21,14 @@ enum {
     SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, VERTEX_RULE, UV, LIMIT, TESSELLATE, CURVE,
     THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
-    EVAL, FOLDER, PICTURE, STREAM, NO_TAGS, NO_UVS, MERGE_MATERIALS,
+    EVAL, FOLDER, PICTURE, STREAM, PART, NO_TAGS, NO_UVS, MERGE_MATERIALS,
     TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
 
 typedef struct command {
     int         given[OPTION_COUNT];  // the value of each option; -1: not given
     float       numbers[OPTION_COUNT];    // of those with any number
+    int         part_count;           // of PART
     const char *texts[OPTION_COUNT];      // of those with a text
     char      **files;                // all that are named
     int         file_count;
