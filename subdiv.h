@@ -7469,7 +7469,7 @@ static void sdv_check_result(sdv_context *context, const subdiv_surface *surface
 {
     if (!context->result && surface->exact)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT,
-                 "the surface was prepared for SUBDIV_EXACT, for subdiv_evaluate_at");
+                 "the surface was prepared for SUBDIV_EXACT, not for levels from 0 up");
 }
 
 // Checks that a surface makes a mesh. others: the call's other arguments are there.
