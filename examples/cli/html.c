@@ -98,26 +98,24 @@ static void put_materials(encoder *e, const subdiv_mesh *mesh, const materials *
 }
 
 // The creases that fade and those that never do, then such corners, as edges from a vertex to
-// itself. A list that is empty is 0.
+// itself.
 static void put_creases(encoder *e, const subdiv_mesh *mesh)
 {
     put_text(e, ",\n\"creases\":[");
     for (int list = 0; list < 4; list++) {
-        int corners = list >= 2, count = corners ? mesh->corner_count : mesh->crease_count, any = 0;
+        int corners = list >= 2, count = corners ? mesh->corner_count : mesh->crease_count;
         const int *vertices = corners ? mesh->corner_vertices : mesh->crease_vertices;
         const float *sharpness = corners ? mesh->corner_sharpness : mesh->crease_sharpness;
-        if (list) put_text(e, ",");
+        put_text(e, list ? "\",\"" : "\"");
         for (int i = 0; i < count; i++) {
             int forever = sharpness[i] >= SUBDIV_INFINITE;
             if (sharpness[i] <= 0 || forever != list % 2) continue;
-            if (!any++) put_text(e, "\"");
             put_words(e, vertices + (corners ? i : 2 * i), 1);
             put_words(e, vertices + (corners ? i : 2 * i + 1), 1);
         }
         end_words(e);
-        put_text(e, any ? "\"" : "0");
     }
-    put_text(e, "]");
+    put_text(e, "\"]");
 }
 
 static size_t count_corners(const subdiv_mesh *mesh)
