@@ -40,7 +40,9 @@ async function open(context, name, obj, ...options) {
 }
 
 const frame = page =>
-    page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+    page.evaluate(
+        () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))),
+    );
 
 async function picture(page) {
     await frame(page);

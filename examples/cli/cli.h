@@ -115,7 +115,7 @@ typedef struct frame {
     double low[3], high[3];
 } frame;
 
-// A mesh as it is shown: in the unit ball or, without a box, where it is; with normals, and with the
+// A mesh as it is shown: in the unit ball or, without a box, where it is. It has normals and the
 // creases of its cage.
 typedef struct shape {
     subdiv_mesh mesh;
@@ -142,7 +142,7 @@ int    draw_picture(work *w, const command *cmd, const subdiv_options *opt);
 int    check_page_size(const command *cmd, double points, double corners,
                        const subdiv_options *opt);           // of the result
 int    write_page(const work *w, const command *cmd, const subdiv_options *opt);
-extern const char *const viewer_page[], *const viewer_script[];      // their lines, then NULL
+extern const char *const viewer_page[], *const viewer_script[], *const viewer_draw[];   // to NULL
 subdiv_result refine_curves(work *w, const command *cmd, const subdiv_options *opt);
 int    run_samples(work *w, const command *cmd, const subdiv_options *opt);
 

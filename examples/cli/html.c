@@ -1,5 +1,5 @@
 // --html: a page that shows the result and the levels before it in any browser, without a network.
-// The page is in viewer.c; here are the meshes in it, in numbers of four bytes as base64.
+// The page is in viewer.c and viewer_draw.c; here are its meshes, in numbers of four bytes as base64.
 #include "cli.h"
 
 #include <stdlib.h>
@@ -244,6 +244,7 @@ static subdiv_result put_page(encoder *e, const work *w, const command *cmd,
     if (!result) result = put_steps(e, w, cmd, all, opt);
     put_text(e, "]}\n</script>\n<script>\n");
     put_lines(e, viewer_script);
+    put_lines(e, viewer_draw);
     put_text(e, "</script>\n</html>\n");
     flush(e);
     return result || !e->failed ? result : set_error(opt, SUBDIV_ERROR_IO, "writing failed");
