@@ -106,13 +106,19 @@ async function use(page) {
     check('switches go back', (await picture(page)) === home);
     await changes(page, 'the dark', () => page.emulateMedia({ colorScheme: 'dark' }));
     await page.emulateMedia({ colorScheme: 'light' });
-    await page.setViewportSize({ width: 300, height: 360 });
+}
+
+// The picture has the size of the window, in pixels of the screen.
+async function sharp(browser) {
+    const context = await browser.newContext({ ...settings, deviceScaleFactor: 2 });
+    const page = await open(context, 'cube', cube, '-l', '2');
+    const size = () => page.evaluate(() => `${gl.drawingBufferWidth} ${gl.drawingBufferHeight}`);
+    check('pixels of the screen', (await size()) === '800 600');
+    await page.setViewportSize({ width: 200, height: 180 });
     await frame(page);
-    check(
-        'the picture has the size of the window, in pixels of the screen',
-        (await page.evaluate(() => `${gl.drawingBufferWidth} ${gl.drawingBufferHeight}`)) ===
-            '600 720',
-    );
+    check('another size', (await size()) === '400 360');
+    check('another size is drawn', (await drawn(page)) > 0.05);
+    await context.close();
 }
 
 async function touch(context, page) {
@@ -149,24 +155,26 @@ async function refine(page) {
     });
 }
 
+const settings = {
+    viewport: { width: 400, height: 300 },
+    hasTouch: true,
+    offline: true,
+    colorScheme: 'light',
+};
+
 (async () => {
     const browser = await chromium.launch({
         executablePath: browserPath,
         args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
     });
-    const context = await browser.newContext({
-        viewport: { width: 400, height: 300 },
-        deviceScaleFactor: 2,
-        hasTouch: true,
-        offline: true,
-        colorScheme: 'light',
-    });
+    const context = await browser.newContext(settings);
     let page = await open(context, 'cube', cube, '-l', '3');
     check('the page has the name of the mesh', (await page.title()) === 'cube');
     await levels(page, 3);
     await use(page);
     await touch(context, page);
     await refine(page);
+    await sharp(browser);
     page = await open(context, 'cube', cube, '-L', '-l', '1');
     await levels(page, 1, '-L');
     page = await open(context, `<b>"&amp;'\u00e9`, cube, '--tessellate', '3');

@@ -1,5 +1,5 @@
 // --html: a page that shows the result and the levels before it in any browser, without a network.
-// The page is in viewer.c and viewer_draw.c; here are its meshes, in numbers of four bytes as base64.
+// The page is in viewer.c and viewer_draw.c. Here are its meshes: numbers of four bytes, as base64.
 #include "cli.h"
 
 #include <stdlib.h>

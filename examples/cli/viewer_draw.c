@@ -153,7 +153,7 @@ const char *const viewer_draw[] = {
 "",
 "function lineArray(points, ends) {",
 "    const array = new Float32Array(3 * ends.length);",
-"    for (let i = 0; i < ends.length; i++) array.set(placed(points, ends[i]), 3 * i);",
+"    for (let i = 0; i < ends.length; i++) place(points, ends[i], array, 3 * i);",
 "    return array;",
 "}",
 "",
