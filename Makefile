@@ -160,6 +160,10 @@ $(OUT)/gallery.log: $(GALLERY:%=$(OUT)/gallery/%) $(DRAWINGS:%=$(OUT)/gallery/%.
 $(OUT)/playground.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/playground.sh $(OUT)/playground.html $<
 
+# Pages of --html, with what make playground has installed.
+$(OUT)/viewer.log: $(OUT)/subdiv FORCE
+	$(RUN) sh tests/viewer.sh $<
+
 $(OUT)/cli.log: $(OUT)/subdiv FORCE
 	$(RUN) sh tests/test_cli.sh $<
 
@@ -184,7 +188,7 @@ TEST_LOGS = $(OUT)/opensubdiv.log
 endif
 TEST_LOGS += $(OUT)/compile.log $(OUT)/edited.log $(OUT)/docs.log $(TESTS:%=$(OUT)/%.log) \
              $(FUZZERS:%=$(OUT)/fuzz_%.log) $(OUT)/plain.log $(OUT)/cli.log $(OUT)/examples.log \
-             $(OUT)/gallery.log $(OUT)/playground.log
+             $(OUT)/gallery.log $(OUT)/playground.log $(OUT)/viewer.log
 
 test: $(TEST_LOGS) $(OUT)/make_cages
 ifneq ($(HAVE_OSD),yes)

@@ -60,6 +60,8 @@ static const option options[OPTION_COUNT] = {
     {0, "picture", "FILE.png",
      "draw the result; if OUTPUT is named, too, the cage beside it. Creases are orange,\n"
      "          those that never fade red"},
+    {0, "html", "FILE.html",
+     "save a page that shows the result in any browser, to turn, with all levels up to it"},
     {0, "stream", NULL, "refine and save piece by piece, in little memory; large results always"},
     {0, "part", "K/N",
      "save only part K of N of the OBJ file, --stream; put in order one behind the other (cat),\n"
@@ -160,7 +162,7 @@ static int set_option(command *cmd, int id, const char *value)
     if (value == NULL) return misused("--%s needs a value", o->name);
     if (id == CREASE_ANGLE || id == CREASE_SHARPNESS) return set_number(cmd, id, value);
     if (id == PART) return set_part(cmd, value);
-    if (id == EVAL || id == FOLDER || id == PICTURE) {
+    if (id == EVAL || id == FOLDER || id == PICTURE || id == HTML) {
         cmd->texts[id] = value;
         cmd->given[id] = 1;
         return DONE;
@@ -218,22 +220,30 @@ static int find_format(const char *path)
     return dot == NULL || dot == name || ends_with(name, ".obj") ? OBJ : UNKNOWN;
 }
 
+// Whether the command shows the result, on a picture or a page.
+static int shows_result(const command *cmd)
+{
+    return cmd->given[PICTURE] == 1 || cmd->given[HTML] == 1;
+}
+
 // Refuses options that do not go together.
 static int check_options(const command *cmd)
 {
     const int *given = cmd->given;
-    int streams = given[STREAM] == 1, prints = given[EXPLAIN] >= 0, shows = given[PICTURE] == 1;
+    int streams = given[STREAM] == 1, prints = given[EXPLAIN] >= 0, shows = shows_result(cmd);
     if (given[TESSELLATE] > 0 && (given[LEVELS] >= 0 || streams))
         return misused("--tessellate has no levels and is no stream");
     if (given[CURVE] >= 0 && (given[TESSELLATE] > 0 || streams || prints || given[EVAL] == 1))
         return misused("--curve is not for surfaces: no --tessellate, --stream, --explain, --eval");
     if (shows && (streams || prints || given[CURVE] >= 0))
-        return misused("--picture shows a whole surface: no --stream, --explain, --curve");
+        return misused("--picture and --html show a whole surface: no --stream, --explain, --curve");
     if (given[CREASE_SHARPNESS] == 1 && given[CREASE_ANGLE] < 0 && given[CREASE_GROUPS] < 0 &&
         given[CREASE_SEAMS] < 0)
         return misused("--crease-sharpness needs one of the other crease options");
     if (given[PICTURE] == 1 && !ends_with(cmd->texts[PICTURE], ".png"))
         return misused("--picture needs a name that ends in .png, not '%s'", cmd->texts[PICTURE]);
+    if (given[HTML] == 1 && !ends_with(cmd->texts[HTML], ".html"))
+        return misused("--html needs a name that ends in .html, not '%s'", cmd->texts[HTML]);
     return DONE;
 }
 
@@ -242,7 +252,7 @@ static int check_files(const command *cmd)
 {
     const int *given = cmd->given;
     const char *output = cmd->output;
-    int folder = given[FOLDER] == 1, shows = given[PICTURE] == 1;
+    int folder = given[FOLDER] == 1, shows = shows_result(cmd);
     if (cmd->file_count == 0) return misused("no INPUT.obj is named");
     if (cmd->file_count > 2 && !folder)
         return misused("%s is one file too many; -o FOLDER takes any number", cmd->files[2]);
@@ -312,7 +322,7 @@ static int print_help(void)
          "       subdiv [options] -o FOLDER INPUT.obj...\n"
          "Refines a cage by subdivision. INPUT - is standard input. OUTPUT is a .obj, .ply, .stl\n"
          "or .glb; without it, or with OUTPUT -, OBJ goes to standard output, unless --picture\n"
-         "shows the result. Options win over the file's own tags.\n");
+         "or --html shows the result. Options win over the file's own tags.\n");
     for (int id = 0; id < OPTION_COUNT; id++) {
         const option *o = &options[id];
         char letter[] = "-?, ";
@@ -406,7 +416,7 @@ static int save(work *w, const command *cmd, const subdiv_options *opt)
 static int refine_then_save(work *w, const command *cmd, const subdiv_options *opt)
 {
     subdiv_tessellation how = {0};
-    int shows = cmd->given[PICTURE] == 1;
+    int shows = shows_result(cmd);
     how.rate = cmd->given[TESSELLATE];
     begin_step("refine");
     subdiv_result result = cmd->given[CURVE] >= 0 ? refine_curves(w, cmd, opt) : how.rate > 0
@@ -414,7 +424,12 @@ static int refine_then_save(work *w, const command *cmd, const subdiv_options *o
         : subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
     if (result) return report(cmd->input, opt);
     end_step(w->fine.vertex_count);
+    if (shows && w->fine.face_count == 0) {
+        set_error(opt, SUBDIV_ERROR_EMPTY, "there are no faces to show");
+        return report(cmd->input, opt);
+    }
     if (cmd->given[PICTURE] == 1 && draw_picture(w, cmd, opt)) return FAILED;
+    if (cmd->given[HTML] == 1 && write_page(w, cmd, opt)) return FAILED;
     subdiv_surface_free(w->surface);
     w->surface = NULL;
     subdiv_mesh_free(&w->cage);
@@ -438,7 +453,7 @@ static int stream(work *w, const command *cmd, const subdiv_options *opt)
 static int refine(work *w, const command *cmd, const subdiv_options *opt)
 {
     int levels = levels_of(cmd);
-    int is_mesh = find_format(cmd->output) != OBJ || cmd->given[PICTURE] == 1;
+    int is_mesh = find_format(cmd->output) != OBJ || shows_result(cmd);
     if (cmd->given[TESSELLATE] > 0) levels = SUBDIV_EXACT;
     if (w->cage.line_count > 0 && levels != 0 && opt->error->warning_count++ == 0)
         snprintf(opt->error->warning, sizeof opt->error->warning,
@@ -447,6 +462,9 @@ static int refine(work *w, const command *cmd, const subdiv_options *opt)
     if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report(cmd->input, opt);
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     end_step(levels == SUBDIV_EXACT ? w->cage.vertex_count : vertex_count);
+    if (cmd->given[HTML] == 1 && levels != SUBDIV_EXACT &&
+        check_page_size(cmd, vertex_count, 4.0 * subdiv_surface_face_count(w->surface), opt))
+        return FAILED;
     if (cmd->given[STREAM] == 1 || (vertex_count > LARGE && !is_mesh))
         return stream(w, cmd, opt);
     return refine_then_save(w, cmd, opt);
@@ -456,7 +474,7 @@ static int refine(work *w, const command *cmd, const subdiv_options *opt)
 static int run(work *w, const command *cmd, const subdiv_options *opt)
 {
     int info = cmd->given[INFO] == 1;
-    int shows = cmd->given[PICTURE] == 1;
+    int shows = shows_result(cmd);
     begin_step("load");
     if (load(w, cmd, opt)) return report(cmd->input, opt);
     if (add_creases(&w->cage, cmd, opt)) return FAILED;

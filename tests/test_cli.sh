@@ -970,6 +970,75 @@ fine "with OUTPUT, the picture is twice as wide" test \
     "$($width box.png | awk '{ print 2 * ($3 * 256 + $4) }')"
 ends 2 --picture box.jpg box.obj
 ends 2 --picture box.png --stream box.obj
+printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' > stroke.obj
+ends 1 --picture stroke.png stroke.obj
+says "there are no faces to show"
+
+# Pages: the data of each level is what the level writes by itself.
+# words FORMAT NAME STEP: the numbers of an array of page.html, a line each; of the first STEP is 1
+words() {
+    sed -n "s/^\"$2\":\"\([^\"]*\).*/\1/p" page.html | sed -n "$3p" | base64 -d | od -An -v -w4 "-t$1" |
+        tr -d ' '
+}
+
+# page_holds OPTIONS: page.html has the points and faces that subdiv writes for levels 0 to 2
+page_holds() {
+    for level in 0 1 2; do
+        ends 0 "$@" -l $level box.obj level.obj
+        words f4 points $((level + 1)) > points
+        words u4 faces $((level + 1)) > faces
+        fine "--html $*: the points of level $level" sh -c "grep '^v ' level.obj | cut -d ' ' -f 2- |
+            tr ' ' '\n' | paste - points | awk '{ d = \$1 - \$2; if (d * d > 1e-12 || NF < 2) exit 1 }'"
+        grep '^f ' level.obj | cut -d ' ' -f 2- | tr ' ' '\n' |
+            awk -F / '{ print $1 - 1 }' > expected
+        same faces expected
+    done
+}
+
+ends 0 -l 2 --html page.html box.obj
+fine "--html prints nothing" test ! -s out
+page_holds
+fine "--html: a page ends" test "$(tail -n 1 page.html)" = "</html>"
+fine "--html: two creases that fade, each in 4 pieces" test "$(grep -o '^"creases":\["[^"]*' page.html |
+    sed -n '3s/.*"//p' | base64 -d | wc -c)" -eq 64
+fine "--html: needs nothing from elsewhere" sh -c '! grep -q "https\{0,1\}:" page.html'
+ends 0 -L -l 2 --html page.html box.obj beside.obj
+page_holds -L
+words f4 normals 1 > normals
+fine "--html: normals have length 1" awk '{ s += $1 * $1 } NR % 3 == 0 {
+    if ((s - 1) ^ 2 > 1e-10) exit 1; s = 0 }' normals
+ends 0 -L -l 2 box.obj level.obj
+same level.obj beside.obj
+cp box.obj '<b>"&.obj'
+ends 0 --html page.html '<b>"&.obj'
+fine "--html: a name with signs of HTML" grep -qx '<title>&#60;b&#62;&#34;&#38;</title>' page.html
+cp box.obj "$(printf 'caf\351.obj')"
+ends 0 --html page.html "$(printf 'caf\351.obj')"
+fine "--html: a name in Latin-1" grep -qx '<title>caf&#233;</title>' page.html
+cp box.obj "$(printf 'caf\303\251.obj')"
+ends 0 --html page.html "$(printf 'caf\303\251.obj')"
+fine "--html: a name in UTF-8" grep -qx "$(printf '<title>caf\303\251</title>')" page.html
+ends 0 --tessellate 3 --html page.html box.obj
+fine "--html: a tessellation and its cage" test "$(grep -o '"label":"[^"]*"' page.html | tr '\n' ' ')" \
+    = '"label":"level 0" "label":"3 pieces an edge" '
+echo old > page.html
+ends 1 -l 10 --html page.html box.obj
+says "the page would have 373 MB, 100 are allowed: take fewer levels"
+ends 1 --tessellate 700 --html page.html box.obj
+says "take fewer pieces"
+ends 1 --html page.html stroke.obj
+says "there are no faces to show"
+fine "--html: what fails leaves the file" test "$(cat page.html)" = old
+ends 1 --html no/page.html box.obj
+if [ -c /dev/full ]; then
+    ln -s /dev/full full.html
+    ends 1 --html full.html box.obj
+fi
+ends 2 --html page.png box.obj
+ends 2 --html page.html --stream box.obj
+ends 2 --html page.html --curve chaikin box.obj
+ends 2 --html page.html -o results box.obj
+ends 2 --html
 
 # Several inputs go to a folder; one that fails does not keep the others.
 ends 0 -l 1 -o results box.obj limit.obj

@@ -21,7 +21,7 @@ enum {
     SCHEME, LEVELS, BOUNDARY, CREASING, TRIANGLES, VERTEX_RULE, UV, LIMIT, TESSELLATE, CURVE,
     THREADS,
     CREASE_ANGLE, CREASE_GROUPS, CREASE_SEAMS, CREASE_SHARPNESS,
-    EVAL, FOLDER, PICTURE, STREAM, PART, NO_TAGS, NO_UVS, MERGE_MATERIALS,
+    EVAL, FOLDER, PICTURE, HTML, STREAM, PART, NO_TAGS, NO_UVS, MERGE_MATERIALS,
     TRIANGULATE, KEEP_HOLES, INFO, EXPLAIN, TIME, HELP, VERSION, OPTION_COUNT
 };
 
@@ -88,6 +88,8 @@ enum { OBJ, PLY, STL, GLB, UNKNOWN };
 // Writes a mesh. Gives it normals if the format needs them.
 subdiv_result save_mesh(subdiv_mesh *mesh, int format, FILE *file, const subdiv_options *opt);
 
+int    is_utf8(const char *text);
+
 // Notes an error as the library does.
 subdiv_result set_error(const subdiv_options *opt, subdiv_result code, const char *message);
 
@@ -114,7 +116,8 @@ typedef struct frame {
     double low[3], high[3];
 } frame;
 
-// A mesh as it is shown: in the unit ball, with normals, and with the creases of its cage.
+// A mesh as it is shown: in the unit ball or, without a box, where it is. It has normals and the
+// creases of its cage.
 typedef struct shape {
     subdiv_mesh mesh;
     float      *positions;
@@ -137,6 +140,10 @@ void   end_threads(void);
 int    inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt);
 int    explain_all(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt);
 int    draw_picture(work *w, const command *cmd, const subdiv_options *opt);
+int    check_page_size(const command *cmd, double points, double corners,
+                       const subdiv_options *opt);           // of the result
+int    write_page(const work *w, const command *cmd, const subdiv_options *opt);
+extern const char *const viewer_page[], *const viewer_script[], *const viewer_draw[];   // to NULL
 subdiv_result refine_curves(work *w, const command *cmd, const subdiv_options *opt);
 int    run_samples(work *w, const command *cmd, const subdiv_options *opt);
 

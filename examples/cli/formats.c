@@ -197,15 +197,20 @@ static size_t utf8_size(const char *text)
     return size;
 }
 
+int is_utf8(const char *text)
+{
+    while (*text && utf8_size(text)) text += utf8_size(text);
+    return *text == 0;
+}
+
 // Text that is not UTF-8 is taken for Latin-1.
 static void add_string(json *j, const char *text)
 {
-    int is_utf8 = 1;
-    for (const char *p = text; *p && is_utf8; p += utf8_size(p)) is_utf8 = utf8_size(p) > 0;
+    int utf8 = is_utf8(text);
     add(j, "\"");
     for (; *text; text++) {
         unsigned c = (unsigned char)*text;
-        if (c < 32 || c == '"' || c == '\\' || c == 127 || (c > 127 && !is_utf8))
+        if (c < 32 || c == '"' || c == '\\' || c == 127 || (c > 127 && !utf8))
             add(j, "\\u%04x", c);
         else add_bytes(j, text, 1);
     }

@@ -123,9 +123,9 @@ subdiv_result make_shape(shape *s, const subdiv_mesh *mesh, const frame *box,
     s->creases = (int *)malloc((2 * sizeof(int) + sizeof(float)) * (creases + 1));
     if (!result && (!edges || !s->positions || !s->creases))
         result = set_error(opt, SUBDIV_ERROR_MEMORY, "out of memory");
-    if (!result) result = place_points(s->positions, mesh, box, opt);
+    if (!result && box) result = place_points(s->positions, mesh, box, opt);
     if (!result) {
-        s->mesh.positions = s->positions;
+        if (box) s->mesh.positions = s->positions;
         s->mesh.crease_vertices = s->creases;
         s->mesh.crease_sharpness = (float *)(s->creases + 2 * creases);
         mark_creases(&s->mesh, cage, edges, (size_t)subdiv_surface_edge_count(surface), pieces);
