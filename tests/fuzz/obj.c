@@ -95,7 +95,7 @@ static void check_saved(const subdiv_mesh *mesh)
     free((void *)t.bytes);
 }
 
-// Streamed, a result has the text that it has as a mesh.
+// Streamed, in one or more parts, a result has the text that it has as a mesh.
 static void check_stream(const subdiv_mesh *cage, int levels, const subdiv_options *how)
 {
     subdiv_options opt = *how;
@@ -104,7 +104,11 @@ static void check_stream(const subdiv_mesh *cage, int levels, const subdiv_optio
     REQUIRE(settled(subdiv_prepare(&surface, cage, levels, &opt)));
     REQUIRE(settled_mesh(subdiv_surface_mesh(&fine, surface, cage->positions, &opt), &fine));
     text t = save(&fine);
-    REQUIRE(settled(subdiv_stream_obj_callback(surface, cage->positions, write_piece, &t, &opt)));
+    opt.part_count = (int)draw(4);
+    do {
+        REQUIRE(settled(subdiv_stream_obj_callback(surface, cage->positions, write_piece, &t,
+                                                   &opt)));
+    } while (++opt.part < opt.part_count);
     REQUIRE(t.at == t.size);
     free((void *)t.bytes);
     subdiv_mesh_free(&fine);
