@@ -260,6 +260,17 @@ static void test_wrong_chains(void)
         CHECK_TEXT(error.message, wrong[i].message);
         CHECK(c.mesh.crease_count == 0 && c.mesh.memory == NULL);
     }
+    for (int i = 0; i < 10; i++) {                  // each vertex of each chain has to exist
+        const int lengths[] = { 2, 3 }, place = i / 2, bad = i % 2 ? -1 : c.mesh.vertex_count;
+        const float sharpness[] = { 1, 1 };
+        int vertices[] = { 0, 1, 2, 0, 3 };
+        vertices[place] = bad;
+        CHECK_EQUAL(subdiv_crease_chains(&c.mesh, 2, lengths, vertices, 2, sharpness, &opt),
+                    SUBDIV_ERROR_INDEX);
+        CHECK_EQUAL(error.vertex, bad);
+        CHECK_EQUAL(error.message[6] - '0', place >= 2);
+        CHECK(c.mesh.crease_count == 0 && c.mesh.memory == NULL);
+    }
     CHECK_EQUAL(subdiv_crease_chains(&c.mesh, 0, NULL, NULL, 0, NULL, &opt), SUBDIV_OK);
     CHECK_EQUAL(subdiv_crease_chains(&c.mesh, 1, NULL, NULL, 1, NULL, &opt), SUBDIV_ERROR_ARGUMENT);
     CHECK_EQUAL(subdiv_crease_chains(&c.mesh, -1, NULL, NULL, 0, NULL, &opt),

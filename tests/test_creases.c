@@ -366,6 +366,28 @@ static void test_no_area(void)
     CHECK_EQUAL(crease_count_at(&c, 1), 1);
 }
 
+// What is rounding grows with the largest coordinate: far away a thin wall has no area, whichever
+// axis leads there and whichever vertex the wall begins with.
+static void test_no_area_far_away(void)
+{
+    static test_cage c;
+    const int left[] = {0, 1, 2, 3};
+    for (int i = 0; i < 12; i++) {
+        const int axis = i / 3, first = i % 3, far = axis < 3;
+        const int ring[] = {1, 4, 2, 1, 4}, *wall = ring + first;
+        cage_clear(&c, SUBDIV_CATMULL_CLARK);
+        cage_vertex(&c, 0, 0, 0);
+        cage_vertex(&c, 1, 0, 0);
+        cage_vertex(&c, 1, 1, 0);
+        cage_vertex(&c, 0, 1, 0);
+        cage_vertex(&c, 1, 0.25, 1.0 / 4096);
+        cage_face(&c, 4, left);
+        cage_face(&c, 3, wall);
+        for (int v = 0; v < 5 && far; v++) c.positions[3 * v + axis] += 1024;
+        CHECK_EQUAL(crease_count_at(&c, 1), !far);
+    }
+}
+
 // Boundary and non-manifold edges are sharp anyway, also faces that are wound against each other.
 static void test_sharp_by_shape(void)
 {
@@ -683,6 +705,7 @@ int main(void)
     RUN(test_cylinder);
     RUN(test_sheet);
     RUN(test_no_area);
+    RUN(test_no_area_far_away);
     RUN(test_sharp_by_shape);
     RUN(test_smoothing_groups);
     RUN(test_unfolded_cube);

@@ -753,6 +753,29 @@ static void test_large_stream(void)
     subdiv_mesh_free(&fine);
 }
 
+// A cage of many vertices with colours.
+static void test_stream_of_a_large_cage(void)
+{
+    static test_cage prism;
+    float colors[3 * 10];
+    subdiv_mesh cage = {0}, fine = {0};
+    subdiv_surface *surface = NULL;
+    text saved = new_text(0), streamed = new_text(0);
+    for (int i = 0; i < 30; i++) colors[i] = (float)(i % 7) / 7;
+    build_prism(&prism, 5);
+    prism.mesh.colors = colors;
+    CHECK_EQUAL(subdiv_refine(&cage, &prism.mesh, 5, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_prepare(&surface, &cage, 1, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, cage.positions, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_save_obj_callback(&fine, keep_text, &saved, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_stream_obj_callback(surface, cage.positions, keep_text, &streamed, NULL),
+                SUBDIV_OK);
+    CHECK(saved.size == streamed.size && saved.sum == streamed.sum);
+    subdiv_surface_free(surface);
+    subdiv_mesh_free(&fine);
+    subdiv_mesh_free(&cage);
+}
+
 // ----------------------------------------------------------------------- polygons under Loop
 
 // With triangulate the prepared faces are the triangles, but results name the polygons.
@@ -880,6 +903,7 @@ int main(void)
     RUN(test_threads_on_large_cages);
     RUN(test_stream);
     RUN(test_large_stream);
+    RUN(test_stream_of_a_large_cage);
     RUN(test_triangulated);
     RUN(test_no_faces);
     RUN(test_allocations);

@@ -834,6 +834,36 @@ static void test_channels(void)
     }
 }
 
+// Nothing is written beside scratch, wherever that begins.
+static void check_scratch(const subdiv_mesh *m, int channels)
+{
+    static float in[8 * RANDOM_MAX_VERTICES];
+    subdiv_surface *surface = NULL;
+    CHECK_EQUAL(subdiv_prepare(&surface, m, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    size_t size = subdiv_scratch_size(surface, channels), room = size + 256;
+    unsigned char *memory = (unsigned char *)malloc(room);
+    for (size_t first = 64; first < 128; first += 20) {
+        memset(memory, 0x55, room);
+        CHECK_EQUAL(subdiv_evaluate_begin(surface, channels, in, 0, memory + first, NULL),
+                    SUBDIV_OK);
+        for (size_t i = 0; i < first; i++) CHECK(memory[i] == 0x55);
+        for (size_t i = first + size; i < room; i++) CHECK(memory[i] == 0x55);
+    }
+    free(memory);
+    subdiv_surface_free(surface);
+}
+
+static void test_scratch(void)
+{
+    for (int i = 0; i < 16; i++) {
+        random_cage *c = random_cage_new((unsigned)(1100 + i), RANDOM_ALL);
+        check_scratch(&c->mesh, 1 + i % 8);
+        c->mesh.face_count = c->mesh.crease_count = c->mesh.hole_count = c->mesh.uv_count = 0;
+        check_scratch(&c->mesh, 1 + i % 8);
+        random_cage_free(c);
+    }
+}
+
 // -------------------------------------------------------------------------------------- batches
 
 // Of many locations the first one that does not exist is named, in any order of jobs.
@@ -1144,6 +1174,7 @@ int main(void)
     RUN(test_sizes);
     RUN(test_single_faces);
     RUN(test_channels);
+    RUN(test_scratch);
     RUN(test_batches);
     RUN(test_many_polynomials);
     RUN(test_without_values);

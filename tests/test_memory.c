@@ -1245,17 +1245,17 @@ int main(int argc, char **argv)
 {
     if (argc > 1) cages = atoi(argv[1]);
     make_strip();
-    RUN(test_random_cages);
-    RUN(test_large);
+    RUN(test_wrong_arguments);
+    RUN(test_bad_texts);
     RUN(test_failing_reads);
     RUN(test_failing_writes);
-    RUN(test_bad_texts);
 #ifndef _WIN32
     RUN(test_kinds_of_files);
     RUN(test_full_disk);
     RUN(test_read_only);
 #endif
-    RUN(test_wrong_arguments);
+    RUN(test_large);
+    RUN(test_random_cages);
     remove(path);
     free(obj_text);
     if (heap.wrong || heap.foreign) test_failed++;

@@ -909,6 +909,13 @@ static void test_errors(void)
 
 int main(void)
 {
+    RUN(test_explained_catmull_clark);
+    RUN(test_explained_shapes);
+    RUN(test_explained_loop);
+    RUN(test_explained_points);
+    RUN(test_explained_data);
+    RUN(test_explained_room);
+    RUN(test_explained_masks);
     RUN(test_random_cages);
     RUN(test_face_varying);
     RUN(test_limits);
@@ -916,13 +923,6 @@ int main(void)
     RUN(test_anywhere);
     RUN(test_valences);
     RUN(test_papers);
-    RUN(test_explained_masks);
-    RUN(test_explained_catmull_clark);
-    RUN(test_explained_shapes);
-    RUN(test_explained_loop);
-    RUN(test_explained_points);
-    RUN(test_explained_data);
-    RUN(test_explained_room);
     RUN(test_errors);
     return test_end("stencils");
 }

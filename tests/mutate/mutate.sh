@@ -7,34 +7,42 @@
 #
 # First come the tests that know most of the mutant's section, for SECONDS_EACH of processor time,
 # up to the first check that fails; tcc compiles the header for them in a tenth of a second. What
-# survives this is compared as an object at -O2 and then given to make test, unless QUICK is set.
-# Everything is in build/mutate. Stop and start it as you like: results.txt keeps what was found.
+# survives this is compared as an object at -O2, linked with all tests, and then given to make test.
+# QUICK=1 leaves that to a later run. Everything is in build/mutate. Stop and start it as you like:
+# results.txt keeps what was found.
 MUTANTS=${MUTANTS:-320} SEED=${SEED:-1} JOBS=${JOBS:-2} SECONDS_EACH=${SECONDS_EACH:-3}
 out=build/mutate
 results=$out/results.txt
 quick_cc=${QUICK_CC:-$(command -v tcc || echo "cc -O0")}
 flags="-DTEST_STOP -ffp-contract=off"
-own="evaluate memory exact patches obj_numbers"
+cc="${CC:-cc} -std=c99 -DTEST_STOP -ffp-contract=off"
+own="evaluate memory exact obj_numbers buffers"
 linked="recorded order stencils limit creases errors obj_read obj_write check masks uv doors"
-linked="$linked partial_uvs vertex_rules exact_oracle tessellate"
+linked="$linked partial_uvs vertex_rules exact_oracle tessellate curves normals conventions"
+linked="$linked locations invariants"
 mkdir -p $out/0
 touch $results
 
 tests_of() {
     case $1 in
-    memory|errors|validate) echo errors memory obj_read ;;
-    face-varying) echo recorded uv partial_uvs evaluate ;;
-    limit-rows|limit-surface|normals) echo limit evaluate vertex_rules exact ;;
-    platform|grids|evaluate|results*|calls) echo recorded order evaluate limit errors uv ;;
-    split|patches|nests|leaves|locations|cells|polynomials|samples|exact-surface)
+    memory|errors|validate) echo errors memory obj_read conventions ;;
+    face-varying) echo recorded uv partial_uvs conventions evaluate ;;
+    curves) echo curves ;;
+    normals|limit-surface) echo normals creases limit evaluate conventions vertex_rules exact ;;
+    limit-rows) echo limit evaluate vertex_rules exact ;;
+    platform|grids|evaluate|results*|calls)
+        echo recorded order evaluate limit errors locations memory uv ;;
+    locations) echo locations exact stencils exact_oracle ;;
+    split|patches|nests|leaves|cells|polynomials|samples|exact-surface)
         echo exact stencils exact_oracle vertex_rules ;;
     stencils) echo stencils doors ;;
     tile*|tessellator) echo tessellate doors errors ;;
-    generators) echo creases check ;;
+    vertex-buffers) echo buffers errors ;;
+    generators) echo creases check conventions memory ;;
     inspection|oddities) echo check errors ;;
     numbers|obj-read|obj-write) echo obj_numbers obj_read obj_write ;;
     explain) echo stencils vertex_rules ;;
-    *) echo recorded order masks creases limit evaluate uv errors ;;
+    *) echo recorded order masks creases limit evaluate uv errors conventions invariants ;;
     esac
 }
 
@@ -62,7 +70,7 @@ run() {
 # then takes longer does not end. The time of other tests decides nothing.
 prepare() {
     if ! cmp -s subdiv.h $out/0/subdiv.h; then
-        rm -f $out/?/*.o $out/tests
+        rm -f $out/*.o $out/?/*.o $out/tests
         cp subdiv.h $out/0/subdiv.h
     fi
     touch $out/tests
@@ -84,7 +92,7 @@ prepare() {
 
 # quick DIRECTORY SECTION: sets verdict and by.
 quick() {
-    verdict=survived by=-
+    verdict=survived by=quick
     compile "$1" || { verdict=invalid; return; }
     cmp -s "$1/subdiv.o" $out/0/subdiv.o && { verdict=same; return; }
     for test in $(tests_of "$2"); do
@@ -101,11 +109,23 @@ quick() {
     done
 }
 
-# thorough DIRECTORY: the same object when optimised, or make test in a copy of everything.
+# thorough DIRECTORY: the same object when optimised, or all tests that link with it, or make test in
+# a copy of everything.
 thorough() {
-    o2="${CC:-cc} -std=c99 -O2 -ffp-contract=off -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o O2.o"
+    o2="$cc -O2 -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o O2.o"
     [ -e $out/0/O2.o ] || (cd $out/0 && $o2)
     (cd "$1" && $o2) && cmp -s "$1/O2.o" $out/0/O2.o && { verdict=same; return; }
+    by=-
+    for file in tests/test_*.c; do
+        test=${file#tests/test_}
+        test=${test%.c}
+        case " $own growth " in *" $test "*) continue ;; esac
+        object=$out/0/$test.o
+        [ -e "$object" ] || $cc -O1 -DSUBDIV_IMPLEMENTED -I. -c "$file" -o "$object"
+        $cc -pthread "$object" "$1/O2.o" -o "$1/test" -lm && run "$1" 100 && continue
+        verdict=killed by=$test
+        return
+    done
     rm -rf "$1/copy"
     mkdir "$1/copy"
     cp -r Makefile README.md LICENSE tests examples "$1/copy"
@@ -120,7 +140,11 @@ worker() {
     mkdir -p "$dir"
     awk -v jobs="$JOBS" -v me="$1" 'NR % jobs == me - 1' $out/list > "$dir/list"
     while IFS= read -r mutant; do
-        grep -qF -e "${mutant#*	}" $results && continue
+        case $(grep -F -e "${mutant#*	}" $results | tail -n 1) in
+        "") ;;
+        "survived	quick	"*) [ -n "$QUICK" ] && continue ;;
+        *) continue ;;
+        esac
         printf '%s\n' "$mutant" > "$dir/mutant"
         awk -F '\t' 'FNR == NR { at = $1; line = $4; next } { print FNR == at ? line : $0 }' \
             "$dir/mutant" subdiv.h > "$dir/subdiv.h"

@@ -1,5 +1,5 @@
-# awk -f report.awk equivalent.txt list results: what came of the mutants of the list, by section,
-# and which survived. Fails if under 97 % of those that are not equivalent were killed.
+# awk -f report.awk equivalent.txt list results: what came of the mutants of the list in the end, by
+# section, and which survived. Fails if under 97 % of those that are not equivalent were killed.
 function trim(line) { sub(/^ +/, "", line); return line }
 
 FILENAME == ARGV[1] {
@@ -14,8 +14,11 @@ FILENAME == ARGV[2] {
 }
 {
     mutant = part[4] "\t" part[5] "\t" part[6]
-    if (!(mutant in wanted) || mutant in found || part[1] == "invalid") next
-    found[mutant] = 1
+    if (mutant in wanted && part[1] != "invalid") found[mutant] = $0
+}
+
+function tell(result,    part, verdict) {
+    split(result, part, "\t")
     verdict = part[1]
     if (verdict == "survived" && trim(part[5]) "\t" trim(part[6]) in equivalent) verdict = "same"
     if (verdict == "survived") printf "%s:%d\n- %s\n+ %s\n", part[4], part[3], trim(part[5]), trim(part[6])
@@ -31,6 +34,7 @@ function line(s) {
 
 END {
     for (mutant in wanted) left += !(mutant in found)
+    for (mutant in found) tell(found[mutant])
     printf "%-20s %6s %8s %10s %8s\n", "section", "made", "killed", "equivalent", "survived"
     for (s in sections) line(s)
     line("all")
