@@ -3820,16 +3820,14 @@ static inline int sdv_point_across(const sdv_level *level, int h)
 }
 
 // Appends the neighbours of v along its sharp edges (sharp 1) or along the others (0). An edge is
-// sharp if it is so now or, where a corner turns into a crease, on the next level.
+// sharp if it is so now or, where a corner turns into a crease, on the next level. One that no face
+// leads along from v is a boundary or not manifold: sharp forever.
 static int *sdv_add_neighbours(const sdv_level *level, int v, sdv_rule rule, int sharp, int *point)
 {
     for (int h = level->vertex_first[v]; h >= 0; h = level->vertex_next[h]) {
-        int before = sdv_previous(level, h);
         float s = rule == SDV_CREASE ? level->sharpness[h] : sdv_half(level, h);
         if (sdv_is_edge_at(level, h, 1) && (s > 0) == sharp) *point++ = sdv_point_ahead(level, h);
-        s = rule == SDV_CREASE ? sdv_sharpness_before(level, before)
-                               : sdv_half_before(level, before);
-        if (sdv_is_edge_at(level, before, 0) && (s > 0) == sharp)
+        if (sharp && sdv_is_edge_at(level, sdv_previous(level, h), 0))
             *point++ = sdv_point_behind(level, h);
     }
     return point;

@@ -939,6 +939,39 @@ static void test_batches(void)
     }
 }
 
+// Many cubes in the same place: a location close to a vertex has the same bits on all of them, also
+// where the numbers of nests and their faces have more bits than a queue sorts by.
+static void test_many_nests(void)
+{
+    enum { CUBES = 600, FACES = 6 * CUBES };
+    static const int cube[24] = { 0,1,3,2, 4,6,7,5, 0,4,5,1, 2,3,7,6, 0,2,6,4, 1,5,7,3 };
+    static float positions[24 * CUBES], p[2][3 * FACES];
+    static int faces[4 * FACES];
+    static subdiv_location at[FACES];
+    const subdiv_derivatives out = { p[0], p[1], NULL, NULL, NULL, NULL, NULL, 0 };
+    subdiv_mesh m;
+    memset(&m, 0, sizeof m);
+    for (int i = 0; i < 24 * CUBES; i++) positions[i] = (float)(i % 24 / 3 >> i % 3 & 1);
+    for (int i = 0; i < 4 * FACES; i++) faces[i] = i / 24 * 8 + cube[i % 24];
+    m.vertex_count = 8 * CUBES;
+    m.positions = positions;
+    m.face_count = FACES;
+    m.face_size = 4;
+    m.face_vertices = faces;
+    ready r = get_ready(&m, NULL);
+    for (int corner = 0; corner < 4; corner++) {
+        for (int f = 0; f < FACES; f++) {
+            const float u = f % 6 * 1e-3f + 1e-6f, v = 1e-4f;
+            const subdiv_location place = { f, 0, corner % 2 ? 1 - u : u, corner / 2 ? 1 - v : v };
+            at[f] = place;
+        }
+        CHECK_EQUAL(subdiv_evaluate_at(r.surface, 3, r.scratch, FACES, at, &out, NULL), SUBDIV_OK);
+        for (int d = 0; d < 2; d++)
+            CHECK(memcmp(p[d], p[d] + 18, sizeof p[d] - 18 * sizeof(float)) == 0);
+    }
+    put_away(&r);
+}
+
 // With more polynomials than cells can number, their leaves find the others. Each face of a nest has
 // three on every level whose polynomials are kept.
 enum { NEST_DEPTH = 4 };
@@ -1176,6 +1209,7 @@ int main(void)
     RUN(test_channels);
     RUN(test_scratch);
     RUN(test_batches);
+    RUN(test_many_nests);
     RUN(test_many_polynomials);
     RUN(test_without_values);
     RUN(test_values);

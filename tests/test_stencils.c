@@ -2,8 +2,8 @@
 // beside refinement, the masks of the papers as fractions; and what explain says of every rule.
 //
 //     cc -I. tests/test_stencils.c -o build/test_stencils -lm && build/test_stencils
+#include <float.h>
 #include <stdlib.h>
-
 
 #define SUBDIV_IMPLEMENTATION
 #include "subdiv.h"
@@ -284,6 +284,55 @@ static void test_anywhere(void)
         }
         random_cage_free(c);
     }
+}
+
+// The derivatives of the four cubic B-splines at t.
+static double spline(int i, double t, int derivative)
+{
+    static const double c[4][4] = { {1,-3,3,-1}, {4,0,-6,3}, {1,3,3,-3}, {0,0,0,1} };
+    const double *a = c[i];
+    if (derivative == 0) return (a[0] + t * (a[1] + t * (a[2] + t * a[3]))) / 6;
+    return (derivative == 1 ? a[1] + t * (2 * a[2] + t * 3 * a[3]) : 2 * a[2] + 6 * t * a[3]) / 6;
+}
+
+// Weights up to the rounding of the largest one are left out, others not: for each part of a regular
+// stencil alone, whose weights are products of B-splines.
+static void test_rounding(void)
+{
+    test_cage c;
+    subdiv_surface *surface;
+    subdiv_location at[480];
+    subdiv_stencils s;
+    build_grid(&c, SUBDIV_CATMULL_CLARK, 3, 3);
+    for (int i = 0; i < 480; i++) {
+        const subdiv_location place = { 4, 0, (float)exp2(-i / 16.0), (float)(i % 3) / 3 };
+        at[i] = place;
+    }
+    CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_stencils_at(&s, surface, 480, at, NULL), SUBDIV_OK);
+    const int *q = face_vertices(&c.mesh, 4), right = q[1] - q[0], up = q[3] - q[0];
+    const float *parts[6] = { s.weights, s.du, s.dv, s.duu, s.duv, s.dvv };
+    static const int du[6] = { 0, 1, 0, 2, 1, 0 }, dv[6] = { 0, 0, 1, 0, 1, 2 };
+    for (int i = 0; i < 6 * 480; i++) {
+        const int at_i = i / 6, part = i % 6;
+        double exact[16], largest = 0;
+        for (int k = 0; k < 16; k++) {
+            exact[k] = spline(k % 4, (double)at[at_i].u, du[part]) *
+                       spline(k / 4, (double)at[at_i].v, dv[part]);
+            largest = fmax(largest, fabs(exact[k]));
+        }
+        for (int k = 0; k < 16; k++) {
+            const int vertex = q[0] + (k % 4 - 1) * right + (k / 4 - 1) * up;
+            const double size = fabs(exact[k]) / (largest * (double)FLT_EPSILON);
+            double weight = 0;
+            for (size_t j = s.offsets[at_i]; j < s.offsets[at_i + 1]; j++)
+                if (s.indices[j] == vertex) weight = (double)parts[part][j];
+            if (size > 1.05) CHECK_NEAR(weight, exact[k], 1e-3 * fabs(exact[k]));
+            if (size < 0.95) CHECK(weight == 0);
+        }
+    }
+    subdiv_stencils_free(&s);
+    subdiv_surface_free(surface);
 }
 
 // ----------------------------------------------------------------------- around irregular vertices
@@ -921,6 +970,7 @@ int main(void)
     RUN(test_limits);
     RUN(test_parts);
     RUN(test_anywhere);
+    RUN(test_rounding);
     RUN(test_valences);
     RUN(test_papers);
     RUN(test_errors);
