@@ -1046,9 +1046,8 @@ static void test_without_values(void)
 
 // Values are a surface of their own: at the points of the refined one they have its values in the
 // limit, which boundaries and seams, corners of all rules, are refined towards.
-static void check_values(random_cage *c, subdiv_uv_rule rule)
+static void check_values(const subdiv_mesh *m, subdiv_uv_rule rule)
 {
-    const subdiv_mesh *m = &c->mesh;
     subdiv_surface *exact = NULL, *fine = NULL;
     CHECK_EQUAL(subdiv_prepare_face_varying(&exact, m, m->uv_count, m->face_uvs, rule, SUBDIV_EXACT,
                                             NULL), SUBDIV_OK);
@@ -1097,8 +1096,33 @@ static void test_values(void)
         snprintf(context, sizeof context, "seed %u", seed);
         test_context = context;
         if (c->mesh.uv_count && c->mesh.face_count < 40)
-            check_values(c, (subdiv_uv_rule)(checked++ % 6));
+            check_values(&c->mesh, (subdiv_uv_rule)(checked++ % 6));
         random_cage_free(c);
+    }
+}
+
+// A seam along the middle row of a sheet; a semi-sharp crease leads to it on one side. By these rules
+// the values on the other side are semi-sharp with it.
+static void test_values_across_a_seam(void)
+{
+    enum { N = 4, VALUES = (N + 1) * (N + 1) };
+    test_cage c;
+    float uvs[4 * VALUES];
+    int face_uvs[4 * N * N];
+    for (int i = 0; i < 4; i++) {
+        const int above = i % 2;
+        build_grid(&c, SUBDIV_CATMULL_CLARK, N, N);
+        for (int k = 0; k < 4 * VALUES; k++) uvs[k] = (float)(k * 37 % 64) / 64;
+        for (int k = 0; k < 4 * N * N; k++)
+            face_uvs[k] = c.mesh.face_vertices[k] + (k < 2 * N * N ? 0 : VALUES);
+        for (int k = 0; k < 2; k++) {
+            const int row = above ? 2 + k : k, vertex = row * (N + 1) + 2;
+            cage_crease(&c, vertex, vertex + N + 1, 1.75);
+        }
+        c.mesh.uv_count = 2 * VALUES;
+        c.mesh.uvs = uvs;
+        c.mesh.face_uvs = face_uvs;
+        check_values(&c.mesh, i < 2 ? SUBDIV_UV_CORNERS_PLUS1 : SUBDIV_UV_CORNERS_PLUS2);
     }
 }
 
@@ -1213,6 +1237,7 @@ int main(void)
     RUN(test_many_polynomials);
     RUN(test_without_values);
     RUN(test_values);
+    RUN(test_values_across_a_seam);
     RUN(test_locations);
     RUN(test_refused);
     return test_end("test_exact");
