@@ -683,6 +683,104 @@ static void test_normals_of_a_mesh(void)
     subdiv_mesh_free(&c.mesh);
 }
 
+// ------------------------------------------------------------------------------- beside others
+
+// Copies of a cage beside each other, in one mesh. Of the k-th one crease is of another sharpness.
+enum { COPIES = 6 };
+
+typedef struct crowd {
+    subdiv_mesh mesh;
+    float positions[3 * COPIES * RANDOM_MAX_VERTICES], crease_sharpness[COPIES * RANDOM_MAX_CREASES];
+    float corner_sharpness[COPIES * RANDOM_MAX_CORNERS];
+    int   face_sizes[COPIES * RANDOM_MAX_FACES], crease_vertices[2 * COPIES * RANDOM_MAX_CREASES];
+    int   face_vertices[COPIES * RANDOM_MAX_FACES * RANDOM_MAX_SIZE];
+    int   corner_vertices[COPIES * RANDOM_MAX_CORNERS];
+} crowd;
+
+static void join_crowd(crowd *all, const subdiv_mesh *m)
+{
+    subdiv_mesh *mesh = &all->mesh;
+    const int first = mesh->vertex_count, corners = face_vertex_count(m);
+    for (int i = 0; i < 3 * m->vertex_count; i++) all->positions[3 * first + i] = m->positions[i];
+    for (int i = 0; i < corners; i++)
+        all->face_vertices[face_vertex_count(mesh) + i] = first + m->face_vertices[i];
+    for (int f = 0; f < m->face_count; f++)
+        all->face_sizes[mesh->face_count++] = m->face_size ? m->face_size : m->face_sizes[f];
+    for (int i = 0; i < m->crease_count; i++, mesh->crease_count++) {
+        for (int k = 0; k < 2; k++)
+            all->crease_vertices[2 * mesh->crease_count + k] = first + m->crease_vertices[2 * i + k];
+        all->crease_sharpness[mesh->crease_count] = m->crease_sharpness[i];
+    }
+    for (int i = 0; i < m->corner_count; i++, mesh->corner_count++) {
+        all->corner_vertices[mesh->corner_count] = first + m->corner_vertices[i];
+        all->corner_sharpness[mesh->corner_count] = m->corner_sharpness[i];
+    }
+    mesh->vertex_count += m->vertex_count;
+}
+
+static void begin_crowd(crowd *all, const subdiv_mesh *m)
+{
+    all->mesh = *m;
+    all->mesh.vertex_count = all->mesh.face_count = all->mesh.face_size = 0;
+    all->mesh.crease_count = all->mesh.corner_count = 0;
+    all->mesh.hole_count = all->mesh.uv_count = all->mesh.statement_count = 0;
+    all->mesh.line_count = 0;
+    all->mesh.positions = all->positions;
+    all->mesh.face_sizes = all->face_sizes;
+    all->mesh.face_vertices = all->face_vertices;
+    all->mesh.crease_vertices = all->crease_vertices;
+    all->mesh.crease_sharpness = all->crease_sharpness;
+    all->mesh.corner_vertices = all->corner_vertices;
+    all->mesh.corner_sharpness = all->corner_sharpness;
+}
+
+static void join_copy(crowd *all, const subdiv_mesh *m, int copy)
+{
+    const int first = all->mesh.crease_count;
+    join_crowd(all, m);
+    if (copy && m->crease_count)
+        all->crease_sharpness[first + copy % m->crease_count] = 0.5f + 0.75f * (float)copy;
+}
+
+// The limit of level 0 of a mesh: of each face-vertex point and normal. Returns how many.
+static int limit_at_corners(const subdiv_mesh *m, float (*out)[6])
+{
+    subdiv_mesh fine;
+    subdiv_options opt = {0};
+    opt.limit = opt.keep_holes = 1;
+    CHECK_EQUAL(subdiv_refine(&fine, m, 0, &opt), SUBDIV_OK);
+    int count = face_vertex_count(&fine);
+    for (int h = 0; h < count; h++) {
+        const int normal = fine.face_normals ? fine.face_normals[h] : fine.face_vertices[h];
+        memcpy(out[h], fine.positions + 3 * fine.face_vertices[h], 3 * sizeof(float));
+        memcpy(out[h] + 3, fine.normals + 3 * normal, 3 * sizeof(float));
+    }
+    subdiv_mesh_free(&fine);
+    return count;
+}
+
+// What is beside a cage changes nothing in its limit.
+static void test_beside_others(void)
+{
+    static crowd all, one;
+    static float together[COPIES * RANDOM_MAX_FACES * RANDOM_MAX_SIZE][6];
+    static float alone[RANDOM_MAX_FACES * RANDOM_MAX_SIZE][6];
+    for (unsigned seed = 1; seed <= 100; seed++) {
+        random_cage *c = random_cage_new(seed, RANDOM_ALL);
+        subdiv_mesh *m = &c->mesh;
+        begin_crowd(&all, m);
+        for (int copy = 0; copy < COPIES; copy++) join_copy(&all, m, copy);
+        int count = limit_at_corners(&all.mesh, together) / COPIES;
+        for (int copy = 0; copy < COPIES; copy++) {
+            begin_crowd(&one, m);
+            join_copy(&one, m, copy);
+            CHECK_EQUAL(limit_at_corners(&one.mesh, alone), count);
+            CHECK(memcmp(alone, together + copy * count, sizeof *alone * (size_t)count) == 0);
+        }
+        random_cage_free(c);
+    }
+}
+
 int main(void)
 {
     RUN(test_smooth_vertices);
@@ -699,5 +797,6 @@ int main(void)
     RUN(test_far_away);
     RUN(test_errors);
     RUN(test_normals_of_a_mesh);
+    RUN(test_beside_others);
     return test_end("limit");
 }
