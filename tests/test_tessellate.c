@@ -71,6 +71,20 @@ static void check_places(const subdiv_mesh *fine, const plan *p, const subdiv_su
     free(scratch);
 }
 
+// Behind the normals of the points stand those of the other sides of creases, each for some face.
+static void check_sides(const subdiv_mesh *fine)
+{
+    const int sides = fine->normal_count - fine->vertex_count, corners = face_vertex_count(fine);
+    int *used = ints(sides);
+    for (int h = 0; h < corners && fine->face_normals; h++) {
+        const int normal = fine->face_normals[h], side = normal - fine->vertex_count;
+        CHECK(side < sides && (side >= 0 || normal == fine->face_vertices[h]));
+        if (side >= 0 && side < sides) used[side] = 1;
+    }
+    for (int i = 0; i < sides; i++) CHECK(used[i]);
+    free(used);
+}
+
 static void check_cage(const subdiv_mesh *cage, int with_faces)
 {
     unsigned char hidden[RANDOM_MAX_FACES];
@@ -96,6 +110,7 @@ static void check_cage(const subdiv_mesh *cage, int with_faces)
         if (triangles) CHECK_EQUAL(fine.face_size, 3);
         check_tessellation(&fine, &any, hidden);
         if (!triangles) check_places(&fine, &any, surface);
+        if (!memchr(hidden, 1, (size_t)cage->face_count)) check_sides(&fine);
         subdiv_mesh_free(&fine);
     }
     plan_free(&any);
