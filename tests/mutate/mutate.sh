@@ -7,9 +7,9 @@
 #
 # First come the tests that know most of the mutant's section, for SECONDS_EACH of processor time,
 # up to the first check that fails; tcc compiles the header for them in a tenth of a second. What
-# survives this is compared as an object at -O2, linked with all tests, and then given to make test.
-# QUICK=1 leaves that to a later run. Everything is in build/mutate. Stop and start it as you like:
-# results.txt keeps what was found.
+# survives this is compared as an object at -O2 and linked with all tests; then come the sanitizers
+# of make check, and then make test. QUICK=1 leaves all this to a later run. Everything is in
+# build/mutate. Stop and start it as you like: results.txt keeps what was found.
 MUTANTS=${MUTANTS:-320} SEED=${SEED:-1} JOBS=${JOBS:-2} SECONDS_EACH=${SECONDS_EACH:-3}
 out=build/mutate
 results=$out/results.txt
@@ -70,7 +70,7 @@ run() {
 # then takes longer does not end. The time of other tests decides nothing.
 prepare() {
     if ! cmp -s subdiv.h $out/0/subdiv.h; then
-        rm -f $out/*.o $out/?/*.o $out/tests
+        rm -f $out/*.o $out/?/*.o $out/?/*.clean $out/tests
         cp subdiv.h $out/0/subdiv.h
     fi
     touch $out/tests
@@ -109,8 +109,31 @@ quick() {
     done
 }
 
-# thorough DIRECTORY: the same object when optimised, or all tests that link with it, or make test in
-# a copy of everything.
+# clean DIRECTORY TEST: a test under the sanitizers of make check, where each array is a block.
+clean() {
+    sanitize="$cc -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -pthread -I$1 -I."
+    case " $own " in
+    *" $2 "*) $sanitize -DSUBDIV_STATIC tests/test_"$2".c -o "$1/test" -lm ;;
+    *)
+        [ -e "$1/sanitized.o" ] ||
+            $sanitize -DSUBDIV_IMPLEMENTATION -x c -c "$1/subdiv.h" -o "$1/sanitized.o"
+        $sanitize -DSUBDIV_IMPLEMENTED tests/test_"$2".c -x none "$1/sanitized.o" -o "$1/test" -lm ;;
+    esac && (ulimit -t 100; ulimit -c 0; exec "$1/test") > "$1/log" 2>&1 < /dev/null
+}
+
+# sanitized DIRECTORY SECTION: those of its tests that are clean without a mutation.
+sanitized() {
+    rm -f "$1/sanitized.o"
+    for test in $(tests_of "$2"); do
+        [ "$test" = exact_oracle ] && continue                  # takes minutes
+        [ -e $out/0/"$test".clean ] || { clean $out/0 "$test"; echo $? > $out/0/"$test".clean; }
+        [ "$(cat $out/0/"$test".clean)" = 0 ] || continue
+        clean "$1" "$test" || return 1
+    done
+}
+
+# thorough DIRECTORY SECTION: the same object when optimised, or all tests that link with it, or
+# sanitizers, or make test in a copy of everything.
 thorough() {
     o2="$cc -O2 -DSUBDIV_IMPLEMENTATION -x c -c subdiv.h -o O2.o"
     [ -e $out/0/O2.o ] || (cd $out/0 && $o2)
@@ -126,6 +149,7 @@ thorough() {
         verdict=killed by=$test
         return
     done
+    sanitized "$1" "$2" || { verdict=killed by=sanitizers; return; }
     rm -rf "$1/copy"
     mkdir "$1/copy"
     cp -r Makefile README.md LICENSE tests examples "$1/copy"
@@ -150,7 +174,7 @@ worker() {
             "$dir/mutant" subdiv.h > "$dir/subdiv.h"
         section=${mutant#*	}
         quick "$dir" "${section%%	*}"
-        [ "$verdict" = survived ] && [ -z "$QUICK" ] && thorough "$dir"
+        [ "$verdict" = survived ] && [ -z "$QUICK" ] && thorough "$dir" "${section%%	*}"
         printf '%s\t%s\t%s\n' "$verdict" "$by" "$mutant" >> $results
     done < "$dir/list"
 }
