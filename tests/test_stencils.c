@@ -728,6 +728,74 @@ static void test_explained_loop(void)
     }
 }
 
+// All the pictures: each is followed by a blank line and the table, whose weights are its own.
+static void test_explained_pictures(void)
+{
+    static const struct { int cage, point; const char *mask; } cases[] = {
+        { 0, 90, "    1/4 ------ 1/4\n"
+                 "     |          |\n"
+                 "     |    F     |\n"
+                 "     |          |\n"
+                 "    1/4 ------ 1/4\n\n"
+                 "    1/4     vertices 0 1 6 7\n\n" },
+        { 1, 22, "         1/3\n"
+                 "         / \\\n"
+                 "        / F \\\n"
+                 "       /     \\\n"
+                 "    1/3 ----- 1/3\n\n"
+                 "    1/3     vertices 0 2 3\n\n" },
+        { 0, 30, "   1/16 --------- 1/16\n"
+                 "     |              |\n"
+                 "    3/8 --- E ---- 3/8\n"
+                 "     |              |\n"
+                 "   1/16 --------- 1/16\n\n"
+                 "    3/8     vertices 0 1\n"
+                 "    1/16    vertices 6 7 24 25\n\n" },
+        { 2, 36, "           1/8\n"
+                 "        /      \\\n"
+                 "       /        \\\n"
+                 "    3/8 --- E ---- 3/8\n"
+                 "       \\        /\n"
+                 "        \\      /\n"
+                 "           1/8\n\n"
+                 "    3/8     vertices 0 1\n"
+                 "    1/8     vertices 7 30\n\n" },
+        { 3, 1,  "    1/8 ------ 3/4 ------ 1/8\n\n"
+                 "    3/4     vertex 1\n"
+                 "    1/8     vertices 0 2\n\n" },
+        { 3, 9,  "    1/2 --- E ---- 1/2\n\n"
+                 "    1/2     vertices 0 1\n" },
+        { 0, 7,  "   1/64 ----- 3/32 ----- 1/64\n"
+                 "     |          |          |\n"
+                 "   3/32 ----- 9/16 ----- 3/32\n"
+                 "     |          |          |\n"
+                 "   1/64 ----- 3/32 ----- 1/64\n\n"
+                 "    9/16    vertex 7\n"
+                 "    3/32    vertices 1 6 8 13\n"
+                 "    1/64    vertices 0 2 12 14\n\n" },
+        { 2, 0,  "        1/16 ----- 1/16\n"
+                 "        /    \\     /    \\\n"
+                 "   1/16 ------ 5/8 ----- 1/16\n"
+                 "        \\    /     \\    /\n"
+                 "        1/16 ----- 1/16\n\n"
+                 "    5/8     vertex 0\n"
+                 "    1/16    vertices 1 5 6 7 30 35\n\n" },
+        { 4, 4,  "    1       vertex 4\n" }
+    };
+    static test_cage c[5];
+    build_torus(&c[0], SUBDIV_CATMULL_CLARK, 6, 5);
+    build_bipyramid(&c[1], SUBDIV_CATMULL_CLARK, 5);
+    build_torus(&c[2], SUBDIV_LOOP, 6, 6);
+    build_grid(&c[3], SUBDIV_CATMULL_CLARK, 2, 2);
+    build_grid(&c[4], SUBDIV_BILINEAR, 2, 2);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        explain(&c[cases[i].cage].mesh, cases[i].point);
+        const char *mask = strstr(text, "add up to 1.\n\n");
+        if (!mask || strncmp(mask + 14, cases[i].mask, strlen(cases[i].mask)) != 0)
+            TEST_REPORT("\"%s\" is not in\n%s", cases[i].mask, text);
+    }
+}
+
 static void sum_of(const subdiv_stencils *s, int i, const float *positions, double *sum)
 {
     sum[0] = sum[1] = sum[2] = 0;
@@ -961,6 +1029,7 @@ int main(void)
     RUN(test_explained_catmull_clark);
     RUN(test_explained_shapes);
     RUN(test_explained_loop);
+    RUN(test_explained_pictures);
     RUN(test_explained_points);
     RUN(test_explained_data);
     RUN(test_explained_room);
