@@ -3,6 +3,7 @@
 //
 //     cc -I. tests/test_conventions.c -o build/test_conventions -lm && build/test_conventions
 #include <stdio.h>
+#include <limits.h>
 #include <stdlib.h>
 
 #define SUBDIV_IMPLEMENTATION
@@ -248,7 +249,9 @@ static void test_wrong_chains(void)
         { { 2, 3 }, { 0, 1, 2, 0, 3 }, 3, { 1, 1, NAN },
           "chain 1: the sharpness at 1 is not a number" },
         { { 2, 3 }, { 0, 1, 2, 0, 3 }, 4, { 1, 1, 1 },
-          "sharpness_count is 4, but there are 2 chains with 3 edges" }
+          "sharpness_count is 4, but there are 2 chains with 3 edges" },
+        { { INT_MAX, INT_MAX }, { 0, 1, 2, 0, 3 }, 4, { 1, 1, 1 },
+          "sharpness_count is 4, but there are 2 chains with 2147483647 edges" }
     };
     subdiv_error error = {0};
     subdiv_options opt = {0};
