@@ -46,45 +46,51 @@ async function compare(page, name, ...options) {
 }
 
 const on = (page, what, i) => page.evaluate(([what, i]) => window.playground[what](i), [what, i]);
+const set = (page, more) => page.evaluate(more => window.playground.set(more), more);
+const obj = page => page.evaluate(() => window.playground.obj());
 
 async function dragVertex(page, vertex, dx, dy) {
-    const at = await on(page, 'vertexOnScreen', vertex);
-    await page.mouse.move(at.x, at.y);
+    const [x, y] = await on(page, 'vertexOnScreen', vertex);
+    await page.mouse.move(x, y);
     await page.waitForTimeout(100);
     const text = await page.textContent('#explain');
     await page.mouse.down();
-    await page.mouse.move(at.x + dx / 2, at.y + dy / 2, { steps: 4 });
-    await page.mouse.move(at.x + dx, at.y + dy, { steps: 4 });
+    await page.mouse.move(x + dx / 2, y + dy / 2, { steps: 4 });
+    await page.mouse.move(x + dx, y + dy, { steps: 4 });
     await page.waitForTimeout(100);
     await page.mouse.up();
     const end = await on(page, 'vertexOnScreen', vertex);
     check(
         `vertex ${vertex}, dragged, goes where the pointer goes`,
-        Math.hypot(end.x - at.x - dx, end.y - at.y - dy) < 2,
+        distance(end.slice(0, 2), [x + dx, y + dy]) < 2,
     );
     return text;
 }
 
 async function clickEdge(page) {
-    const at = await page.evaluate(() => {
+    const [x, y, edge] = await page.evaluate(() => {
         const p = window.playground,
             count = p.lib.describe().edgeCount;
         for (let e = 0; e < count; e++) {
-            const place = p.edgeOnScreen(e),
-                hit = p.hitAt(place.x, place.y);
-            if (hit && hit.kind === 'edge' && hit.index === e) return { ...place, e };
+            const [x, y] = p.edgeOnScreen(e),
+                hit = p.hitAt(x, y);
+            if (hit && hit.kind === 'edge' && hit.index === e) return [x, y, e];
         }
     });
-    await page.mouse.move(at.x, at.y);
-    await page.mouse.click(at.x, at.y);
-    return page.evaluate(e => window.playground.lib.describe().sharpness[e], at.e);
+    await page.mouse.move(x, y);
+    await page.mouse.click(x, y);
+    return page.evaluate(e => window.playground.lib.describe().sharpness[e], edge);
 }
 
 async function surfaces(page) {
-    await page.evaluate(() => window.playground.set({ levels: 2, limit: false }));
+    await set(page, { levels: 2, limit: false });
     const before = await compare(page, 'the cube', '-l', '2');
     const text = await dragVertex(page, 3, 70, -50);
     check('the text explains', text.startsWith('Point 3 of the mesh refined once'));
+    check(
+        'the text has room',
+        await page.$$eval('#explain div', rows => rows.every(r => r.scrollWidth <= r.clientWidth)),
+    );
     const dragged = await compare(page, 'a vertex dragged', '-l', '2');
     check('dragging moves the surface', distance(before.points[3], dragged.points[3]) > 0.05);
     check('a click sharpens an edge', (await clickEdge(page)) === 1);
@@ -95,80 +101,298 @@ async function surfaces(page) {
     for (let i = 0; i < 3; i++) await clickEdge(page);
     check('more clicks sharpen it for ever', (await clickEdge(page)) === 0);
     await clickEdge(page);
-    await page.evaluate(() => window.playground.set({ levels: 3, limit: true }));
+    await set(page, { levels: 3, limit: true });
     await compare(page, 'on the limit', '-l', '3', '--limit');
-    await page.evaluate(() => window.playground.set({ scheme: 1, rule: 1, limit: false }));
-    await compare(
-        page,
-        'Loop',
-        '-l',
-        '3',
-        '-s',
-        'loop',
-        '--triangulate',
-        '--vertex-rule',
-        'warren',
-    );
-    await page.evaluate(() =>
-        window.playground.set({ scheme: 0, rule: 0, levels: 2, creasing: 1 }),
-    );
+    await set(page, { scheme: 1, rule: 1, limit: false });
+    const warren = ['-s', 'loop', '--triangulate', '--vertex-rule', 'warren'];
+    await compare(page, 'Loop', '-l', '3', ...warren);
+    await set(page, { scheme: 0, rule: 0, levels: 2, creasing: 1 });
     await compare(page, 'Chaikin', '-l', '2', '-c', 'chaikin');
+    const [x, y] = await on(page, 'vertexOnScreen', 3);
+    await page.mouse.move(x, y);
+    const labels = () => page.$$eval('#labels span', spans => spans.map(s => s.textContent));
+    const standard = await labels();
+    await page.selectOption('#rule', 'averaged');
+    check('a mask stays and follows the rule', `${await labels()}` !== `${standard}`);
+    await page.selectOption('#rule', 'standard');
+    check('and back', `${await labels()}` === `${standard}` && standard.length > 6);
+}
+
+// What the page behind shows of its state, whatever the view.
+const seen = page => page.evaluate(() => JSON.stringify([window.playground.state,
+    window.playground.obj(), window.playground.count(), window.playground.position(7)]));
+
+async function undoing(page) {
+    await page.waitForTimeout(500);
+    const before = await seen(page);
+    await dragVertex(page, 3, -30, -20);
+    const after = await seen(page);
+    await page.keyboard.press('Control+z');
+    check('undo brings back what was', (await seen(page)) === before && before !== after);
+    await page.waitForTimeout(500);
+    await page.click('#redo');
+    check('redo brings back what was undone', (await seen(page)) === after);
+    await page.keyboard.press('Control+z');
+    check('undo again', (await seen(page)) === before);
+}
+
+async function keys(page) {
+    await page.focus('canvas');
+    for (const key of ['v', 'v', 'Shift+V', 'v']) await page.keyboard.press(key);
+    check('v goes through vertices', (await page.textContent('#explain')).includes('of vertex 1.'));
+    const at = () => page.evaluate(() => window.playground.vertexOnScreen(1));
+    const before = await at();
+    await page.keyboard.press('ArrowLeft');
+    const after = await at();
+    check('an arrow moves it', Math.abs(after[0] - before[0] + 8) < 0.1);
+    await page.keyboard.press('e');
+    const sharpness = () => page.evaluate(() => window.playground.lib.describe().sharpness[0]);
+    const sharp = await sharpness();
+    await page.keyboard.press('Enter');
+    check('Enter sharpens an edge', (await sharpness()) > sharp);
+    await page.keyboard.press('Escape');
+    check('Escape takes the mask away', (await page.$$('#labels span')).length === 0);
+}
+
+// A vertex behind the surface cannot be caught.
+async function inSight(page) {
+    await page.selectOption('#name', 'octopus');
+    const [caught, others] = await page.evaluate(() => {
+        const p = window.playground,
+            { vertexCount } = p.lib.describe();
+        const hits = Array.from({ length: vertexCount }, (_, v) => {
+            const [x, y] = p.vertexOnScreen(v),
+                hit = p.hitAt(x, y);
+            return hit && hit.kind === 'vertex' && hit.index === v;
+        });
+        return [hits.filter(x => x).length, hits.filter(x => !x).length];
+    });
+    check('vertices in sight can be caught', caught > 100);
+    check('vertices out of sight cannot', others > 100);
+}
+
+async function touch(browser) {
+    const context = await browser.newContext({
+        viewport: { width: 400, height: 800 },
+        hasTouch: true,
+        isMobile: true,
+    });
+    const page = await open(context);
+    const [x, y] = await on(page, 'vertexOnScreen', 3);
+    const cdp = await context.newCDPSession(page);
+    const send = (type, ...touchPoints) =>
+        cdp.send('Input.dispatchTouchEvent', { type, touchPoints });
+    await send('touchStart', { x: x + 15, y });
+    for (let i = 1; i <= 5; i++) await send('touchMove', { x: x + 15 - 8 * i, y });
+    await send('touchEnd');
+    const end = await on(page, 'vertexOnScreen', 3);
+    check('a finger drags a vertex', Math.abs(end[0] - x + 40) < 1 && Math.abs(end[1] - y) < 1);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    check('the page fits a phone', wide <= 400);
+    await context.close();
 }
 
 // A page opened at the address shows the same.
 async function address(page, context) {
+    await set(page, { triangles: 1, wire: true });
     await page.waitForTimeout(800);
-    const other = await context.newPage();
-    await other.goto(page.url());
-    await other.waitForFunction(() => window.playground);
-    await other.waitForTimeout(500);
-    const [here, there] = await Promise.all(
-        [page, other].map(p =>
-            p.evaluate(() => [
-                window.playground.obj(),
-                window.playground.count(),
-                window.playground.state.creasing,
-            ]),
-        ),
+    const other = await open(context, page.url());
+    check('the address has the state', page.url().includes('#'));
+    check('a page at the address shows it', (await seen(page)) === (await seen(other)));
+    await other.close();
+    await set(page, { wire: false, creasing: 0 });
+}
+
+const drop = (page, name, text) =>
+    page.evaluate(
+        async ([name, text]) => {
+            const dataTransfer = new DataTransfer();
+            if (name) dataTransfer.items.add(new File([text], name));
+            else dataTransfer.setData('text/plain', text);
+            window.dispatchEvent(new DragEvent('drop', { dataTransfer }));
+            await new Promise(done => setTimeout(done, 300));
+        },
+        [name, text],
     );
-    check('the address has the state', page.url().includes('#') && `${here}` === `${there}`);
+
+// What a folder gets if the save button is dragged there: the file's name and its text.
+async function draggedOut(page) {
+    const [url, text] = await page.evaluate(() => {
+        const dataTransfer = new DataTransfer();
+        document
+            .getElementById('save')
+            .dispatchEvent(new DragEvent('dragstart', { dataTransfer, bubbles: true }));
+        return [dataTransfer.getData('DownloadURL'), dataTransfer.getData('text/plain')];
+    });
+    const [, name, data] = url.match(/^model\/obj:([^:]+):data:model\/obj,(.*)$/) ?? [];
+    check('the dragged file is the text', data && decodeURIComponent(data) === text);
+    return [name, text];
+}
+
+async function savedByButton(page) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+    return [download.suggestedFilename(), fs.readFileSync(await download.path(), 'utf8')];
+}
+
+// A page that gets a saved file shows the same as the page that saved it.
+async function saveAndLoad(page, context, what) {
+    const [name, text] = await draggedOut(page);
+    check(`${what}: button and drag save alike`, `${await savedByButton(page)}` === `${[name, text]}`);
+    const other = await open(context);
+    await drop(other, name, text);
+    check(`${what}: a dropped file shows the same`, (await seen(page)) === (await seen(other)));
+    await drop(other, 'cube.obj', fs.readFileSync('examples/cages/camera.obj', 'utf8'));
+    check(`${what}: another file shows something else`, (await seen(page)) !== (await seen(other)));
+    await set(other, { name: name.replace('.obj', '') });
+    await drop(other, '', text);
+    check(`${what}: dropped text shows the same`, (await seen(page)) === (await seen(other)));
     await other.close();
 }
 
-async function files(page) {
-    const obj = fs.readFileSync('examples/cages/octopus.obj', 'utf8');
-    await page.evaluate(obj => {
-        const dataTransfer = new DataTransfer();
-        dataTransfer.items.add(new File([obj], 'dropped.obj'));
-        window.dispatchEvent(new DragEvent('drop', { dataTransfer }));
-    }, obj);
-    await page.waitForTimeout(300);
+const PYRAMID = 'v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\n' +
+    'f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 5 4 3 2\n# Привет\n';
+
+async function files(page, context) {
+    await drop(page, 'pyramid.obj', PYRAMID);
+    await set(page, { levels: 3, limit: false });
+    const plain = await compare(page, 'triangles', '-l', '3', '-t', 'catmull-clark');
+    await page.selectOption('#triangles', 'smooth');
+    const smooth = await compare(page, 'smooth triangles', '-l', '3', '-t', 'smooth');
     check(
-        'a dropped file is the cage',
-        numbers(await page.evaluate(() => window.playground.obj()), 'v').length ===
-            numbers(obj, 'v').length,
+        'smooth triangles differ',
+        smooth.points.some((p, i) => distance(p, plain.points[i]) > 0.01),
     );
-    await page.evaluate(() => window.playground.set({ levels: 4, limit: true, creasing: 0 }));
-    const [frame, evaluation] = await page.evaluate(() => window.playground.time(20));
-    const count = await page.evaluate(() => window.playground.count());
-    console.log(
-        `playground: new positions of ${count} points on the limit, with normals: ` +
-            `${evaluation.toFixed(1)} ms, with all that the page copies ${frame.toFixed(1)} ms`,
-    );
-    check('a large cage is shown', count > 100000);
-    await page.evaluate(() =>
-        window.dispatchEvent(
-            Object.assign(new DragEvent('drop', { dataTransfer: new DataTransfer() })),
-        ),
-    );
-    await page.evaluate(() => window.playground.load('v 0 0 0\nf 1 2 3\n', 'bad'));
-    check('an error has words', /vertex 2 does not exist/.test(await page.textContent('#error')));
+    await compare(page, 'smooth triangles by the file', '-l', '3');
+    await address(page, context);
+    await set(page, { scheme: 0, rule: 2, boundary: 1, levels: 2, limit: true });
+    await clickEdge(page);
+    const rules = ['--vertex-rule', 'doo-sabin'];
+    await compare(page, 'the saved file', '-l', '2', '--limit', ...rules);
+    await saveAndLoad(page, context, 'a surface');
 }
 
-async function curves(page) {
+async function refusals(page) {
+    const before = await seen(page);
+    for (const [text, words] of [
+        ['v 0 0 0\nf 1 2 3\n', /vertex 2 does not exist/],
+        ['\x89PNG\r\n\x1a\n\0\0', /line 1|no faces/],
+        ['', /no faces/],
+        ['v 0 0 0\n', /no faces/],
+    ]) {
+        await drop(page, 'bad.obj', text);
+        const said = await page.textContent('#message');
+        check(`${JSON.stringify(text)} is refused with words, not "${said}"`, words.test(said));
+        check('and changes nothing', (await seen(page)) === before);
+    }
     await page.evaluate(() =>
-        window.playground.set({ mode: 'curve', curveRule: 1, ends: 2, levels: 3, limit: false }),
+        window.dispatchEvent(new DragEvent('drop', { dataTransfer: new DataTransfer() })),
     );
+    await drop(page, 'warned.obj', `${PYRAMID}f 1 2\n`);
+    check('a warning has words', /face/.test(await page.textContent('#message')));
+}
+
+function grid(n) {
+    const rows = [];
+    for (let i = 0; i <= n; i++)
+        for (let j = 0; j <= n; j++) rows.push(`v ${i / n} ${j / n} ${((i * j) % 7) / n}`);
+    for (let i = 0; i < n; i++)
+        for (let j = 0; j < n; j++) {
+            const a = i * (n + 1) + j + 1;
+            rows.push(`f ${a} ${a + n + 1} ${a + n + 2} ${a + 1}`);
+        }
+    return rows.join('\n');
+}
+
+async function largeCage(page) {
+    await drop(page, 'grid.obj', grid(120));
+    await page.waitForTimeout(300);
+    await set(page, { scheme: 0, levels: 6 });
+    const told = await page.textContent('#message');
+    check(`a level too high is refused with words, not "${told}"`, /^Level 6 .* too many/.test(told));
+    const count = await page.evaluate(() => window.playground.count());
+    check(`the level below is shown: ${count}`, count > 2e5 && count < 1.3e6);
+}
+
+// Counts what the page does: calls of the library, and buffers made, filled and changed in place.
+// While drawing is off, all is done but what the graphics card does.
+function spy() {
+    const counts = (window.counts = {}),
+        count = (what, by = 1) => (counts[what] = (counts[what] ?? 0) + by);
+    window.drawing = true;
+    const instantiate = WebAssembly.instantiate;
+    WebAssembly.instantiate = async (...given) => {
+        const result = await instantiate(...given),
+            exports = {};
+        for (const [name, value] of Object.entries(result.instance.exports))
+            exports[name] =
+                typeof value === 'function' ? (...a) => (count(name), value(...a)) : value;
+        return { instance: { exports } };
+    };
+    const gl = WebGL2RenderingContext.prototype,
+        wrap = (name, before) => {
+            const own = gl[name];
+            gl[name] = function (...given) {
+                return before(...given) === false ? undefined : own.apply(this, given);
+            };
+        };
+    wrap('createBuffer', () => void count('buffers'));
+    wrap('bufferData', () => void count('buffers'));
+    wrap('bufferSubData', (target, at, array, from, length) =>
+        void count(target === gl.ELEMENT_ARRAY_BUFFER ? 'indices' : 'bytes',
+            length ? 4 * length : array.byteLength));
+    for (const name of ['drawElements', 'drawArrays', 'drawArraysInstanced', 'drawElementsInstanced'])
+        wrap(name, () => window.drawing);
+}
+
+// Drags a vertex at more than 100,000 points, and looks at what each frame does and takes.
+async function dragLarge(page, context) {
+    await page.selectOption('#name', 'octopus');
+    await set(page, { levels: 4, limit: true });
+    const points = await page.evaluate(() => window.playground.count());
+    check('a large cage is shown', points > 100000);
+    const [x, y] = await page.evaluate(() => {
+        for (let v = 0; ; v++) {
+            const [x, y] = window.playground.vertexOnScreen(v);
+            if (window.playground.hitAt(x, y)?.index === v) return [x, y];
+        }
+    });
+    const cdp = await context.newCDPSession(page);
+    await cdp.send('Performance.enable');
+    const spent = async () => {
+        const { metrics } = await cdp.send('Performance.getMetrics');
+        return Object.fromEntries(metrics.map(({ name, value }) => [name, 1000 * value]));
+    };
+    await page.evaluate(() => (window.drawing = false));
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let i = 0; i < 10; i++) await page.mouse.move(x + i, y - i); // all is made by now
+    await page.waitForTimeout(100);
+    await page.evaluate(() => Object.keys(window.counts).forEach(key => delete window.counts[key]));
+    const before = await spent();
+    for (let i = 0; i < 100; i++) await page.mouse.move(x + 10 + i / 3, y - 10 - i / 4);
+    await page.waitForTimeout(100);
+    const after = await spent(),
+        counts = await page.evaluate(() => window.counts),
+        frames = counts.evaluate;
+    await page.mouse.up();
+    await page.evaluate(() => (window.drawing = true));
+    const each = key => ((after[key] - before[key]) / frames).toFixed(1);
+    console.log(
+        `playground: a frame of dragging at ${points} points on the limit, with normals: ` +
+            `${each('ScriptDuration')} ms of script, ${each('TaskDuration')} ms with all that ` +
+            `the browser does but drawing (mean of ${frames})`,
+    );
+    check('a drag moves points once a frame', frames > 20);
+    check('a drag prepares nothing', !counts.rebuild && !counts.take && !counts.explain);
+    check('a drag makes no buffers and changes no indices', !counts.buffers && !counts.indices);
+    const surface = 24 * (await page.evaluate(() => window.playground.lib.describe().bufferCount)),
+        rest = counts.bytes / frames - surface;
+    check(`a drag changes the surface and ${rest} bytes`, rest >= 0 && rest < 1000);
+}
+
+async function curves(page, context) {
+    await page.click('#curve');
+    await set(page, { curveRule: 1, ends: 2, levels: 3, limit: false });
     await dragVertex(page, 1, 40, 30);
     const shown = await page.evaluate(() => [window.playground.obj(), window.playground.curve()]);
     const told = refined(shown[0], '--curve', 'chaikin', '-l', '3'),
@@ -178,14 +402,18 @@ async function curves(page) {
         'a curve: positions',
         told.every((p, i) => distance(p, made.slice(3 * i, 3 * i + 3)) < 1e-5),
     );
+    const other = await open(context);
+    await drop(other, 'curve.obj', shown[0]);
+    const again = await obj(other);
+    check('a dropped curve is the same', again === shown[0]);
+    await other.click('#surface');
+    check('and the cage is still there', (await other.evaluate(() => playground.count())) > 1000);
+    await other.close();
 }
 
-(async () => {
-    const browser = await chromium.launch({
-        executablePath: browserPath,
-        args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-    });
-    const context = await browser.newContext({ viewport: { width: 900, height: 600 } });
+let pagePlace;
+
+async function open(context, place = pagePlace) {
     const page = await context.newPage();
     page.on('pageerror', error => check(`no error: ${error.message}`, false));
     page.on('request', request =>
@@ -194,15 +422,31 @@ async function curves(page) {
             /^(file|data|blob):/.test(request.url()),
         ),
     );
-    await page.goto(`file://${fs.realpathSync(pagePath)}`);
+    await page.addInitScript(spy);
+    await page.goto(place);
     await page.waitForFunction(() => window.playground);
-    await page.evaluate(() => {
-        window.playground.scene.refines = false;
+    await page.evaluate(() => (window.playground.scene.refines = false));
+    return page;
+}
+
+(async () => {
+    const browser = await chromium.launch({
+        executablePath: browserPath,
+        args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
     });
+    const context = await browser.newContext({ viewport: { width: 1000, height: 600 } });
+    pagePlace = `file://${fs.realpathSync(pagePath)}`;
+    const page = await open(context);
     await surfaces(page);
-    await address(page, context);
-    await files(page);
-    await curves(page);
+    await undoing(page);
+    await keys(page);
+    await inSight(page);
+    await dragLarge(page, context);
+    await files(page, context);
+    await refusals(page);
+    await curves(page, context);
+    await largeCage(page);
+    await touch(browser);
     await browser.close();
     console.log(
         `${'playground'.padEnd(24)} ${String(passed).padStart(4)} passed, ${failed} failed`,

@@ -31,10 +31,12 @@ function check(result) {
     if (result) throw new Error(text(c.message()) || 'out of memory');
 }
 
-export const load = obj => {
+// Returns a warning, or ''.
+export function load(obj) {
     const bytes = new TextEncoder().encode(obj);
     check(lend(bytes, at => c.load(at, bytes.length)));
-};
+    return text(c.warning());
+}
 
 export function save() {
     const size = c.take(4),
@@ -46,14 +48,15 @@ export function save() {
     return obj;
 }
 
-export const set = s => c.set(s.scheme, s.boundary, s.creasing, s.rule, 0);
+export const set = s => c.set(s.scheme, s.boundary, s.creasing, s.rule, s.triangles);
 export const rebuild = (levels, limit) => check(c.rebuild(levels, limit ? 1 : 0));
 export const evaluate = () => check(c.evaluate());
 export const sharpen = (edge, sharpness) => check(c.sharpen(edge, sharpness));
 export const explain = point => text(c.explain(point));
+export const hidden = (point, eye) => c.hidden(...point, ...eye) !== 0;
 
 export function describe() {
-    const a = ints(c.describe(), 16);
+    const a = ints(c.describe(), 19);
     return {
         vertexCount: a[0],
         positions: floats(a[1], 3 * a[0]),
@@ -69,6 +72,9 @@ export function describe() {
         pointCount: a[13],
         fineFaces: a[14],
         lineCount: a[15],
+        boundary: a[16],
+        creasing: a[17],
+        triangles: a[18],
     };
 }
 

@@ -1,45 +1,33 @@
-// The page: what is seen (scene.js shows it), what the pointer does, and the controls.
+// The page: what is seen (scene.js shows it), what pointer and keys do, the controls, files, undo.
 import * as lib from './library.js';
 import { Scene } from './scene.js';
-import octopus from '../cages/octopus.obj';
-import camera from '../cages/camera.obj';
-import lotus from '../cages/lotus.obj';
-import whale from '../cages/whale.obj';
+import { pack, unpack } from './address.js';
+import { curveMask, fraction, surfaceMask } from './masks.js';
+import { CAGES, OF_TRIANGLES, POLYGON } from './cages.js';
 
-const CUBE = `v -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 -1\nv 1 -1 -1
-f 1 2 4 3\nf 3 4 6 5\nf 5 6 8 7\nf 7 8 2 1\nf 2 8 6 4\nf 7 1 3 5\n`;
-const PATCH = (() => {
-    let obj = '';
-    for (let r = 0; r < 4; r++)
-        for (let c = 0; c < 4; c++)
-            obj += `v ${c - 1.5} ${r % 3 && c % 3 ? 0.6 : 0} ${r - 1.5}\n`;
-    for (let r = 0; r < 3; r++)
-        for (let c = 0; c < 3; c++) {
-            const a = 4 * r + c + 1;
-            obj += `f ${a} ${a + 4} ${a + 5} ${a + 1}\n`;
-        }
-    return obj;
-})();
-const TETRAHEDRON =
-    'v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n';
-const CAGES = { cube: CUBE, patch: PATCH, tetrahedron: TETRAHEDRON, octopus, camera, lotus, whale };
-const LOOPS = { tetrahedron: 1, whale: 1 };
-const POLYGON = [-1.6, -0.9, 0, -1.2, 0.9, 0, 0, 0.6, 0, 0.3, -0.9, 0, 1.6, 0.8, 0];
 const RULES = [
     ['standard', 'averaged', 'Doo-Sabin'],
     ['standard', 'Warren', 'five eighths'],
     ['standard'],
 ];
-const MOST_POINTS = 1.2e6,
-    FOREVER = 10;
+const LOOP = 1,
+    CLOSED = 2, // ends of a curve
+    FOREVER = 10,
+    MOST_FACES = 1.2e6,
+    MOST_BYTES = 1e8,
+    MOST_LETTERS = 1e6; // of an address
+const SELECTS = ['scheme', 'boundary', 'creasing', 'rule', 'triangles', 'curveRule', 'ends'],
+    CHECKS = ['limit', 'cage', 'wire'];
 
 const $ = id => document.getElementById(id);
+const number = x => x.toLocaleString('en');
 const s = {
     mode: 'surface',
     scheme: 0,
     boundary: 0,
     creasing: 0,
     rule: 0,
+    triangles: 0,
     levels: 4,
     limit: true,
     cage: true,
@@ -50,112 +38,88 @@ const s = {
 };
 let scene,
     faces = [],
-    points = POLYGON.slice(),
-    chosen = -1,
-    loaded = '',
-    evaluated = 0,
-    marked = null;
+    points = POLYGON.slice(), // of the curve
+    chosen = -1, // edge that the slider sharpens
+    loaded = '', // what reset goes back to
+    evaluated = 0, // milliseconds
+    marked = null; // what has its mask shown: { kind: 'vertex' | 'edge' | 'face', index }
 
-// ------------------------------------------------------------------------------- doing
+// ------------------------------------------------------------------------------- showing
 
-const ruleNumber = () => (s.scheme === 1 && s.rule > 0 ? s.rule + 2 : s.rule);
-const curveOf = (more = {}) => ({
-    rule: s.curveRule,
-    ends: s.ends,
-    levels: s.levels,
-    limit: s.limit,
-    ...more,
-});
+const isCurve = () => s.mode === 'curve';
+const rule = () => (s.scheme === LOOP && s.rule > 0 ? s.rule + 2 : s.rule);
+const curve = () => ({ rule: s.curveRule, ends: s.ends, levels: s.levels, limit: s.limit });
+const vertexAt = v =>
+    Array.from((isCurve() ? points : lib.describe().positions).slice(3 * v, 3 * v + 3));
 
-// The most levels whose result is not too large for the page.
-function levelsThatFit() {
-    const d = lib.describe();
-    let sides = faces.reduce((sum, f) => sum + f.length, 0),
-        levels = 0;
-    if (s.scheme === 1) sides = 4 * d.faceCount;
-    while (levels < 6 && sides * 4 ** levels < MOST_POINTS) levels++;
-    return levels;
+const say = text => ($('message').textContent = text);
+
+// The faces of a level.
+function facesAt(level) {
+    const sides = faces.reduce((sum, face) => sum + face.length, 0);
+    if (s.scheme === LOOP) return (sides - 2 * faces.length) * 4 ** level;
+    return level ? sides * 4 ** (level - 1) : faces.length;
+}
+
+// The level asked for, unless it has too many faces for a page.
+function levels() {
+    let level = s.levels;
+    while (level && facesAt(level) > MOST_FACES) level--;
+    return level;
 }
 
 function rebuild() {
-    $('error').textContent = '';
-    if (s.mode === 'curve') return showCurve();
-    try {
-        lib.set({ ...s, rule: ruleNumber() });
-        lib.rebuild(Math.min(s.levels, levelsThatFit()), s.limit);
-        const names = lib.materials(lib.describe().faceCount),
-            d = lib.describe();
-        scene.showSurface(d, names, s);
-        if (chosen >= d.edgeCount) chosen = -1;
-        scene.showCage(d.positions, d.edges, d.sharpness, chosen);
-    } catch (e) {
-        $('error').textContent = e.message;
-        scene.clearSurface();
-    }
-    mark(null);
+    say('');
+    if (isCurve()) showCurve();
+    else showSurface();
+    scene.show(s);
+    mark(marked);
     showFacts();
     remember();
 }
 
-function evaluate() {
-    const start = performance.now();
-    lib.evaluate();
-    evaluated = performance.now() - start;
+function showSurface() {
+    const { edgeCount } = lib.describe();
+    try {
+        lib.set({ ...s, rule: rule() });
+        lib.rebuild(levels(), s.limit);
+        const names = lib.materials(faces.length);
+        scene.showSurface(lib.describe(), names, s);
+    } catch (e) {
+        say(e.message);
+        scene.clearSurface();
+    }
     const d = lib.describe();
-    scene.moveSurface(d.buffer);
-    scene.moveCage(d.positions, d.edges);
+    if (d.edgeCount !== edgeCount) [chosen, marked] = [-1, null];
+    scene.showCage(d, chosen);
+    if (levels() < s.levels)
+        say(`Level ${s.levels} has ${number(facesAt(s.levels))} faces, too many for a page.`);
 }
 
 function showCurve() {
     const start = performance.now(),
-        smooth = lib.curve(curveOf(), 3, points);
+        smooth = lib.curve(curve(), 3, points);
     evaluated = performance.now() - start;
-    if (!smooth.length) $('error').textContent = 'A curve whose ends are cut needs 3 points.';
+    if (!smooth.length) say('A curve whose ends are cut needs 3 points.');
     scene.clearSurface();
-    scene.showCurve(points, smooth, s.ends === 2, s.cage, s.levels < 4 && !s.limit);
-    mark(null);
-    showFacts();
-    remember();
+    scene.showCurve(points, smooth, s.ends === CLOSED, s.cage, s.levels < 4 && !s.limit);
 }
 
-function load(obj, name) {
-    const d0 = s.mode;
-    try {
-        lib.load(obj);
-        s.mode = 'surface';
-        const d = lib.describe();
-        if (d.faceCount === 0 && d.lineCount > 0) {
-            const line = lib.line(),
-                closed = line[0] === line[line.length - 1];
-            points = [];
-            for (const v of closed ? line.slice(0, -1) : line)
-                points.push(...d.positions.slice(3 * v, 3 * v + 3));
-            s.ends = closed ? 2 : s.ends === 2 ? 0 : s.ends;
-            s.mode = 'curve';
-        }
-        faces = lib.faces();
-        loaded = obj;
-        s.name = name;
-        chosen = -1;
-        scene.frame(s.mode === 'curve' ? points : d.positions);
-    } catch (e) {
-        s.mode = d0;
-        $('error').textContent = e.message;
-        return;
+// All that happens in a frame while a vertex is dragged.
+function moveVertex(v, x, y) {
+    const at = scene.unproject(x, y, scene.onScreen(vertexAt(v))[2]);
+    if (isCurve()) {
+        points.splice(3 * v, 3, ...at);
+        showCurve();
+    } else if (scene.surface) {
+        const start = performance.now(),
+            d = lib.describe();
+        d.positions.set(at, 3 * v);
+        lib.evaluate();
+        evaluated = performance.now() - start;
+        scene.moveVertex(v, at, d.edges);
+        scene.lookAt(lib.describe().buffer, true);
     }
-    showControls();
-    rebuild();
-}
-
-function saved() {
-    if (s.mode === 'surface') return lib.save();
-    let obj = '',
-        line = 'l';
-    for (let i = 0; i < points.length; i += 3) {
-        obj += `v ${points[i]} ${points[i + 1]} ${points[i + 2]}\n`;
-        line += ` ${i / 3 + 1}`;
-    }
-    return obj + line + (s.ends === 2 ? ' 1\n' : '\n');
 }
 
 function sharpen(edge, sharpness) {
@@ -165,282 +129,392 @@ function sharpen(edge, sharpness) {
     showControls();
 }
 
-// ------------------------------------------------------------------------------- masks
-
-function fraction(x) {
-    for (let q = 1; q <= 400; q++) {
-        const p = Math.round(x * q);
-        if (p && Math.abs(x * q - p) < 2e-6 * p) return q > 1 ? `${p}/${q}` : `${p}`;
-    }
-    return x.toFixed(3);
+function sharpenMore(edge) {
+    const now = lib.describe().sharpness[edge];
+    sharpen(edge, [1, 2, 3, FOREVER].find(x => x > now) ?? 0);
 }
 
-const center = list => [0, 1, 2].map(k => list.reduce((sum, p) => sum + p[k], 0) / list.length);
-const vertexAt = v =>
-    s.mode === 'curve'
-        ? points.slice(3 * v, 3 * v + 3)
-        : Array.from(lib.describe().positions.slice(3 * v, 3 * v + 3));
-
-// Shows the mask of what is under the pointer: { kind: 'vertex' | 'edge' | 'face', index }.
+// Shows the mask of a vertex, an edge or a face; of nothing if null.
 function mark(hit) {
+    if (hit?.kind === 'face' && s.scheme === LOOP) hit = null;
     marked = hit;
-    let weights = [],
-        text = '';
-    if (hit && s.mode === 'curve') {
-        weights = curveMask(hit.index);
-        text = curveText(hit.index);
-    } else if (hit) {
-        const d = lib.describe();
-        const point =
-            hit.index +
-            (hit.kind === 'vertex' ? 0 : d.vertexCount) +
-            (hit.kind === 'face' ? d.edgeCount : 0);
-        weights = lib.mask(point); // d may be out of date now
-        text = lib.explain(point);
-    }
-    const from = weights.map(([v, w]) => [vertexAt(v), w]);
-    const made = from.length
-        ? [0, 1, 2].map(k => from.reduce((sum, [p, w]) => sum + w * p[k], 0))
-        : null;
-    scene.showMask(
-        from.map(([p, w], i) => ({
-            at: p,
-            text: fraction(w),
-            weight: w,
-            own: hit.kind === 'vertex' && weights[i][0] === hit.index,
-        })),
-        made,
-    );
-    $('explain').textContent =
-        text || 'Point at the cage, and this says which rule makes the point there.';
+    const { weights, text } = !hit
+        ? { weights: [], text: 'Point at the cage: this says which rule makes the point there.' }
+        : isCurve()
+          ? curveMask(curve(), points.length / 3, hit.index)
+          : surfaceMask(hit);
+    const from = weights.map(([v, weight]) => ({
+        at: vertexAt(v),
+        weight,
+        text: fraction(weight),
+        own: hit.kind === 'vertex' && v === hit.index,
+    }));
+    const sum = k => from.reduce((total, { at, weight }) => total + weight * at[k], 0);
+    scene.showMask(from, from.length ? [0, 1, 2].map(sum) : null);
+    explain(text);
 }
 
-// The weights of the control points in the first new point of point i: the curve of unit vectors.
-function curveMask(i) {
-    const n = points.length / 3,
-        unit = new Array(n * n).fill(0),
-        k = curveOf({ levels: 1, limit: false });
-    for (let j = 0; j < n; j++) unit[j * n + j] = 1;
-    const made = lib.curve(k, n, unit),
-        row = 2 * i - (s.ends === 1 ? 1 : 0),
-        result = [];
-    if (s.ends === 1 && (i === 0 || i === n - 1)) return []; // cut off
-    for (let j = 0; j < n; j++) if (made[row * n + j]) result.push([j, made[row * n + j]]);
-    return result;
-}
-
-function curveText(i) {
-    const n = points.length / 3,
-        inner = s.ends === 2 || (i > 0 && i < n - 1);
-    if (!inner)
-        return `Point ${i} is an end.\n` + (s.ends ? 'It is cut off.' : 'It stays: its mask is 1.');
-    return s.curveRule === 0
-        ? `Point ${i} is even: it moves along the cubic B-spline.\n\n` +
-              '    V = (a + 6 v + b) / 8\n\n   1/8 ------ 3/4 ------ 1/8\n\n' +
-              'Each edge gets an odd point, its middle.\n\n    E = (a + b) / 2\n\n' +
-              'On the limit: (a + 4 v + b) / 6.'
-        : `Chaikin cuts the corner at point ${i}: two points replace it.\n\n` +
-              '    P = (a + 3 v) / 4\n    Q = (3 v + b) / 4\n\n' +
-              'The limit is a quadratic B-spline.';
+// The panel breaks prose anew: the lines of a title are one. Formulas keep their lines.
+function explain(text) {
+    const rows = text
+        .trimEnd()
+        .replace(/\n {7}(?=\S)/g, ' ')
+        .split('\n')
+        .map(line => {
+            const row = document.createElement('div');
+            row.textContent = line;
+            row.className = line.startsWith(' ') ? 'formula' : '';
+            return row;
+        });
+    $('explain').replaceChildren(...rows);
 }
 
 // ------------------------------------------------------------------------------- pointer
 
-// What is under the pointer, nearest first: vertices, edges, middles of faces.
-function hitAt(x, y) {
+const middle = face => {
+    const { positions } = lib.describe();
+    return [0, 1, 2].map(k => face.reduce((sum, v) => sum + positions[3 * v + k], 0) / face.length);
+};
+
+// What can be seen under the pointer: a vertex, else an edge, else the middle of a face.
+function hitAt(x, y, reach = 1) {
     if (!s.cage) return null;
-    if (s.mode === 'curve') {
-        const v = scene.nearest(points.length / 3, i => points.slice(3 * i, 3 * i + 3), x, y, 14);
-        return v < 0 ? null : { kind: 'vertex', index: v };
-    }
     const d = lib.describe(),
-        p = i => d.positions.subarray(3 * i, 3 * i + 3);
-    const v = scene.nearest(d.vertexCount, p, x, y, 12);
-    if (v >= 0) return { kind: 'vertex', index: v };
-    const e = scene.nearestEdge(
-        d.edgeCount,
-        i => [p(d.edges[2 * i]), p(d.edges[2 * i + 1])],
-        x,
-        y,
-        7,
-    );
-    if (e >= 0) return { kind: 'edge', index: e };
-    if (s.scheme === 1) return null;
-    const f = scene.nearest(faces.length, i => center(Array.from(faces[i], p)), x, y, 16);
-    return f < 0 ? null : { kind: 'face', index: f };
+        seen = scene.onScreen(isCurve() ? points : d.positions),
+        inSight = at => isCurve() || !lib.hidden(at, scene.camera.position.toArray());
+    const vertex = scene.nearest(seen, x, y, 12 * reach);
+    if (vertex >= 0 && inSight(vertexAt(vertex))) return { kind: 'vertex', index: vertex };
+    if (isCurve()) return null;
+    const { edge, depth } = scene.nearestEdge(seen, d.edges, x, y, 7 * reach);
+    if (edge >= 0 && inSight(scene.unproject(x, y, depth))) return { kind: 'edge', index: edge };
+    if (s.scheme === LOOP) return null;
+    const middles = faces.map(middle),
+        face = scene.nearest(scene.onScreen(middles.flat()), x, y, 16 * reach);
+    return face >= 0 && inSight(middles[face]) ? { kind: 'face', index: face } : null;
 }
 
-let drag = null,
+let press = null,
     frames = 0,
-    since = 0;
+    since = 0; // when counting frames began
 
 function pointerDown(event) {
-    if (event.button !== 0) return;
+    if (event.button !== 0 || !event.isPrimary) return;
     const { x, y } = scene.place(event),
-        hit = hitAt(x, y);
+        hit = hitAt(x, y, event.pointerType === 'touch' ? 2 : 1);
+    press = { hit, x, y };
     if (!hit) return;
-    drag = { hit, x, y, moved: false };
+    if (hit.kind === 'vertex') press.vertex = scene.onScreen(vertexAt(hit.index));
     scene.controls.enabled = false;
     scene.canvas.setPointerCapture(event.pointerId);
 }
 
 function pointerMove(event) {
+    if (!event.isPrimary) return;
     const { x, y } = scene.place(event);
-    if (!drag) {
+    if (!press) {
         const hit = event.buttons ? null : hitAt(x, y);
-        if (JSON.stringify(hit) !== JSON.stringify(marked)) mark(hit);
+        if (hit && JSON.stringify(hit) !== JSON.stringify(marked)) mark(hit);
         scene.canvas.style.cursor = hit ? (hit.kind === 'vertex' ? 'grab' : 'pointer') : '';
         return;
     }
-    if (!drag.moved && Math.hypot(x - drag.x, y - drag.y) < 4) return;
-    if (!drag.moved) mark(null);
-    drag.moved = true;
-    if (drag.hit.kind === 'vertex') drag.to = { x, y };
+    if (!press.moved && Math.hypot(x - press.x, y - press.y) < 4) return;
+    if (!press.moved && press.vertex) mark(null);
+    press.moved = true;
+    if (!press.vertex) return;
+    press.to = [press.vertex[0] + x - press.x, press.vertex[1] + y - press.y];
     scene.wake();
 }
 
-// Once a frame: moves the vertex to where the pointer is by then.
-function moveVertex() {
-    if (!drag || !drag.to) return;
-    const v = drag.hit.index,
-        at = scene.unproject(drag.to.x, drag.to.y, vertexAt(v));
-    drag.to = null;
-    if (s.mode === 'curve') {
-        points.splice(3 * v, 3, ...at);
-        scene.showCurve(
-            points,
-            lib.curve(curveOf(), 3, points),
-            s.ends === 2,
-            s.cage,
-            s.levels < 4 && !s.limit,
-        );
-    } else {
-        lib.describe().positions.set(at, 3 * v);
-        evaluate();
-    }
+// Before each frame: moves the vertex to where the pointer is by then.
+function eachFrame() {
+    scene.lookAt(lib.describe().buffer, false);
+    if (!press?.to) return;
+    moveVertex(press.hit.index, ...press.to);
+    press.to = null;
     frames++;
-    showFacts();
+    if (performance.now() - since > 500) showFacts();
 }
 
-function pointerUp() {
-    if (!drag) return;
-    const { hit, moved } = drag;
-    moveVertex();
-    drag = null;
+function pointerUp(event) {
+    if (!press || !event.isPrimary) return;
+    eachFrame();
+    const { hit, moved, vertex } = press;
+    press = null;
     scene.controls.enabled = true;
-    if (!moved && hit.kind === 'edge') {
-        const now = lib.describe().sharpness[hit.index],
-            next = [1, 2, 3, FOREVER];
-        sharpen(hit.index, next.find(x => x > now) || 0);
-        mark(hit);
-    } else if (moved) {
-        scene.settle();
-        remember();
+    if (!moved && hit?.kind === 'edge') sharpenMore(hit.index);
+    if (!moved || vertex) mark(hit);
+    if (moved && vertex) edited();
+}
+
+function edited() {
+    scene.settle();
+    showFacts();
+    remember();
+}
+
+// ------------------------------------------------------------------------------- keys
+
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] },
+    KINDS = { v: 'vertex', e: 'edge', f: 'face' };
+
+function undoKey(event) {
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== 'z') return;
+    event.preventDefault();
+    undo(event.shiftKey ? 1 : -1);
+}
+
+// On the picture: v, e and f go through vertices, edges and faces, and with shift back. Arrows move
+// the vertex or turn the view, Enter sharpens the edge.
+function pictureKey(event) {
+    const kind = KINDS[event.key.toLowerCase()],
+        arrow = ARROWS[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (kind) goThrough(kind, event.shiftKey ? -1 : 1);
+    else if (arrow) followArrow(...arrow);
+    else if (event.key === 'Enter' && marked?.kind === 'edge') sharpenMore(marked.index);
+    else if (event.key === 'Escape') mark(null);
+    else return;
+    event.preventDefault();
+}
+
+function goThrough(kind, step) {
+    const d = lib.describe(),
+        count = isCurve()
+            ? { vertex: points.length / 3, edge: 0, face: 0 }
+            : { vertex: d.vertexCount, edge: d.edgeCount, face: d.faceCount };
+    if (!count[kind]) return;
+    const from = marked?.kind === kind ? marked.index : step > 0 ? -1 : 0;
+    mark({ kind, index: (from + step + count[kind]) % count[kind] });
+    if (kind !== 'edge') return;
+    chosen = marked.index;
+    scene.showCage(d, chosen);
+    showControls();
+}
+
+function followArrow(x, y) {
+    if (marked?.kind !== 'vertex') {
+        scene.controls.rotateLeft(0.1 * x);
+        scene.controls.rotateUp(0.1 * y);
+        return;
     }
+    const at = scene.onScreen(vertexAt(marked.index));
+    moveVertex(marked.index, at[0] + 8 * x, at[1] + 8 * y);
+    mark(marked);
+    edited();
 }
 
 // ------------------------------------------------------------------------------- controls
 
 function showFacts() {
-    const now = performance.now();
-    if (now - since > 500 || !drag) {
-        scene.rate = drag && since ? Math.round((1000 * frames) / (now - since)) : 0;
-        frames = 0;
-        since = drag ? now : 0;
-    }
-    const d = lib.describe(),
-        number = x => x.toLocaleString('en');
+    const now = performance.now(),
+        rate = press && since ? Math.round((1000 * frames) / (now - since)) : 0;
+    frames = 0;
+    since = press ? now : 0;
+    const d = lib.describe();
     $('facts').textContent =
-        (s.mode === 'curve'
-            ? `${lib.curveCount(curveOf(), points.length / 3)} points`
+        (isCurve()
+            ? `${lib.curveCount(curve(), points.length / 3)} points`
             : `${number(d.pointCount)} points, ${number(d.fineFaces)} faces`) +
-        (evaluated ? `; evaluated in ${evaluated.toFixed(1)} ms` : '') +
-        (scene.rate ? `; ${scene.rate} frames a second` : '');
+        (evaluated ? `, evaluated in ${evaluated.toFixed(1)} ms` : '') +
+        (rate ? `, ${rate} frames a second` : '');
 }
 
+const choices = (select, names) => select.replaceChildren(...names.map(name => new Option(name)));
+
 function showControls() {
-    document.body.classList.toggle('curve', s.mode === 'curve');
-    $('tab-curve').classList.toggle('on', s.mode === 'curve');
-    $('tab-surface').classList.toggle('on', s.mode === 'surface');
-    $('rule').innerHTML = RULES[s.scheme].map(name => `<option>${name}`).join('');
+    document.body.classList.toggle('curve', isCurve());
+    for (const mode of ['surface', 'curve']) {
+        $(mode).classList.toggle('on', s.mode === mode);
+        $(mode).setAttribute('aria-pressed', s.mode === mode);
+    }
+    choices($('rule'), RULES[s.scheme]);
     if (s.rule >= RULES[s.scheme].length) s.rule = 0;
-    for (const [id, key] of [
-        ['scheme', 'scheme'],
-        ['boundary', 'boundary'],
-        ['creasing', 'creasing'],
-        ['rule', 'rule'],
-        ['curve-rule', 'curveRule'],
-        ['ends', 'ends'],
-    ])
-        $(id).selectedIndex = s[key];
-    $('cage').value = s.name;
+    $('rule').disabled = RULES[s.scheme].length === 1;
+    $('triangles').disabled = s.scheme !== 0;
+    for (const key of SELECTS) $(key).selectedIndex = s[key];
+    for (const key of CHECKS) $(key).checked = s[key];
+    choices($('name'), [...new Set([...Object.keys(CAGES), s.name])]);
+    $('name').value = s.name;
     $('levels').value = s.levels;
-    const most = s.mode === 'curve' ? 6 : levelsThatFit();
-    $('levels-out').textContent = s.levels > most ? `${most}!` : s.levels;
-    $('limit').checked = s.limit;
-    $('show-cage').checked = s.cage;
-    $('show-wire').checked = s.wire;
+    $('levels-out').textContent = isCurve() ? s.levels : levels();
     const sharpness = chosen >= 0 ? lib.describe().sharpness[chosen] : 0;
     $('sharpness').disabled = chosen < 0;
     $('sharpness').value = Math.min(sharpness, 5);
     $('sharpness-out').textContent = chosen < 0 ? '' : sharpness >= FOREVER ? '∞' : sharpness;
 }
 
-function connect() {
-    const choose = (id, key) =>
-        $(id).addEventListener('change', () => {
-            s[key] = $(id).selectedIndex;
-            showControls();
-            rebuild();
+function set(more) {
+    Object.assign(s, more);
+    showControls();
+    rebuild();
+}
+
+function setMode(mode) {
+    marked = null;
+    s.mode = mode;
+    scene.frame(isCurve() ? points : lib.describe().positions);
+    set({});
+}
+
+function reset() {
+    if (!isCurve()) return load(loaded, s.name);
+    points = POLYGON.slice();
+    setMode('curve');
+}
+
+function addPoint(event) {
+    const { x, y } = scene.place(event);
+    if (!isCurve() || hitAt(x, y)) return;
+    points.push(...scene.unproject(x, y, scene.onScreen(points)[2]));
+    rebuild();
+}
+
+function connectControls() {
+    const on = (id, what, act) => $(id).addEventListener(what, act);
+    for (const key of SELECTS) on(key, 'change', () => set({ [key]: $(key).selectedIndex }));
+    on('limit', 'change', () => set({ limit: $('limit').checked }));
+    for (const key of ['cage', 'wire'])
+        on(key, 'change', () => {
+            s[key] = $(key).checked;
+            if (isCurve()) showCurve();
+            scene.show(s);
+            remember();
         });
-    (choose('scheme', 'scheme'), choose('boundary', 'boundary'), choose('creasing', 'creasing'));
-    (choose('rule', 'rule'), choose('curve-rule', 'curveRule'), choose('ends', 'ends'));
-    const check = (id, key) =>
-        $(id).addEventListener('change', () => {
-            s[key] = $(id).checked;
-            rebuild();
-        });
-    (check('limit', 'limit'), check('show-cage', 'cage'), check('show-wire', 'wire'));
-    $('levels').addEventListener('input', () => {
-        s.levels = +$('levels').value;
-        showControls();
-        rebuild();
-    });
-    $('sharpness').addEventListener('input', () => {
+    on('levels', 'input', () => set({ levels: +$('levels').value }));
+    on('sharpness', 'input', () => {
         const value = +$('sharpness').value;
-        if (chosen >= 0) sharpen(chosen, value >= 5 ? FOREVER : value);
+        sharpen(chosen, value >= 5 ? FOREVER : value);
     });
-    $('cage').innerHTML = Object.keys(CAGES)
-        .map(name => `<option>${name}`)
-        .join('');
-    $('cage').addEventListener('change', () => {
-        const name = $('cage').value;
-        s.scheme = LOOPS[name] || 0;
-        s.levels = CAGES[name].length > 3000 ? 3 : 4;
-        load(CAGES[name], name);
+    on('name', 'change', () => {
+        const name = $('name').value,
+            obj = CAGES[name] ?? loaded;
+        s.scheme = OF_TRIANGLES.includes(name) ? LOOP : 0;
+        s.levels = obj.length > 3000 ? 3 : 4;
+        load(obj, name);
     });
-    $('tab-surface').addEventListener('click', () => setMode('surface'));
-    $('tab-curve').addEventListener('click', () => setMode('curve'));
-    $('reset').addEventListener('click', () => {
-        if (s.mode === 'curve') ((points = POLYGON.slice()), rebuild());
-        else load(loaded, s.name);
-    });
+    on('surface', 'click', () => setMode('surface'));
+    on('curve', 'click', () => setMode('curve'));
+    on('undo', 'click', () => undo(-1));
+    on('redo', 'click', () => undo(1));
+    on('reset', 'click', reset);
+}
+
+function connectPicture() {
+    const { canvas } = scene;
+    canvas.tabIndex = 0;
+    canvas.setAttribute('aria-label', 'The cage and its surface; keys: v, e, f, arrows, Enter');
+    canvas.addEventListener('pointerdown', pointerDown, { capture: true });
+    canvas.addEventListener('pointermove', pointerMove);
+    canvas.addEventListener('pointerup', pointerUp);
+    canvas.addEventListener('pointercancel', pointerUp);
+    canvas.addEventListener('dblclick', addPoint);
+    canvas.addEventListener('keydown', pictureKey);
+    addEventListener('keydown', undoKey);
+}
+
+// ------------------------------------------------------------------------------- files
+
+const SETTINGS = '# playground ';
+
+// Shows what is in an OBJ file; if that cannot be, says why and leaves all as it was.
+function load(obj, name) {
+    const before = lib.save();
+    let warning;
+    try {
+        warning = lib.load(obj);
+        const d = lib.describe();
+        if (d.faceCount > MOST_FACES)
+            throw Error(`A cage of ${number(d.faceCount)} faces is too large for this page.`);
+        if (!d.faceCount && !d.lineCount) throw Error('This file has no faces and no lines.');
+    } catch (e) {
+        if (before) lib.load(before);
+        return say(e.message);
+    }
+    marked = null;
+    chosen = -1;
+    if (lib.describe().faceCount) takeCage(obj, name);
+    else {
+        takeLine();
+        lib.load(before);
+    }
+    const settings = obj.split('\n').find(line => line.startsWith(SETTINGS));
+    if (settings) Object.assign(s, JSON.parse(settings.slice(SETTINGS.length)));
+    setMode(s.mode);
+    if (warning) say(warning);
+}
+
+function takeCage(obj, name) {
+    const { boundary, creasing, triangles } = lib.describe();
+    Object.assign(s, { boundary, creasing, triangles, name, mode: 'surface' });
+    faces = lib.faces();
+    loaded = obj;
+}
+
+function takeLine() {
+    const line = lib.line(),
+        { positions } = lib.describe(),
+        closed = line[0] === line[line.length - 1];
+    s.mode = 'curve';
+    s.ends = closed ? CLOSED : s.ends === CLOSED ? 0 : s.ends;
+    points = [];
+    for (const v of closed ? line.slice(0, -1) : line)
+        points.push(...positions.slice(3 * v, 3 * v + 3));
+}
+
+// What is seen as an OBJ file, with the settings that OBJ has no words for as a comment.
+function saved() {
+    const { name, ...settings } = s,
+        comment = `${SETTINGS}${JSON.stringify(settings)}\n`;
+    if (!isCurve()) return comment + lib.save();
+    let obj = comment,
+        line = 'l';
+    for (let i = 0; i < points.length; i += 3) {
+        obj += `v ${points[i]} ${points[i + 1]} ${points[i + 2]}\n`;
+        line += ` ${i / 3 + 1}`;
+    }
+    return obj + line + (s.ends === CLOSED ? ' 1\n' : '\n');
+}
+
+async function openFile(file) {
+    if (file.size > MOST_BYTES) return say('This file is too large for a page.');
+    load(await file.text(), file.name.replace(/\.obj$/i, ''));
+}
+
+function save() {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([saved()], { type: 'model/obj' }));
+    link.download = `${s.name}.obj`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+// Out of the page, into a folder or onto another page.
+function dragOut({ dataTransfer }) {
+    const obj = saved();
+    dataTransfer.setData(
+        'DownloadURL',
+        `model/obj:${s.name}.obj:data:model/obj,${encodeURIComponent(obj)}`,
+    );
+    dataTransfer.setData('text/plain', obj);
+}
+
+function drop(event) {
+    const { dataTransfer } = event,
+        text = dataTransfer.getData('text/plain');
+    event.preventDefault();
+    document.body.classList.remove('dropping');
+    if (dataTransfer.files.length) openFile(dataTransfer.files[0]);
+    else if (text) load(text, s.name);
+}
+
+function connectFiles() {
     $('open').addEventListener('click', () => $('file').click());
-    $('file').addEventListener('change', () => openFile($('file').files[0]));
-    $('save').addEventListener('click', () => {
-        const link = document.createElement('a');
-        link.href = URL.createObjectURL(new Blob([saved()], { type: 'model/obj' }));
-        link.download = `${s.name || 'cage'}.obj`;
-        link.click();
+    $('file').addEventListener('change', () => {
+        if ($('file').files.length) openFile($('file').files[0]);
+        $('file').value = '';
     });
-    $('save').addEventListener('dragstart', event => {
-        // out of the page, into a folder
-        event.dataTransfer.setData(
-            'DownloadURL',
-            `model/obj:${s.name || 'cage'}.obj:data:model/obj;` + `base64,${btoa(saved())}`,
-        );
-        event.dataTransfer.setData('text/plain', saved());
-    });
+    $('save').addEventListener('click', save);
+    $('save').addEventListener('dragstart', dragOut);
     addEventListener('dragover', event => {
         event.preventDefault();
         document.body.classList.add('dropping');
@@ -448,92 +522,67 @@ function connect() {
     addEventListener('dragleave', event => {
         if (!event.relatedTarget) document.body.classList.remove('dropping');
     });
-    addEventListener('drop', event => {
-        event.preventDefault();
-        document.body.classList.remove('dropping');
-        openFile(event.dataTransfer.files[0]);
-    });
-    scene.canvas.addEventListener('pointerdown', pointerDown, { capture: true });
-    scene.canvas.addEventListener('pointermove', pointerMove);
-    scene.canvas.addEventListener('pointerup', pointerUp);
-    scene.canvas.addEventListener('dblclick', event => {
-        if (s.mode !== 'curve') return;
-        const { x, y } = scene.place(event);
-        if (hitAt(x, y)) return;
-        points.push(...scene.unproject(x, y, [0, 0, 0]));
-        rebuild();
-    });
+    addEventListener('drop', drop);
     addEventListener('hashchange', recall);
 }
 
-function setMode(mode) {
-    s.mode = mode;
-    scene.frame(mode === 'curve' ? points : lib.describe().positions);
-    if (mode === 'surface') scene.clearCurve();
-    showControls();
-    rebuild();
-}
+// ------------------------------------------------------------------------------- undo, the address
 
-async function openFile(file) {
-    if (file) load(await file.text(), file.name.replace(/\.obj$/i, ''));
-}
-
-// ------------------------------------------------------------------------------- the address
-
-async function packed(text, how) {
-    const stream =
-        how === 'pack'
-            ? new CompressionStream('deflate-raw')
-            : new DecompressionStream('deflate-raw');
-    const bytes =
-        how === 'pack'
-            ? new TextEncoder().encode(text)
-            : Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), x =>
-                  x.charCodeAt(0),
-              );
-    const result = new Uint8Array(
-        await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer(),
-    );
-    if (how !== 'pack') return new TextDecoder().decode(result);
-    let letters = '';
-    for (const byte of result) letters += String.fromCharCode(byte);
-    return btoa(letters).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-}
-
-let timer,
+let past = [], // states as JSON
+    here = -1,
+    timer = 0,
     written = '';
 
-// Writes what is seen into the address, when nothing has changed for a moment.
+const state = () => ({
+    ...s,
+    points,
+    obj: lib.save(),
+    loaded: CAGES[s.name] === loaded ? undefined : loaded,
+});
+
+function show({ obj, points: given, loaded: first, view, ...settings }) {
+    lib.load(obj);
+    faces = lib.faces();
+    Object.assign(s, settings);
+    points = given;
+    loaded = first ?? CAGES[s.name];
+    [chosen, marked] = [-1, null];
+    if (view) {
+        scene.frame(isCurve() ? points : lib.describe().positions);
+        scene.look(view);
+    }
+    set({});
+}
+
+// Takes down what is seen, when nothing has changed for a moment.
 function remember() {
     clearTimeout(timer);
-    timer = setTimeout(async () => {
-        const state = {
-            ...s,
-            points,
-            obj: lib.save(),
-            loaded: CAGES[s.name] === loaded ? undefined : loaded,
-            view: scene.viewpoint(),
-        };
-        written = '#' + (await packed(JSON.stringify(state), 'pack'));
-        history.replaceState(null, '', written);
-    }, 300);
+    timer = setTimeout(record, 300);
+}
+
+async function record() {
+    clearTimeout(timer);
+    const now = JSON.stringify(state());
+    if (now !== past[here]) past.splice(++here, Infinity, now);
+    if (past.length > 100) (past.shift(), here--);
+    $('undo').disabled = here === 0;
+    $('redo').disabled = here === past.length - 1;
+    const address = '#' + (await pack(JSON.stringify({ ...state(), view: scene.viewpoint() })));
+    written = address.length < MOST_LETTERS ? address : '#';
+    history.replaceState(null, '', written);
+}
+
+function undo(step) {
+    record();
+    if (past[here + step]) show(JSON.parse(past[(here += step)]));
 }
 
 async function recall() {
-    if (location.hash.length < 2 || location.hash === written) return false;
+    if (location.hash.length < 2 || location.hash === written) return;
     try {
-        const state = JSON.parse(await packed(location.hash.slice(1), 'unpack'));
-        const { obj, view, points: given, loaded: first, mode, ...rest } = state;
-        load(obj, rest.name);
-        Object.assign(s, rest);
-        points = given;
-        loaded = first || CAGES[s.name] || obj;
-        setMode(mode);
-        scene.look(view);
-        return true;
+        show(JSON.parse(await unpack(location.hash.slice(1))));
     } catch (e) {
-        $('error').textContent = 'The address holds no state that can be read.';
-        return false;
+        say('The address holds no state that can be read.');
     }
 }
 
@@ -541,40 +590,30 @@ async function recall() {
 
 async function start() {
     await lib.start();
-    scene = new Scene($('view'), $('labels'), moveVertex, remember);
-    connect();
-    load(CUBE, 'cube');
+    scene = new Scene($('view'), $('labels'), eachFrame, remember);
+    connectControls();
+    connectPicture();
+    connectFiles();
+    load(CAGES.cube, 'cube');
     await recall();
-    showControls();
     // For tests and the console.
     window.playground = {
         state: s,
         scene,
         lib,
+        set,
+        setMode,
         load,
-        rebuild,
-        points: () => points,
-        set: more =>
-            more.mode
-                ? (Object.assign(s, more), setMode(more.mode))
-                : (Object.assign(s, more), showControls(), rebuild()),
-        vertexOnScreen: v => scene.onScreen(vertexAt(v)),
-        edgeOnScreen: e => {
-            const d = lib.describe();
-            return scene.onScreen(center([vertexAt(d.edges[2 * e]), vertexAt(d.edges[2 * e + 1])]));
-        },
         hitAt,
-        curve: () => lib.curve(curveOf(), 3, points),
         obj: saved,
+        curve: () => lib.curve(curve(), 3, points),
+        vertexOnScreen: v => Array.from(scene.onScreen(vertexAt(v))),
+        edgeOnScreen: e => {
+            const { edges } = lib.describe();
+            return Array.from(scene.onScreen(middle(Array.from(edges.slice(2 * e, 2 * e + 2)))));
+        },
         count: () => lib.describe().pointCount,
         position: i => Array.from(lib.describe().buffer.slice(6 * i, 6 * i + 3)),
-        time: count => {
-            const t0 = performance.now();
-            for (let i = 0; i < count; i++) evaluate();
-            const t1 = performance.now();
-            for (let i = 0; i < count; i++) lib.evaluate();
-            return [(t1 - t0) / count, (performance.now() - t1) / count];
-        },
     };
 }
 

@@ -21,6 +21,7 @@ static void  *scratch;
 static int   *wire, *triangle_faces;        // [8 * face_count], [triangles]
 static int   *edges;                        // [2 * edge_count]
 static float *edge_sharpness;               // [edge_count]
+static int   *edge_creases;                 // [edge_count]: where in the cage's creases, or -1
 static int    edge_count, crease_room, limit;
 static char   text[1 << 16];
 
@@ -29,6 +30,7 @@ static char   text[1 << 16];
 EXPORT void *take(size_t size)    { return malloc(size); }
 EXPORT void give(void *memory)    { free(memory); }
 EXPORT char *message(void)        { return error.message; }
+EXPORT char *warning(void)        { return error.warning_count ? error.warning : ""; }
 
 static void *array(size_t count, size_t size)
 {
@@ -42,10 +44,10 @@ static void forget(void)
     subdiv_buffer_free(&buffer);
     subdiv_explanation_free(&explanation);
     free(vertices), free(scratch), free(wire), free(triangle_faces);
-    free(edges), free(edge_sharpness);
+    free(edges), free(edge_sharpness), free(edge_creases);
     surface = NULL;
     vertices = NULL, scratch = NULL, wire = triangle_faces = NULL;
-    edges = NULL, edge_sharpness = NULL;
+    edges = NULL, edge_sharpness = NULL, edge_creases = NULL;
     edge_count = 0;
 }
 
@@ -102,24 +104,15 @@ EXPORT void set(int scheme, int boundary, int creasing, int rule, int triangles)
     cage.triangles = (subdiv_triangles)triangles;
 }
 
-static int crease_between(int a, int b)
-{
-    for (int i = cage.crease_count - 1; i >= 0; i--) {
-        const int *ends = cage.crease_vertices + 2 * i;
-        if ((ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a)) return i;
-    }
-    return -1;
-}
-
 // Gives an edge a sharpness; the surface has to be rebuilt.
 EXPORT int sharpen(int edge, float sharpness)
 {
-    int a = edges[2 * edge], b = edges[2 * edge + 1], i = crease_between(a, b);
+    int i = edge_creases[edge];
     if (i < 0) {
         if (cage.crease_count == crease_room && !own_creases()) return SUBDIV_ERROR_MEMORY;
-        i = cage.crease_count++;
-        cage.crease_vertices[2 * i] = a;
-        cage.crease_vertices[2 * i + 1] = b;
+        i = edge_creases[edge] = cage.crease_count++;
+        cage.crease_vertices[2 * i] = edges[2 * edge];
+        cage.crease_vertices[2 * i + 1] = edges[2 * edge + 1];
     }
     cage.crease_sharpness[i] = edge_sharpness[edge] = sharpness;
     return SUBDIV_OK;
@@ -161,21 +154,43 @@ static int list_faces(void)
     return side;
 }
 
+// Finds the creases of the edges, of several at one edge the last: first and next list the edges
+// by their lower-numbered vertices, counted from 1.
+static void find_creases(int *first, int *next)
+{
+    for (int e = 0; e < edge_count; e++) {
+        next[e] = first[edges[2 * e]];
+        first[edges[2 * e]] = e + 1;
+        edge_creases[e] = -1;
+    }
+    for (int i = 0; i < cage.crease_count; i++) {
+        int a = cage.crease_vertices[2 * i], b = cage.crease_vertices[2 * i + 1];
+        int e = first[a < b ? a : b] - 1;
+        while (e >= 0 && edges[2 * e + 1] != (a < b ? b : a)) e = next[e] - 1;
+        if (e < 0) continue;
+        edge_creases[e] = i;
+        edge_sharpness[e] = cage.crease_sharpness[i];
+    }
+}
+
 static int list_edges(const subdiv_mesh *plain, const subdiv_options *opt)
 {
-    subdiv_surface *first;
-    if (subdiv_prepare(&first, plain, 1, opt)) return 0;
-    edge_count = subdiv_surface_edge_count(first);
+    subdiv_surface *once;
+    if (subdiv_prepare(&once, plain, 1, opt)) return 0;
+    edge_count = subdiv_surface_edge_count(once);
     edges = array(2 * (size_t)edge_count, sizeof *edges);
     edge_sharpness = array((size_t)edge_count, sizeof *edge_sharpness);
-    if (edges && edge_sharpness) subdiv_surface_edges(first, edges);
-    subdiv_surface_free(first);
-    if (!edges || !edge_sharpness) return 0;
-    for (int i = 0; i < edge_count; i++) {
-        int crease = crease_between(edges[2 * i], edges[2 * i + 1]);
-        if (crease >= 0) edge_sharpness[i] = cage.crease_sharpness[crease];
+    edge_creases = array((size_t)edge_count, sizeof *edge_creases);
+    int *first = array((size_t)cage.vertex_count, sizeof *first);
+    int *next = array((size_t)edge_count, sizeof *next);
+    int made = edges && edge_sharpness && edge_creases && first && next;
+    if (made) {
+        subdiv_surface_edges(once, edges);
+        find_creases(first, next);
     }
-    return 1;
+    subdiv_surface_free(once);
+    free(first), free(next);
+    return made;
 }
 
 // Prepares the surface for what the cage is now. UVs are left out, as nothing here shows them.
@@ -207,7 +222,7 @@ EXPORT int rebuild(int levels, int on_limit)
 // Pointers and counts for the page: see page.js.
 EXPORT int *describe(void)
 {
-    static int about[16];
+    static int about[19];
     int i = 0;
     about[i++] = cage.vertex_count;
     about[i++] = (int)(size_t)cage.positions;
@@ -225,6 +240,9 @@ EXPORT int *describe(void)
     about[i++] = fine.vertex_count;
     about[i++] = fine.face_count;
     about[i++] = cage.line_count;
+    about[i++] = cage.boundary;
+    about[i++] = cage.creasing;
+    about[i++] = cage.triangles;
     return about;
 }
 
@@ -239,6 +257,45 @@ EXPORT char *statement(int i, int *face)
     if (i >= cage.statement_count) return NULL;
     *face = cage.statement_faces[i];
     return cage.statements[i];
+}
+
+// ----------------------------------------------------------------------------- pointing
+
+typedef struct point { float x, y, z; } point;
+
+static point minus(point a, point b)
+{
+    return (point){ a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+static point cross(point a, point b)
+{
+    return (point){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+static float dot(point a, point b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static point vertex(int i)
+{
+    const float *at = vertices + STRIDE * (size_t)((const unsigned *)buffer.indices)[i];
+    return (point){ at[0], at[1], at[2] };
+}
+
+// Whether the surface is in front of a point; if it is less than 1 % of the way nearer, it is not.
+EXPORT int hidden(float x, float y, float z, float eye_x, float eye_y, float eye_z)
+{
+    point eye = { eye_x, eye_y, eye_z }, way = minus((point){ x, y, z }, eye);
+    for (int i = 0; i < buffer.index_count; i += 3) {
+        point a = vertex(i), u = minus(vertex(i + 1), a), v = minus(vertex(i + 2), a);
+        point w = minus(eye, a), p = cross(way, v), q = cross(w, u);
+        float area = dot(u, p), s = dot(w, p) / area, t = dot(way, q) / area;
+        float there = dot(v, q) / area;
+        if (s >= 0 && t >= 0 && s + t <= 1 && there > 0 && there < 0.99f) return 1;
+    }
+    return 0;
 }
 
 // ------------------------------------------------------------------------------ explain

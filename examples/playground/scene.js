@@ -41,6 +41,44 @@ function lines(width, options) {
     return object;
 }
 
+// Discs that are so many pixels wide wherever they are, a little nearer than what they lie on.
+function dots() {
+    const material = new THREE.PointsMaterial({
+        sizeAttenuation: false,
+        alphaToCoverage: true,
+        vertexColors: true,
+    });
+    material.onBeforeCompile = shader => {
+        shader.vertexShader = shader.vertexShader.replace(
+            '#include <fog_vertex>',
+            'gl_Position.z -= 1e-4 * gl_Position.w;',
+        );
+        shader.fragmentShader = shader.fragmentShader.replace(
+            '#include <map_particle_fragment>',
+            'diffuseColor.a = clamp(6.0 - 12.0 * length(gl_PointCoord - 0.5), 0.0, 1.0);',
+        );
+    };
+    const object = new THREE.Points(new THREE.BufferGeometry(), material);
+    object.frustumCulled = false;
+    object.renderOrder = 3;
+    return object;
+}
+
+// Shadow on the ground, with wider edges than on the surface: many of them make one soft shadow.
+function shadow() {
+    const material = new THREE.ShadowMaterial({ color: 0x4a4238 });
+    material.onBeforeCompile = shader => {
+        shader.fragmentShader = shader.fragmentShader.replace(
+            '#include <shadowmap_pars_fragment>',
+            THREE.ShaderChunk.shadowmap_pars_fragment.replaceAll(
+                'shadowRadius * texelSize',
+                '9.0 * shadowRadius * texelSize',
+            ),
+        );
+    };
+    return material;
+}
+
 export class Scene {
     constructor(place, labels, eachFrame, viewChanged) {
         this.labels = labels;
@@ -84,10 +122,7 @@ export class Scene {
         }
         this.rim = new THREE.DirectionalLight(0xe4eeff, 0.9);
         this.scene.add(this.rim);
-        this.ground = new THREE.Mesh(
-            new THREE.PlaneGeometry(1, 1),
-            new THREE.ShadowMaterial({ opacity: 0.34, color: 0x4a4238 }),
-        );
+        this.ground = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), shadow());
         this.ground.rotation.x = -Math.PI / 2;
         this.ground.receiveShadow = true;
         this.scene.add(this.ground);
@@ -97,14 +132,7 @@ export class Scene {
         this.cageLines = lines(2, {});
         this.hiddenLines = lines(1.2, { depthTest: false, transparent: true, opacity: 0.22 });
         this.curveLines = lines(4, {});
-        const ball = new THREE.SphereGeometry(1, 20, 14);
-        this.dots = new THREE.InstancedMesh(ball, new THREE.MeshBasicMaterial(), 1);
-        this.made = new THREE.Mesh(
-            ball,
-            new THREE.MeshBasicMaterial({ color: TEAL, depthTest: false }),
-        );
-        this.made.renderOrder = 5;
-        this.made.visible = false;
+        this.dots = dots();
         this.wire = new THREE.LineSegments(
             new THREE.BufferGeometry(),
             new THREE.LineBasicMaterial({ color: 0x2b2622, transparent: true, opacity: 0.16 }),
@@ -118,7 +146,6 @@ export class Scene {
             this.hiddenLines,
             this.curveLines,
             this.dots,
-            this.made,
             this.wire,
         );
     }
@@ -143,7 +170,6 @@ export class Scene {
             this.camera.clearViewOffset();
             this.aimLights(0, 0);
             this.placeLabels();
-            this.sizeDots();
             this.renderer.shadowMap.needsUpdate = this.moved;
             this.moved = false;
             this.renderer.render(this.scene, this.camera);
@@ -183,7 +209,7 @@ export class Scene {
         this.blend.render(this.renderer);
         this.renderer.autoClear = true;
         this.renderer.setRenderTarget(null);
-        if (n >= 12) this.show.render(this.renderer);
+        if (n >= 12) this.copy.render(this.renderer);
         this.draw();
     }
 
@@ -202,7 +228,7 @@ export class Scene {
                 }),
             );
         this.blend = quad({ map: this.once.texture, transparent: true });
-        this.show = quad({ map: this.mean.texture });
+        this.copy = quad({ map: this.mean.texture, dithering: true });
     }
 
     resize() {
@@ -243,10 +269,8 @@ export class Scene {
     // Puts the ground under what is there now.
     settle() {
         let floor = this.surface ? Infinity : this.floor;
-        if (this.surface) {
-            const data = this.surface.geometry.attributes.position.data.array;
-            for (let i = 1; i < data.length; i += 6) floor = Math.min(floor, data[i]);
-        }
+        const data = this.surface?.geometry.attributes.position.data.array ?? [];
+        for (let i = 1; i < data.length; i += 6) floor = Math.min(floor, data[i]);
         this.ground.position.set(this.center.x, floor - 0.002 * this.radius, this.center.z);
         this.ground.scale.setScalar(30 * this.radius);
         this.wake(true);
@@ -294,6 +318,7 @@ export class Scene {
         at(this.key, -2.2 + wide * Math.cos(turn), 4, -2 + wide * Math.sin(turn));
         at(this.sky, 5 * flat * Math.cos(turn), 5 * height, 5 * flat * Math.sin(turn));
         this.sky.intensity = pass ? 1.5 : 0.75;
+        this.ground.material.opacity = pass ? 0.45 : 0.25; // the mean is made of linear colours
         at(this.rim, 3, 1.4, 3);
         for (const light of [this.key, this.sky]) {
             light.target.position.copy(this.center);
@@ -342,14 +367,13 @@ export class Scene {
             this.surface.geometry.dispose();
             this.surface = null;
         }
-        this.wire.visible = false;
         this.wake(true);
     }
 
+    // The positions and normals stay in the library's memory.
     showSurface(d, names, s) {
         this.clearSurface();
-        this.clearCurve();
-        this.data = new THREE.InterleavedBuffer(d.buffer.slice(), 6);
+        this.data = new THREE.InterleavedBuffer(d.buffer, 6);
         this.data.setUsage(THREE.DynamicDrawUsage);
         const position = new THREE.InterleavedBufferAttribute(this.data, 3, 0);
         const geometry = new THREE.BufferGeometry();
@@ -357,19 +381,7 @@ export class Scene {
         if (s.limit)
             geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(this.data, 3, 3));
         geometry.setIndex(new THREE.BufferAttribute(d.indices.slice(), 1));
-        const materials = [],
-            numbers = new Map();
-        for (let i = 0, start = 0; i < d.triangleFaces.length; i++) {
-            const name = names[d.triangleFaces[i]] ?? '',
-                next = names[d.triangleFaces[i + 1]] ?? '';
-            if (i + 1 < d.triangleFaces.length && next === name) continue;
-            if (!numbers.has(name)) {
-                numbers.set(name, materials.length);
-                materials.push(this.materialOf(name, !s.limit));
-            }
-            geometry.addGroup(3 * start, 3 * (i + 1 - start), numbers.get(name));
-            start = i + 1;
-        }
+        const materials = this.groupByMaterial(geometry, d.triangleFaces, names, !s.limit);
         this.surface = new THREE.Mesh(geometry, materials);
         this.surface.castShadow = this.surface.receiveShadow = true;
         this.surface.frustumCulled = false;
@@ -377,119 +389,138 @@ export class Scene {
         this.wire.geometry.dispose();
         this.wire.geometry = new THREE.BufferGeometry();
         this.wire.geometry.setAttribute('position', position);
-        if (s.wire) this.wire.geometry.setIndex(new THREE.BufferAttribute(d.wire.slice(), 1));
-        this.wire.visible = s.wire;
-        this.showsCage = s.cage;
+        this.wire.geometry.setIndex(new THREE.BufferAttribute(d.wire.slice(), 1));
         this.settle();
     }
 
-    moveSurface(buffer) {
-        this.data.array.set(buffer);
-        this.data.needsUpdate = true;
+    // Makes a group of each run of triangles with the same material; returns the materials.
+    groupByMaterial(geometry, triangleFaces, names, flat) {
+        const materials = [],
+            numbers = new Map();
+        for (let i = 0, start = 0; i < triangleFaces.length; i++) {
+            const name = names[triangleFaces[i]] ?? '',
+                next = names[triangleFaces[i + 1]] ?? '';
+            if (i + 1 < triangleFaces.length && next === name) continue;
+            if (!numbers.has(name)) {
+                numbers.set(name, materials.length);
+                materials.push(this.materialOf(name, flat));
+            }
+            geometry.addGroup(3 * start, 3 * (i + 1 - start), numbers.get(name));
+            start = i + 1;
+        }
+        return materials;
+    }
+
+    // The library's memory may have moved since; unless its values changed, nothing is sent to draw.
+    lookAt(buffer, changed) {
+        if (!this.surface) return;
+        this.data.array = buffer;
+        if (changed) this.data.needsUpdate = true;
+    }
+
+    show(s) {
+        const cage = s.cage && s.mode === 'surface';
+        this.wire.visible = s.wire && !!this.surface;
+        this.cageLines.visible = s.cage;
+        this.hiddenLines.visible = cage;
+        this.curveLines.visible = s.mode === 'curve';
+        this.dots.visible = cage || s.mode === 'curve';
         this.wake(true);
     }
 
     // ---- the cage
 
-    setLines(object, ends, colours) {
-        const same = object.geometry.attributes.instanceStart?.data.array.length === ends.length;
-        if (same) {
-            object.geometry.attributes.instanceStart.data.array.set(ends);
-            object.geometry.attributes.instanceStart.data.needsUpdate = true;
-        } else {
-            object.geometry.dispose();
-            object.geometry = new LineSegmentsGeometry();
-            object.geometry.setPositions(ends);
+    // Sets what line objects that share a geometry show.
+    setLines(objects, ends, colours) {
+        const { instanceStart, instanceColorStart } = objects[0].geometry.attributes;
+        if (instanceStart?.data.array.length === ends.length) {
+            for (const [{ data }, values] of [
+                [instanceStart, ends],
+                [instanceColorStart, colours],
+            ]) {
+                data.array.set(values);
+                data.needsUpdate = true;
+            }
+            return;
         }
-        if (colours) object.geometry.setColors(colours);
-        object.visible = ends.length > 0;
+        objects[0].geometry.dispose();
+        const geometry = new LineSegmentsGeometry();
+        geometry.setPositions(ends);
+        geometry.setColors(colours);
+        for (const object of objects) object.geometry = geometry;
     }
 
-    showCage(positions, edges, sharpness, chosen) {
-        const colours = new Float32Array(6 * sharpness.length),
+    showCage({ positions, edges, sharpness }, chosen) {
+        const ends = new Float32Array(3 * edges.length),
+            colours = new Float32Array(3 * edges.length),
             colour = new THREE.Color();
-        sharpness.forEach((s, i) => {
-            colour.set(i === chosen && s === 0 ? TEAL : s >= 10 ? CORAL : s > 0 ? AMBER : INK);
-            for (let k = 0; k < 2; k++) colour.toArray(colours, 6 * i + 3 * k);
+        edges.forEach((v, i) => {
+            const e = i >> 1,
+                s = sharpness[e];
+            colour.set(e === chosen && s === 0 ? TEAL : s >= 10 ? CORAL : s > 0 ? AMBER : INK);
+            colour.toArray(colours, 3 * i);
+            for (let k = 0; k < 3; k++) ends[3 * i + k] = positions[3 * v + k];
         });
         this.cageLines.material.linewidth = sharpness.length > 400 ? 1.4 : 2.2;
-        this.moveCage(positions, edges, colours);
+        this.setLines([this.cageLines, this.hiddenLines], ends, colours);
+        this.showDots(positions);
     }
 
-    moveCage(positions, edges, colours) {
-        const ends = new Float32Array(3 * edges.length);
-        for (let i = 0; i < edges.length; i++)
-            for (let k = 0; k < 3; k++) ends[3 * i + k] = positions[3 * edges[i] + k];
-        this.setLines(this.cageLines, ends, colours);
-        this.setLines(this.hiddenLines, ends, colours);
-        this.cageLines.visible = this.hiddenLines.visible = this.showsCage && edges.length > 0;
-        this.showDots(this.showsCage ? positions : []);
+    // Moves a vertex of the cage: of each buffer, only its numbers are changed and sent to draw.
+    moveVertex(v, at, edges) {
+        const { data } = this.cageLines.geometry.attributes.instanceStart,
+            dots = this.dots.geometry.attributes.position;
+        const move = (buffer, i) => {
+            buffer.array.set(at, 3 * i);
+            buffer.addUpdateRange(3 * i, 3);
+            buffer.needsUpdate = true;
+        };
+        for (let i = 0; i < edges.length; i++) if (edges[i] === v) move(data, i);
+        move(dots, v);
+        this.wake(true);
     }
 
     // The first of them are control points, the others points of a curve.
     showDots(positions, own = positions.length / 3) {
-        const count = positions.length / 3;
-        if (this.dots.instanceMatrix.count < count) {
-            const { geometry, material } = this.dots;
-            this.scene.remove(this.dots);
-            this.dots = new THREE.InstancedMesh(geometry, material, count);
-            this.scene.add(this.dots);
-        }
-        this.dots.frustumCulled = false;
-        this.dots.count = count;
-        this.dotsAt = Float32Array.from(positions);
-        const ink = new THREE.Color(INK),
-            coral = new THREE.Color(CORAL);
-        for (let i = 0; i < count; i++) this.dots.setColorAt(i, i < own ? ink : coral);
-        if (count) this.dots.instanceColor.needsUpdate = true;
+        const count = positions.length / 3,
+            colours = new Float32Array(positions.length);
+        for (let i = 0; i < count; i++)
+            new THREE.Color(i < own ? INK : CORAL).toArray(colours, 3 * i);
+        this.dots.geometry.dispose();
+        this.dots.geometry = new THREE.BufferGeometry();
+        for (const [name, values] of Object.entries({ position: positions, color: colours }))
+            this.dots.geometry.setAttribute(
+                name,
+                new THREE.BufferAttribute(Float32Array.from(values), 3),
+            );
+        this.dots.material.size = count > 200 ? 4.5 : 9;
         this.wake();
     }
 
-    // Dots of the same size on the screen, wherever they are.
-    sizeDots() {
-        const m = new THREE.Matrix4(),
-            p = new THREE.Vector3();
-        const pixel = (2 * Math.tan(Math.PI / 12)) / this.canvas.clientHeight;
-        const radius = this.dots.count > 200 ? 2.2 : 4.5;
-        for (let i = 0; i < this.dots.count; i++) {
-            p.fromArray(this.dotsAt, 3 * i);
-            const size = radius * pixel * p.distanceTo(this.camera.position);
-            m.makeScale(size, size, size).setPosition(p);
-            this.dots.setMatrixAt(i, m);
-        }
-        this.dots.instanceMatrix.needsUpdate = true;
-        this.made.scale.setScalar(6 * pixel * this.made.position.distanceTo(this.camera.position));
-    }
-
-    // ---- masks: a label at each vertex, and the point they make
+    // ---- masks: a label at each vertex, and a dot at the point they make
 
     showMask(weights, made) {
-        this.labels.textContent = '';
-        this.marks = weights.map(w => {
+        const label = (at, text, kind) => {
             const span = document.createElement('span');
-            span.textContent = w.text;
-            span.className = w.own ? 'own' : '';
+            span.textContent = text;
+            span.className = kind;
             this.labels.appendChild(span);
-            return { span, at: new THREE.Vector3(...w.at) };
-        });
-        this.made.visible = !!made;
-        if (made) this.made.position.set(...made);
-        this.wake();
+            return { span, at };
+        };
+        this.labels.textContent = '';
+        this.marks = weights.map(w => label(w.at, w.text, w.own ? 'own' : ''));
+        if (made) this.marks.push(label(made, '', 'made'));
+        this.placeLabels();
     }
 
     placeLabels() {
         for (const { span, at } of this.marks ?? []) {
-            const { x, y } = this.onScreen(at.toArray());
-            span.style.left = `${x}px`;
-            span.style.top = `${y}px`;
+            const [x, y] = this.onScreen(at);
+            span.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
         }
     }
 
     // ---- curves
-
-    clearCurve() {
-        this.curveLines.visible = false;
-    }
 
     showCurve(points, smooth, closed, cage, dots) {
         const segments = (list, colour, last) => {
@@ -503,10 +534,8 @@ export class Scene {
                 new Float32Array(ends.length).map((_, i) => rgb[i % 3]),
             ];
         };
-        this.setLines(this.curveLines, ...segments(smooth, CORAL, closed ? 1 : 0));
-        this.setLines(this.cageLines, ...segments(points, 0xa8a294, closed ? 1 : 0));
-        this.cageLines.visible = cage;
-        this.hiddenLines.visible = false;
+        this.setLines([this.curveLines], ...segments(smooth, CORAL, closed ? 1 : 0));
+        this.setLines([this.cageLines], ...segments(points, 0xa8a294, closed ? 1 : 0));
         this.showDots(
             [...(cage ? points : []), ...(dots ? smooth : [])],
             cage ? points.length / 3 : 0,
@@ -520,53 +549,54 @@ export class Scene {
         return { x: event.clientX - box.left, y: event.clientY - box.top };
     }
 
-    onScreen(p) {
-        const v = new THREE.Vector3(...p).project(this.camera);
-        return {
-            x: ((v.x + 1) / 2) * this.canvas.clientWidth,
-            y: ((1 - v.y) / 2) * this.canvas.clientHeight,
-            depth: v.z,
-        };
+    // Where points are on the screen: x, y and depth of each; not numbers if behind the eye.
+    onScreen(points) {
+        const { projectionMatrix, matrixWorldInverse } = this.camera,
+            e = new THREE.Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse).elements,
+            { clientWidth: w, clientHeight: h } = this.canvas,
+            seen = new Float64Array(points.length);
+        for (let i = 0; i < points.length; i += 3) {
+            const [x, y, z] = [points[i], points[i + 1], points[i + 2]],
+                row = k => e[k] * x + e[k + 4] * y + e[k + 8] * z + e[k + 12],
+                away = row(3) > 0 ? row(3) : NaN;
+            seen[i] = ((1 + row(0) / away) / 2) * w;
+            seen[i + 1] = ((1 - row(1) / away) / 2) * h;
+            seen[i + 2] = row(2) / away;
+        }
+        return seen;
     }
 
-    // The point under x, y at the depth of p.
-    unproject(x, y, p) {
-        const depth = new THREE.Vector3(...p).project(this.camera).z;
-        return new THREE.Vector3(
-            (2 * x) / this.canvas.clientWidth - 1,
-            1 - (2 * y) / this.canvas.clientHeight,
-            depth,
-        )
+    // The point under x, y at a depth.
+    unproject(x, y, depth) {
+        const { clientWidth: w, clientHeight: h } = this.canvas;
+        return new THREE.Vector3((2 * x) / w - 1, 1 - (2 * y) / h, depth)
             .unproject(this.camera)
             .toArray();
     }
 
-    // Of what is near enough, the one in front.
-    nearest(count, at, x, y, reach) {
+    // Of points on the screen that are near enough, the one in front.
+    nearest(seen, x, y, reach) {
         let best = -1,
             depth = Infinity;
-        for (let i = 0; i < count; i++) {
-            const p = this.onScreen(at(i));
-            if (Math.hypot(p.x - x, p.y - y) < reach && p.depth < depth)
-                ((best = i), (depth = p.depth));
-        }
+        for (let i = 0; i < seen.length; i += 3)
+            if (Math.hypot(seen[i] - x, seen[i + 1] - y) < reach && seen[i + 2] < depth)
+                ((best = i / 3), (depth = seen[i + 2]));
         return best;
     }
 
-    nearestEdge(count, at, x, y, reach) {
-        let best = -1,
-            depth = Infinity;
-        for (let i = 0; i < count; i++) {
-            const [a, b] = at(i).map(p => this.onScreen(p)),
-                dx = b.x - a.x,
-                dy = b.y - a.y;
-            const t = Math.max(
-                0,
-                Math.min(1, ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy || 1)),
-            );
-            const z = a.depth + t * (b.depth - a.depth);
-            if (Math.hypot(a.x + t * dx - x, a.y + t * dy - y) < reach && z < depth)
-                ((best = i), (depth = z));
+    // Of edges between such points the one in front, and the place on it.
+    nearestEdge(seen, edges, x, y, reach) {
+        let best = { edge: -1, depth: Infinity };
+        for (let i = 0; i < edges.length; i += 2) {
+            const a = 3 * edges[i],
+                b = 3 * edges[i + 1];
+            const dx = seen[b] - seen[a],
+                dy = seen[b + 1] - seen[a + 1],
+                along = (x - seen[a]) * dx + (y - seen[a + 1]) * dy;
+            const t = Math.max(0, Math.min(1, along / (dx * dx + dy * dy || 1))),
+                depth = seen[a + 2] + t * (seen[b + 2] - seen[a + 2]);
+            const off = Math.hypot(seen[a] + t * dx - x, seen[a + 1] + t * dy - y);
+            if (off < reach && depth < best.depth) best = { edge: i / 2, t, depth };
         }
         return best;
     }
