@@ -194,8 +194,10 @@ async function touch(browser) {
 
 // A page opened at the address shows the same.
 async function address(page, context) {
+    const before = page.url();
     await set(page, { triangles: 1, wire: true });
-    await page.waitForTimeout(800);
+    await page.waitForFunction(before => location.href !== before, before);
+    await page.waitForTimeout(500);
     const other = await open(context, page.url());
     check('the address has the state', page.url().includes('#'));
     check('a page at the address shows it', (await seen(page)) === (await seen(other)));
@@ -275,8 +277,8 @@ async function refusals(page) {
     const before = await seen(page);
     for (const [text, words] of [
         ['v 0 0 0\nf 1 2 3\n', /vertex 2 does not exist/],
-        ['\x89PNG\r\n\x1a\n\0\0', /line 1|no faces/],
-        ['', /no faces/],
+        ['\x89PNG\r\n\x1a\n\0\0', /binary data/],
+        ['', /no vertices/],
         ['v 0 0 0\n', /no faces/],
     ]) {
         await drop(page, 'bad.obj', text);
@@ -353,11 +355,12 @@ async function dragLarge(page, context) {
     const [x, y] = await page.evaluate(() => {
         for (let v = 0; ; v++) {
             const [x, y] = window.playground.vertexOnScreen(v);
-            if (window.playground.hitAt(x, y)?.index === v) return [x, y];
+            const hit = window.playground.hitAt(x, y);
+            if (hit && hit.kind === 'vertex' && hit.index === v) return [x, y];
         }
     });
     const cdp = await context.newCDPSession(page);
-    await cdp.send('Performance.enable');
+    await cdp.send('Performance.enable', { timeDomain: 'threadTicks' });
     const spent = async () => {
         const { metrics } = await cdp.send('Performance.getMetrics');
         return Object.fromEntries(metrics.map(({ name, value }) => [name, 1000 * value]));
@@ -407,7 +410,7 @@ async function curves(page, context) {
     const again = await obj(other);
     check('a dropped curve is the same', again === shown[0]);
     await other.click('#surface');
-    check('and the cage is still there', (await other.evaluate(() => playground.count())) > 1000);
+    check('and the cage is still there', (await on(other, 'count')) > 300);
     await other.close();
 }
 

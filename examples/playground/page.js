@@ -461,6 +461,13 @@ function takeLine() {
         points.push(...positions.slice(3 * v, 3 * v + 3));
 }
 
+// With the fewest digits that read back as the same float.
+function shortest(x) {
+    for (let digits = 6; digits < 9; digits++)
+        if (Math.fround(x.toPrecision(digits)) === Math.fround(x)) return +x.toPrecision(digits);
+    return +x.toPrecision(9);
+}
+
 // What is seen as an OBJ file, with the settings that OBJ has no words for as a comment.
 function saved() {
     const { name, ...settings } = s,
@@ -469,7 +476,7 @@ function saved() {
     let obj = comment,
         line = 'l';
     for (let i = 0; i < points.length; i += 3) {
-        obj += `v ${points[i]} ${points[i + 1]} ${points[i + 2]}\n`;
+        obj += `v ${points.slice(i, i + 3).map(shortest).join(' ')}\n`;
         line += ` ${i / 3 + 1}`;
     }
     return obj + line + (s.ends === CLOSED ? ' 1\n' : '\n');
