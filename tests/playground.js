@@ -194,10 +194,8 @@ async function touch(browser) {
 
 // A page opened at the address shows the same.
 async function address(page, context) {
-    const before = page.url();
     await set(page, { triangles: 1, wire: true });
-    await page.waitForFunction(before => location.href !== before, before);
-    await page.waitForTimeout(500);
+    await page.evaluate(() => window.playground.record());
     const other = await open(context, page.url());
     check('the address has the state', page.url().includes('#'));
     check('a page at the address shows it', (await seen(page)) === (await seen(other)));
@@ -317,10 +315,10 @@ async function largeCage(page) {
 
 // Counts what the page does: calls of the library, and buffers made, filled and changed in place.
 // While drawing is off, all is done but what the graphics card does.
-function spy() {
+function spy(drawing) {
     const counts = (window.counts = {}),
         count = (what, by = 1) => (counts[what] = (counts[what] ?? 0) + by);
-    window.drawing = true;
+    window.drawing = drawing;
     const instantiate = WebAssembly.instantiate;
     WebAssembly.instantiate = async (...given) => {
         const result = await instantiate(...given),
@@ -416,16 +414,18 @@ async function curves(page, context) {
 
 let pagePlace;
 
-async function open(context, place = pagePlace) {
+async function open(context, place = pagePlace, drawing = false) {
     const page = await context.newPage();
+    page.setDefaultTimeout(120000); // other tests may run at the same time
     page.on('pageerror', error => check(`no error: ${error.message}`, false));
+    page.on('console', said => check(`no error: ${said.text()}`, said.type() !== 'error'));
     page.on('request', request =>
         check(
             `no request: ${request.url().slice(0, 60)}`,
             /^(file|data|blob):/.test(request.url()),
         ),
     );
-    await page.addInitScript(spy);
+    await page.addInitScript(spy, drawing);
     await page.goto(place);
     await page.waitForFunction(() => window.playground);
     await page.evaluate(() => (window.playground.scene.refines = false));
@@ -439,7 +439,7 @@ async function open(context, place = pagePlace) {
     });
     const context = await browser.newContext({ viewport: { width: 1000, height: 600 } });
     pagePlace = `file://${fs.realpathSync(pagePath)}`;
-    const page = await open(context);
+    const page = await open(context, pagePlace, true);
     await surfaces(page);
     await undoing(page);
     await keys(page);

@@ -463,9 +463,10 @@ function takeLine() {
 
 // With the fewest digits that read back as the same float.
 function shortest(x) {
-    for (let digits = 6; digits < 9; digits++)
-        if (Math.fround(x.toPrecision(digits)) === Math.fround(x)) return +x.toPrecision(digits);
-    return +x.toPrecision(9);
+    const float = Math.fround(x);
+    let digits = 6;
+    while (digits < 9 && Math.fround(float.toPrecision(digits)) !== float) digits++;
+    return +float.toPrecision(digits);
 }
 
 // What is seen as an OBJ file, with the settings that OBJ has no words for as a comment.
@@ -612,6 +613,7 @@ async function start() {
         setMode,
         load,
         hitAt,
+        record,
         obj: saved,
         curve: () => lib.curve(curve(), 3, points),
         vertexOnScreen: v => Array.from(scene.onScreen(vertexAt(v))),
