@@ -119,8 +119,15 @@ async function surfaces(page) {
 }
 
 // What the page behind shows of its state, whatever the view.
-const seen = page => page.evaluate(() => JSON.stringify([window.playground.state,
-    window.playground.obj(), window.playground.count(), window.playground.position(7)]));
+const seen = page =>
+    page.evaluate(() =>
+        JSON.stringify([
+            window.playground.state,
+            window.playground.obj(),
+            window.playground.count(),
+            window.playground.position(7),
+        ]),
+    );
 
 async function undoing(page) {
     await page.waitForTimeout(500);
@@ -237,7 +244,10 @@ async function savedByButton(page) {
 // A page that gets a saved file shows the same as the page that saved it.
 async function saveAndLoad(page, context, what) {
     const [name, text] = await draggedOut(page);
-    check(`${what}: button and drag save alike`, `${await savedByButton(page)}` === `${[name, text]}`);
+    check(
+        `${what}: button and drag save alike`,
+        `${await savedByButton(page)}` === `${[name, text]}`,
+    );
     const other = await open(context);
     await drop(other, name, text);
     check(`${what}: a dropped file shows the same`, (await seen(page)) === (await seen(other)));
@@ -249,7 +259,8 @@ async function saveAndLoad(page, context, what) {
     await other.close();
 }
 
-const PYRAMID = 'v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\n' +
+const PYRAMID =
+    'v 0 2 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\n' +
     'f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 5 4 3 2\n# Привет\n';
 
 async function files(page, context) {
@@ -308,7 +319,10 @@ async function largeCage(page) {
     await page.waitForTimeout(300);
     await set(page, { scheme: 0, levels: 6 });
     const told = await page.textContent('#message');
-    check(`a level too high is refused with words, not "${told}"`, /^Level 6 .* too many/.test(told));
+    check(
+        `a level too high is refused with words, not "${told}"`,
+        /^Level 6 .* too many/.test(told),
+    );
     const count = await page.evaluate(() => window.playground.count());
     check(`the level below is shown: ${count}`, count > 2e5 && count < 1.3e6);
 }
@@ -337,10 +351,20 @@ function spy(drawing) {
         };
     wrap('createBuffer', () => void count('buffers'));
     wrap('bufferData', () => void count('buffers'));
-    wrap('bufferSubData', (target, at, array, from, length) =>
-        void count(target === gl.ELEMENT_ARRAY_BUFFER ? 'indices' : 'bytes',
-            length ? 4 * length : array.byteLength));
-    for (const name of ['drawElements', 'drawArrays', 'drawArraysInstanced', 'drawElementsInstanced'])
+    wrap(
+        'bufferSubData',
+        (target, at, array, from, length) =>
+            void count(
+                target === gl.ELEMENT_ARRAY_BUFFER ? 'indices' : 'bytes',
+                length ? 4 * length : array.byteLength,
+            ),
+    );
+    for (const name of [
+        'drawElements',
+        'drawArrays',
+        'drawArraysInstanced',
+        'drawElementsInstanced',
+    ])
         wrap(name, () => window.drawing);
 }
 

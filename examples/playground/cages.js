@@ -10,8 +10,7 @@ f 1 2 4 3\nf 3 4 6 5\nf 5 6 8 7\nf 7 8 2 1\nf 2 8 6 4\nf 7 1 3 5\n`;
 function patch() {
     let obj = '';
     for (let r = 0; r < 4; r++)
-        for (let c = 0; c < 4; c++)
-            obj += `v ${c - 1.5} ${r % 3 && c % 3 ? 0.6 : 0} ${r - 1.5}\n`;
+        for (let c = 0; c < 4; c++) obj += `v ${c - 1.5} ${r % 3 && c % 3 ? 0.6 : 0} ${r - 1.5}\n`;
     for (let r = 0; r < 3; r++)
         for (let c = 0; c < 3; c++) {
             const a = 4 * r + c + 1;

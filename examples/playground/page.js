@@ -15,7 +15,8 @@ const LOOP = 1,
     FOREVER = 10,
     MOST_FACES = 1.2e6,
     MOST_BYTES = 1e8,
-    MOST_LETTERS = 1e6; // of an address
+    MOST_SHARED = 5e6, // letters of a state in the address,
+    MOST_KEPT = 1e8; // and of all states that undo goes back to
 const SELECTS = ['scheme', 'boundary', 'creasing', 'rule', 'triangles', 'curveRule', 'ends'],
     CHECKS = ['limit', 'cage', 'wire'];
 
@@ -171,10 +172,8 @@ function explain(text) {
 
 // ------------------------------------------------------------------------------- pointer
 
-const middle = face => {
-    const { positions } = lib.describe();
-    return [0, 1, 2].map(k => face.reduce((sum, v) => sum + positions[3 * v + k], 0) / face.length);
-};
+const middle = (face, positions) =>
+    [0, 1, 2].map(k => face.reduce((sum, v) => sum + positions[3 * v + k], 0) / face.length);
 
 // What can be seen under the pointer: a vertex, else an edge, else the middle of a face.
 function hitAt(x, y, reach = 1) {
@@ -188,7 +187,7 @@ function hitAt(x, y, reach = 1) {
     const { edge, depth } = scene.nearestEdge(seen, d.edges, x, y, 7 * reach);
     if (edge >= 0 && inSight(scene.unproject(x, y, depth))) return { kind: 'edge', index: edge };
     if (s.scheme === LOOP) return null;
-    const middles = faces.map(middle),
+    const middles = faces.map(face => middle(face, d.positions)),
         face = scene.nearest(scene.onScreen(middles.flat()), x, y, 16 * reach);
     return face >= 0 && inSight(middles[face]) ? { kind: 'face', index: face } : null;
 }
@@ -477,7 +476,10 @@ function saved() {
     let obj = comment,
         line = 'l';
     for (let i = 0; i < points.length; i += 3) {
-        obj += `v ${points.slice(i, i + 3).map(shortest).join(' ')}\n`;
+        obj += `v ${points
+            .slice(i, i + 3)
+            .map(shortest)
+            .join(' ')}\n`;
         line += ` ${i / 3 + 1}`;
     }
     return obj + line + (s.ends === CLOSED ? ' 1\n' : '\n');
@@ -572,11 +574,11 @@ async function record() {
     clearTimeout(timer);
     const now = JSON.stringify(state());
     if (now !== past[here]) past.splice(++here, Infinity, now);
-    if (past.length > 100) (past.shift(), here--);
+    while (here > 1 && past.length * now.length > MOST_KEPT) (past.shift(), here--);
     $('undo').disabled = here === 0;
     $('redo').disabled = here === past.length - 1;
-    const address = '#' + (await pack(JSON.stringify({ ...state(), view: scene.viewpoint() })));
-    written = address.length < MOST_LETTERS ? address : '#';
+    if (now.length > MOST_SHARED) written = '#';
+    else written = '#' + (await pack(JSON.stringify({ ...state(), view: scene.viewpoint() })));
     history.replaceState(null, '', written);
 }
 
@@ -618,8 +620,8 @@ async function start() {
         curve: () => lib.curve(curve(), 3, points),
         vertexOnScreen: v => Array.from(scene.onScreen(vertexAt(v))),
         edgeOnScreen: e => {
-            const { edges } = lib.describe();
-            return Array.from(scene.onScreen(middle(Array.from(edges.slice(2 * e, 2 * e + 2)))));
+            const { edges, positions } = lib.describe();
+            return Array.from(scene.onScreen(middle(edges.slice(2 * e, 2 * e + 2), positions)));
         },
         count: () => lib.describe().pointCount,
         position: i => Array.from(lib.describe().buffer.slice(6 * i, 6 * i + 3)),

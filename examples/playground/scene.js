@@ -141,13 +141,7 @@ export class Scene {
         this.wire.visible = false;
         this.cageLines.renderOrder = 2;
         this.hiddenLines.renderOrder = 1;
-        this.scene.add(
-            this.cageLines,
-            this.hiddenLines,
-            this.curveLines,
-            this.dots,
-            this.wire,
-        );
+        this.scene.add(this.cageLines, this.hiddenLines, this.curveLines, this.dots, this.wire);
     }
 
     // ---- the frame
@@ -411,7 +405,7 @@ export class Scene {
         return materials;
     }
 
-    // The library's memory may have moved since; unless its values changed, nothing is sent to draw.
+    // The library's memory may have moved; values are sent to draw only if they changed.
     lookAt(buffer, changed) {
         if (!this.surface) return;
         this.data.array = buffer;
