@@ -33,8 +33,8 @@ export function curveMask(curve, count, i) {
 }
 
 function curveText(curve, i, isEnd) {
-    if (isEnd)
-        return `Point ${i} is an end.\n` + (curve.ends ? 'It is cut off.' : 'It stays: its mask is 1.');
+    const end = curve.ends ? 'It is cut off.' : 'It stays: its mask is 1.';
+    if (isEnd) return `Point ${i} is an end.\n${end}`;
     if (curve.rule === 0)
         return `Point ${i} is even: it moves along the cubic B-spline.
 
