@@ -13625,7 +13625,8 @@ static void sdv_check_chains(sdv_context *context, const subdiv_mesh *mesh, int 
     }
     if (sharpness_count != chain_count && sharpness_count != edges)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "sharpness_count is %d, but there are %d chains "
-                 "with %d edges", sharpness_count, chain_count, edges > INT_MAX ? INT_MAX : (int)edges);
+                 "with %d edges", sharpness_count, chain_count,
+                 edges > INT_MAX ? INT_MAX : (int)edges);
     for (int i = 0; i < chain_count && !context->result; vertices += lengths[i++]) {
         int own = sharpness_count == chain_count ? 1 : lengths[i] - 1;
         for (int k = 0; k < lengths[i]; k++)
