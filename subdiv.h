@@ -363,7 +363,8 @@ typedef struct subdiv_options {
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
     int           one_normal;         // limit, tessellation: one normal a point, also on creases
-    int           part, part_count;   // stream OBJ: only part number part, from 0 to part_count - 1
+    int           part, part_count;   // stream OBJ: part number part of so many, from 0; or, if
+                                      // part_count is 0, all
 } subdiv_options;
 
 // Returns the text of a result, such as "index out of range". Never NULL.
@@ -1032,9 +1033,9 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
 
 // Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
 // subdiv_save_obj. From level 1 on, the mesh is never in memory as a whole. With opt->part_count,
-// writes only one of so many parts, which make the whole text when they are put in order one behind
-// the other: several processes or machines can share the work. Parts take about as long as each
-// other. Level 0 is all in the first part. Error ARGUMENT: there is no such part.
+// writes only part opt->part. All parts, joined in order, are the whole text: several processes or
+// machines can share the work, each with a surface of the whole cage. Parts take about as long as
+// each other. Level 0 is all in the first part. Error ARGUMENT: there is no such part.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
@@ -15277,8 +15278,8 @@ typedef struct sdv_output {
     char        *buffer;                // [SDV_OUTPUT_SIZE]
     size_t       used;
     int          left_handed;           // faces are turned round, as OBJ has them counter-clockwise
-    int64_t      begin, end;            // the part of a stream to be written, and the place of what
-    int64_t      at;                    // comes next: see sdv_take
+    int64_t      begin, end;            // of a stream: what is to be written, in units of time,
+    int64_t      at;                    // and where the next lines begin, see sdv_take
 } sdv_output;
 
 enum {
@@ -15461,13 +15462,14 @@ static void sdv_write_mesh(sdv_output *out, const subdiv_mesh *mesh)
     sdv_write_tags(out, mesh);
 }
 
-// A stream is a row of lines: v, vt, vn, then f. Each takes as long as the numbers in it; a float
-// takes three times as long as an index.
+// A stream consists of lines v, vt, vn, then f. An index takes one unit of time to write, a float
+// three, and what stands behind the faces one.
 enum { SDV_STREAM_POINTS = 1 << 20, SDV_FLOAT_TIME = 3 };
 
 typedef struct sdv_range { int first, end; } sdv_range;
 
-// Which of the next lines, that take so long each, belong to the part?
+// Returns which of the next lines belong to the part, those that begin in it, and goes on behind
+// them all. Each takes so much time.
 static sdv_range sdv_take(sdv_output *out, int lines, int time)
 {
     int64_t place[2] = { out->begin - out->at, out->end - out->at };
@@ -15506,8 +15508,8 @@ static sdv_stream sdv_begin_stream(sdv_output *out, sdv_arena *arena, const subd
 }
 
 // Evaluates the window that begins with point first, and returns the point behind it, at most end.
-// The first windows hold the points of vertices and edges, which any face may make; the others
-// those inside a few faces or a part of one.
+// Points of vertices and edges are evaluated from all faces, as any may make them; points inside
+// faces, which come behind those, from the faces that they are in.
 static int sdv_stream_window(const sdv_stream *stream, int first, int end)
 {
     const subdiv_surface *surface = stream->surface;
@@ -15529,7 +15531,7 @@ static int sdv_stream_window(const sdv_stream *stream, int first, int end)
 }
 
 // Writes those points of a surface that belong to the part. The first three numbers of each are a
-// position, to be multiplied by factor. sides: writes the normals of the points instead.
+// position, to be multiplied by factor. With sides, writes the points' normals instead.
 static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
                               const char *keyword, int width, const float *values, float factor,
                               float *sides)
@@ -15545,7 +15547,8 @@ static void sdv_stream_points(sdv_output *out, sdv_arena *arena, const subdiv_su
     }
 }
 
-// Writes the normals of other sides of creases, which points of vertices and edges have.
+// Writes the normals of other sides of creases. Only points of vertices and edges have such; all of
+// these are evaluated, as the part may have none of them.
 static void sdv_stream_sides(sdv_output *out, sdv_arena *arena, const subdiv_surface *surface,
                              const float *positions, float *sides, int count)
 {
@@ -15571,14 +15574,14 @@ static const float *sdv_join_colors(sdv_context *context, sdv_arena *arena,
     return joined;
 }
 
-// How many numbers a fine face has in the text?
-static int sdv_face_numbers(const subdiv_surface *surface)
+// Returns how many indices the line of a fine face has.
+static int sdv_face_indices(const subdiv_surface *surface)
 {
     return surface->fine.face_size * (1 + (surface->uv != NULL) + surface->rules.limit);
 }
 
-// Writes the faces of the part, a row of a grid at a time, and before them their statements. row,
-// uvs and normals have room for the indices of a row.
+// Writes the faces, a row of a grid at a time, and before them their statements: rows whose first
+// face is in the part. row, uvs and normals have room for the indices of a row.
 static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int *row, int *uvs,
                              int *normals)
 {
@@ -15587,12 +15590,12 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
     const sdv_sides *sides = surface->sides.vertex ? &surface->sides : NULL;
     const int *seen = !surface->rules.limit ? NULL : sides ? normals : row;
     int size = surface->fine.face_size, statement = 0;
-    sdv_range part = sdv_take(out, surface->fine.face_count, sdv_face_numbers(surface));
+    sdv_range part = sdv_take(out, surface->fine.face_count, sdv_face_indices(surface));
     for (int f = 0; f < surface->cage_face_count && !out->context->result; f++) {
         int first = sdv_first_fine_face(surface, f);
         if (first == sdv_first_fine_face(surface, f + 1)) continue;
         if (first < part.first) statement = sdv_next_statement(&surface->fine, statement, first);
-        if (first < part.first || first >= part.end) continue;
+        if (sdv_first_fine_face(surface, f + 1) <= part.first || first >= part.end) continue;
         int start = sdv_face_start(&order->cage, f), end = sdv_face_end(&order->cage, f);
         int own = uv ? uv->own_face[f] : -1, grids = sdv_is_ngon(order, f) ? end - start : 1;
         statement = sdv_write_statements(out, &surface->fine, statement, first);
@@ -15605,9 +15608,11 @@ static void sdv_stream_faces(sdv_output *out, const subdiv_surface *surface, int
                 sdv_grid_at(&uv->order, sdv_face_start(&uv->order.cage, own) + g, &uv_grid);
             for (int i = 0; i < grid.rows && !out->context->result; i++) {
                 int *last = sdv_grid_faces(&grid, i, i + 1, 0, grid.columns, row);
+                int at = first, count = (int)(last - row) / size;
+                first += count;
+                if (at < part.first || at >= part.end) continue;
                 if (own >= 0) sdv_grid_faces(&uv_grid, i, i + 1, 0, uv_grid.columns, uvs);
                 if (sides) sdv_grid_faces(&normal_grid, i, i + 1, 0, grid.columns, normals);
-                int count = (int)(last - row) / size;
                 sdv_write_faces(out, 'f', row, own >= 0 ? uvs : NULL, seen, size, count);
             }
         }
@@ -15629,7 +15634,8 @@ static int sdv_part(const subdiv_options *opt)
     return opt && opt->part_count ? opt->part : 0;
 }
 
-// Finds the part of a text that takes so long.
+// Sets where the part begins and ends of a text that takes so much time. The sums of quotients and
+// remainders are the products by part that would not fit.
 static void sdv_cut_stream(sdv_output *out, int64_t time)
 {
     const subdiv_options *opt = out->opt;
@@ -15658,7 +15664,7 @@ static void sdv_stream_surface(sdv_output *out, sdv_arena *arena, const subdiv_s
     if (surface->uv) floats += 2 * (int64_t)surface->uv->fine.vertex_count;
     if (surface->rules.limit) floats += 3 * (int64_t)fine.normal_count;
     sdv_cut_stream(out, SDV_FLOAT_TIME * floats +
-                        (int64_t)fine.face_count * sdv_face_numbers(surface) + 1);
+                        (int64_t)fine.face_count * sdv_face_indices(surface) + 1);
     sdv_stream_points(out, arena, surface, "v", width, values, factor, NULL);
     if (surface->uv) sdv_stream_points(out, arena, surface->uv, "vt", 2, surface->uvs, 1, NULL);
     if (surface->rules.limit) {

@@ -61,11 +61,12 @@ static const option options[OPTION_COUNT] = {
      "draw the result; if OUTPUT is named, too, the cage beside it. Creases are orange,\n"
      "          those that never fade red"},
     {0, "html", "FILE.html",
-     "save a page that shows the result in any browser, to turn, with all levels up to it"},
-    {0, "stream", NULL, "refine and save piece by piece, in little memory; large results always"},
+     "save a page on which the result and each level before it can be turned in a browser"},
+    {0, "stream", NULL,
+     "refine and save piece by piece, in little memory; large results are always saved so"},
     {0, "part", "K/N",
-     "save only part K of N of the OBJ file, --stream; put in order one behind the other (cat),\n"
-     "          the N parts are the file. N processes share the work"},
+     "save only part K of N of the OBJ file, from 1, as with --stream. The N parts, joined in\n"
+     "          order (cat), are the whole file: N processes share the work"},
     {0, "no-tags", NULL, "save no tags for creases, corners, holes and rules"},
     {0, "no-uvs", NULL, "read no UVs, for instance because they are broken"},
     {0, "merge-materials", NULL,
@@ -226,17 +227,28 @@ static int shows_result(const command *cmd)
     return cmd->given[PICTURE] == 1 || cmd->given[HTML] == 1;
 }
 
+// The option by which the command streams.
+static const char *stream_option(const command *cmd)
+{
+    return cmd->given[PART] > 0 ? "--part" : "--stream";
+}
+
 // Refuses options that do not go together.
 static int check_options(const command *cmd)
 {
     const int *given = cmd->given;
     int streams = given[STREAM] == 1, prints = given[EXPLAIN] >= 0, shows = shows_result(cmd);
+    const char *stream = stream_option(cmd);
     if (given[TESSELLATE] > 0 && (given[LEVELS] >= 0 || streams))
-        return misused("--tessellate has no levels and is no stream");
+        return misused("--tessellate goes without --levels and %s", stream);
     if (given[CURVE] >= 0 && (given[TESSELLATE] > 0 || streams || prints || given[EVAL] == 1))
-        return misused("--curve is not for surfaces: no --tessellate, --stream, --explain, --eval");
+        return misused("--curve is not for surfaces: no --tessellate, %s, --explain, --eval",
+                       stream);
     if (shows && (streams || prints || given[CURVE] >= 0))
-        return misused("--picture and --html show a whole surface: no --stream, --explain, --curve");
+        return misused("--picture and --html show a whole surface: no %s, --explain, --curve",
+                       stream);
+    if (given[PART] > 0 && (prints || given[INFO] == 1 || given[FOLDER] == 1))
+        return misused("--part saves one file: no --explain, --info or -o beside it");
     if (given[CREASE_SHARPNESS] == 1 && given[CREASE_ANGLE] < 0 && given[CREASE_GROUPS] < 0 &&
         given[CREASE_SEAMS] < 0)
         return misused("--crease-sharpness needs one of the other crease options");
@@ -264,8 +276,8 @@ static int check_files(const command *cmd)
         return misused("-o FOLDER saves results and no more: no --info, --picture or the like");
     if (given[EVAL] == 1 && (output || shows || given[INFO] == 1 || given[LEVELS] >= 0 ||
                              given[LIMIT] == 1 || given[STREAM] == 1 || given[TESSELLATE] > 0))
-        return misused("--eval prints: no OUTPUT, --info, --levels, --limit, --tessellate or "
-                       "--stream beside it");
+        return misused("--eval prints: no OUTPUT, --info, --levels, --limit, --tessellate or %s "
+                       "beside it", stream_option(cmd));
     if (given[EVAL] == 1 && strcmp(cmd->texts[EVAL], "-") == 0 && strcmp(cmd->input, "-") == 0)
         return misused("--eval - and INPUT - would share standard input");
     if (given[INFO] == 1 && output && strcmp(output, "-") == 0)
@@ -275,7 +287,13 @@ static int check_files(const command *cmd)
     if (!folder && find_format(output) == UNKNOWN)
         return misused("%s: the formats are .obj, .ply, .stl and .glb", output);
     if (find_format(output) != OBJ && (given[STREAM] == 1 || given[CURVE] >= 0))
-        return misused("%s: --stream and --curve write .obj alone", output);
+        return misused("%s: %s and --curve write .obj alone", output, stream_option(cmd));
+    if (output && given[PART] > 0 && is_same_file(output, cmd->input))
+        return misused("a part would replace its cage, %s", output);
+    if (given[HTML] == 1 && is_same_file(cmd->texts[HTML], cmd->input))
+        return misused("the page would replace its cage, %s", cmd->input);
+    if (given[HTML] == 1 && output && strcmp(cmd->texts[HTML], output) == 0)
+        return misused("the page and OUTPUT would be the same file, %s", output);
     return DONE;
 }
 
@@ -463,8 +481,8 @@ static int refine(work *w, const command *cmd, const subdiv_options *opt)
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     end_step(levels == SUBDIV_EXACT ? w->cage.vertex_count : vertex_count);
     if (cmd->given[HTML] == 1 && levels != SUBDIV_EXACT &&
-        check_page_size(cmd, vertex_count, 4.0 * subdiv_surface_face_count(w->surface), opt))
-        return FAILED;
+        check_page(cmd, w->surface, w->cage.scheme == SUBDIV_LOOP ? 3 : 4, opt))
+        return report(cmd->input, opt);
     if (cmd->given[STREAM] == 1 || (vertex_count > LARGE && !is_mesh))
         return stream(w, cmd, opt);
     return refine_then_save(w, cmd, opt);

@@ -441,9 +441,9 @@ same threads.obj tiles.obj
 ends 2 --tessellate 0 limit.obj form.obj
 says "--tessellate needs a whole number from 1 up"
 ends 2 --tessellate 3 -l 2 limit.obj form.obj
-says "--tessellate has no levels"
+says "--tessellate goes without --levels"
 ends 2 --tessellate 3 --stream limit.obj form.obj
-says "is no stream"
+says "--tessellate goes without --levels and --stream"
 
 # --------------------------------------------------------------------------------------- explain
 
@@ -707,8 +707,24 @@ for part in 0/2 3/2 2 /2 2/ 1/0 x/2 1/2/3 -1/2 99999999999/2; do
     ends 2 --part $part box.obj kept.obj
     says "--part needs K/N"
 done
-ends 2 --part 1/2 box.obj form.ply
-ends 2 --part 1/2 --tessellate 2 box.obj
+for arguments in 'box.obj form.ply' '--tessellate 2 box.obj' '--curve chaikin box.obj' \
+                 '--picture form.png box.obj' '-o results box.obj' '--info box.obj' \
+                 '--explain 1 box.obj'; do
+    ends 2 --part 1/2 $arguments
+    says "--part"
+done
+cp box.obj itself.obj
+ends 2 --part 1/2 itself.obj itself.obj
+same itself.obj box.obj
+# A face of the cage is cut, too.
+ends 0 -l 6 --part 4/4 quad.obj part.obj
+fine "the last part of one quad" awk -v part="$(wc -c < part.obj)" \
+    -v whole="$(subdiv -l 6 quad.obj | wc -c)" 'BEGIN { exit !(part > whole / 10) }'
+# A file that may not be so large is an error, and leaves nothing behind.
+(ulimit -f 20; exec "$program" -l 7 box.obj limited.obj) 2> err
+fine "a file too large: exit 1" test $? = 1
+says "writing failed"
+fine "a file too large: nothing is left" test -z "$(find . -name "limited.obj*")"
 
 for arguments in 'bad_index.obj' '-s loop box.obj' '-l 30 box.obj'; do
     ends 1 --stream $arguments kept.obj
@@ -1023,7 +1039,11 @@ fine "--html: a tessellation and its cage" test "$(grep -o '"label":"[^"]*"' pag
     = '"label":"level 0" "label":"3 pieces an edge" '
 echo old > page.html
 ends 1 -l 10 --html page.html box.obj
-says "the page would have 373 MB, 100 are allowed: take fewer levels"
+says "the page would have at least 280 MB, 100 are allowed: take fewer levels"
+# More than the check before refining counts: the normals of both sides of creases.
+ends 1 -l 9 -L --crease-angle 10 --html page.html box.obj
+says "MB, 100 are allowed: take fewer levels"
+fine "--html: how large it would be" sh -c '! grep -q "at least" err'
 ends 1 --tessellate 700 --html page.html box.obj
 says "take fewer pieces"
 ends 1 --html page.html stroke.obj
@@ -1033,7 +1053,16 @@ ends 1 --html no/page.html box.obj
 if [ -c /dev/full ]; then
     ln -s /dev/full full.html
     ends 1 --html full.html box.obj
+    says "writing failed: No space left on device"
 fi
+cp box.obj cage.html
+ends 2 --html cage.html cage.html
+ln -sf cage.html link.html
+ends 2 --html cage.html link.html
+ends 2 --html form.html box.obj form.html
+same cage.html box.obj
+printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' > place.obj
+ends 0 -l 1 --picture place.png --html page.html place.obj
 ends 2 --html page.png box.obj
 ends 2 --html page.html --stream box.obj
 ends 2 --html page.html --curve chaikin box.obj

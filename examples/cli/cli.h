@@ -79,6 +79,7 @@ int    flush_output(void);
 size_t write_file(void *file, const void *bytes, size_t size);   // a subdiv_write
 const char *file_name(const char *path);       // the last part of a path
 int    is_regular(const char *path);           // can be read twice
+int    is_same_file(const char *a, const char *b);
 int    make_folder(const char *path);
 
 // ------------------------------------------------------------------------------------- formats.c
@@ -140,8 +141,8 @@ void   end_threads(void);
 int    inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt);
 int    explain_all(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt);
 int    draw_picture(work *w, const command *cmd, const subdiv_options *opt);
-int    check_page_size(const command *cmd, double points, double corners,
-                       const subdiv_options *opt);           // of the result
+subdiv_result check_page(const command *cmd, const subdiv_surface *surface, int corners,
+                         const subdiv_options *opt);         // corners: of each face
 int    write_page(const work *w, const command *cmd, const subdiv_options *opt);
 extern const char *const viewer_page[], *const viewer_script[], *const viewer_draw[];   // to NULL
 subdiv_result refine_curves(work *w, const command *cmd, const subdiv_options *opt);

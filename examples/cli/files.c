@@ -44,6 +44,15 @@ int is_regular(const char *path)
     return stat(path, &file) == 0 && (file.st_mode & S_IFMT) == S_IFREG;
 }
 
+int is_same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0) return 0;
+    if (strcmp(a, b) == 0) return 1;
+    if (!is_regular(a) || stat(a, &one) || stat(b, &other)) return 0;
+    return one.st_ino != 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
 static const char *volatile unfinished;   // beside, while that file is open
 
 #ifdef _WIN32
@@ -92,8 +101,9 @@ static void stop(int number)
 void catch_signals(void)
 {
 #ifndef _WIN32
-    const int numbers[] = {SIGHUP, SIGINT, SIGPIPE, SIGTERM};
-    for (int i = 0; i < 4; i++)
+    const int numbers[] = {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM};
+    signal(SIGXFSZ, SIG_IGN);         // then a file that may not be so large is an error
+    for (int i = 0; i < 5; i++)
         if (signal(numbers[i], stop) == SIG_IGN && numbers[i] != SIGPIPE)
             signal(numbers[i], SIG_IGN);
 #endif

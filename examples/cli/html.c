@@ -2,16 +2,19 @@
 // The page is in viewer.c and viewer_draw.c. Here are its meshes: numbers of four bytes, as base64.
 #include "cli.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_MEGABYTES = 100 };
+enum { MEGABYTE = 1000000, MOST_MEGABYTES = 100 };
 
 // ---------------------------------------------------------------------------------------- base64
 
 typedef struct encoder {
     FILE    *file;
-    int      failed, waiting;         // bytes that are no group of three yet
+    int      failed;                  // errno of the first failure
+    size_t   size;                    // bytes in all; the file holds none that are too many
+    int      waiting;                 // bytes in group: 0 to 2
     unsigned group;
     size_t   used;
     char     text[1 << 14];
@@ -19,7 +22,10 @@ typedef struct encoder {
 
 static void flush(encoder *e)
 {
-    if (e->used && write_file(e->file, e->text, e->used) != e->used) e->failed = 1;
+    e->size += e->used;
+    errno = 0;
+    if (!e->failed && e->size <= (size_t)MOST_MEGABYTES * MEGABYTE &&
+        write_file(e->file, e->text, e->used) != e->used) e->failed = errno ? errno : EIO;
     e->used = 0;
 }
 
@@ -78,7 +84,7 @@ static void put_number(encoder *e, const char *before, int number)
 
 // ---------------------------------------------------------------------------------------- meshes
 
-// In turn a material and how many faces have it.
+// Runs of faces: a material, and how many faces in a row have it.
 static void put_materials(encoder *e, const subdiv_mesh *mesh, const materials *all)
 {
     int pair[2] = {0, 0};
@@ -97,8 +103,8 @@ static void put_materials(encoder *e, const subdiv_mesh *mesh, const materials *
     put_text(e, "\"");
 }
 
-// The creases that fade and those that never do, then such corners, as edges from a vertex to
-// itself.
+// Four lists: the creases that fade, the creases that never do, and the same of corners, each as an
+// edge from its vertex to itself.
 static void put_creases(encoder *e, const subdiv_mesh *mesh)
 {
     put_text(e, ",\n\"creases\":[");
@@ -126,7 +132,7 @@ static size_t count_corners(const subdiv_mesh *mesh)
     return count;
 }
 
-// Writes a mesh, each edge of whose cage has so many pieces.
+// Writes a mesh in which each edge of the cage has become so many.
 static subdiv_result put_step(encoder *e, const subdiv_mesh *mesh, const char *label,
                               const work *w, const materials *all, int pieces,
                               const subdiv_options *opt)
@@ -156,15 +162,15 @@ static subdiv_result put_step(encoder *e, const subdiv_mesh *mesh, const char *l
     return result;
 }
 
-// The steps of the slider: the levels up to the result; or, of a tessellation, the cage and that.
+// The steps of the slider: the levels up to the result; of a tessellation, level 0 and that.
 static subdiv_result put_steps(encoder *e, const work *w, const command *cmd,
                                const materials *all, const subdiv_options *opt)
 {
     int cut = cmd->given[TESSELLATE], levels = cut > 0 ? 1 : levels_of(cmd);
-    int warnings = opt->error->warning_count;         // of the same cage, again and again
+    int warnings = opt->error->warning_count;         // each level has those of the cage again
     subdiv_result result = SUBDIV_OK;
     char label[80];
-    for (int level = 0; level < levels && !result; level++) {
+    for (int level = 0; level < levels && !result && !e->failed; level++) {
         subdiv_mesh mesh = {0};
         snprintf(label, sizeof label, "level %d", level);
         result = subdiv_refine(&mesh, &w->cage, level, opt);
@@ -179,7 +185,7 @@ static subdiv_result put_steps(encoder *e, const work *w, const command *cmd,
     return result;
 }
 
-// The cage is drawn as lines over each of them.
+// The edges of the cage, which are drawn over each step.
 static subdiv_result put_cage(encoder *e, const work *w, const subdiv_options *opt)
 {
     size_t count = (size_t)subdiv_surface_edge_count(w->surface);
@@ -203,8 +209,8 @@ static void put_lines(encoder *e, const char *const *lines)
     }
 }
 
-// The name of the input, without .obj. What means something in HTML becomes a number, and so does
-// each byte of a name that is not UTF-8.
+// The name of the input, without .obj. What HTML would take for markup becomes a number, and so
+// does each byte of a name that is not UTF-8.
 static void put_title(encoder *e, const char *input)
 {
     const char *name = strcmp(input, "-") == 0 ? "standard input" : file_name(input);
@@ -247,21 +253,37 @@ static subdiv_result put_page(encoder *e, const work *w, const command *cmd,
     put_lines(e, viewer_draw);
     put_text(e, "</script>\n</html>\n");
     flush(e);
-    return result || !e->failed ? result : set_error(opt, SUBDIV_ERROR_IO, "writing failed");
+    return result;
 }
 
-// A point takes 24 bytes, a corner of a face 4; base64 and the coarser levels make both a third
-// more.
-int check_page_size(const command *cmd, double points, double corners, const subdiv_options *opt)
+// Refuses a page of so many bytes, exactly or at least.
+static subdiv_result check_size(const command *cmd, double bytes, const char *exactly,
+                                const subdiv_options *opt)
 {
-    double megabytes = 16.0 / 9 * (24 * points + 4 * corners) / 1e6;
     char message[160];
-    if (megabytes <= MOST_MEGABYTES) return DONE;
-    snprintf(message, sizeof message, "the page would have %.0f MB, %d are allowed: %s", megabytes,
-             MOST_MEGABYTES,
+    if (bytes <= (double)MOST_MEGABYTES * MEGABYTE) return SUBDIV_OK;
+    snprintf(message, sizeof message, "the page would have %s%.0f MB, %d are allowed: %s", exactly,
+             bytes / MEGABYTE, MOST_MEGABYTES,
              cmd->given[TESSELLATE] > 0 ? "take fewer pieces" : "take fewer levels");
-    set_error(opt, SUBDIV_ERROR_TOO_LARGE, message);
-    return report(cmd->input, opt);
+    return set_error(opt, SUBDIV_ERROR_TOO_LARGE, message);
+}
+
+// Of the result alone: a point and its normal take 24 bytes, a corner of a face 4, and base64 makes
+// it a third more.
+subdiv_result check_page(const command *cmd, const subdiv_surface *surface, int corners,
+                         const subdiv_options *opt)
+{
+    double points = subdiv_surface_vertex_count(surface);
+    double faces = subdiv_surface_face_count(surface);
+    return check_size(cmd, 4.0 / 3 * (24 * points + 4 * corners * faces), "at least ", opt);
+}
+
+static subdiv_result check_written(const encoder *e, const command *cmd, const subdiv_options *opt)
+{
+    char message[160];
+    if (!e->failed) return check_size(cmd, (double)e->size, "", opt);
+    snprintf(message, sizeof message, "writing failed: %s", strerror(e->failed));
+    return set_error(opt, SUBDIV_ERROR_IO, message);
 }
 
 int write_page(const work *w, const command *cmd, const subdiv_options *opt)
@@ -269,17 +291,16 @@ int write_page(const work *w, const command *cmd, const subdiv_options *opt)
     encoder *e = (encoder *)calloc(1, sizeof *e);
     output out = {0};
     materials all = {0};
+    int failed = 0;
     begin_step("page");
-    double points = w->fine.vertex_count, corners = (double)count_corners(&w->fine);
-    int failed = check_page_size(cmd, points, corners, opt);
-    subdiv_result result = SUBDIV_OK;
-    if (e == NULL) result = set_error(opt, SUBDIV_ERROR_MEMORY, "out of memory");
-    if (!failed && !result) result = find_materials(&all, &w->cage, opt);
+    subdiv_result result = find_materials(&all, &w->cage, opt);
+    if (!result && e == NULL) result = set_error(opt, SUBDIV_ERROR_MEMORY, "out of memory");
     if (result) failed = report(cmd->input, opt);
     if (!failed) failed = open_output(&out, cmd->texts[HTML]);
     if (!failed) {
         e->file = out.file;
         result = put_page(e, w, cmd, &all, opt);
+        if (!result) result = check_written(e, cmd, opt);
         failed = close_output(&out, result, cmd->input, opt);
     }
     if (!failed) end_step(w->fine.vertex_count);

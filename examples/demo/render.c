@@ -494,6 +494,7 @@ static box bounds(const subdiv_mesh *mesh)
     vec diagonal = sub(b.high, b.low);
     b.centre = scaled(add(b.low, b.high), 0.5f);
     b.radius = 0.5f * sqrtf(dot(diagonal, diagonal));
+    if (b.radius <= 0) b.radius = 1;  // all in one place
     return b;
 }
 
@@ -519,8 +520,8 @@ void render_view_fit(render_view *view, const subdiv_mesh *mesh, float yaw, floa
         x0 = least(x0, p.x);  x1 = most(x1, p.x);
         y0 = least(y0, p.y);  y1 = most(y1, p.y);
     }
-    x1 = most(x1, x0 + FLT_MIN);      // of a single point
-    y1 = most(y1, y0 + FLT_MIN);
+    x1 = most(x1, x0 + 1e-3f);        // of a single point
+    y1 = most(y1, y0 + 1e-3f);
     view->scale = 0.90f * least((float)width / (x1 - x0), (float)height / (y1 - y0));
     view->x = (float)width / 2 - view->scale * (x0 + x1) / 2;
     view->y = (float)height / 2 - view->scale * (y0 + y1) / 2;
