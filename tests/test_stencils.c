@@ -335,6 +335,39 @@ static void test_rounding(void)
     subdiv_surface_free(surface);
 }
 
+// At a vertex of any valence n the weights of du are a wave, 4 cos(i a) at edge i and what belongs to
+// it at the faces, times a scale that is the sum of edges^2 / 4 + faces^2: at a regular vertex that
+// makes it the derivative. That holds around the vertex on level 1; the cage is one step before, which
+// multiplies the wave by its eigenvalue L and u by 2.
+static void test_tangent_sizes(void)
+{
+    const subdiv_location at = { 0, 0, 0, 0 };
+    for (int n = 3; n <= 12; n++) {
+        test_cage c;
+        subdiv_surface *surface;
+        subdiv_stencils s;
+        double size = 0, largest = 0, cosine = cos(8 * atan(1.0) / n);
+        double eigenvalue = (5 + cosine + sqrt((9 + cosine) * (1 + cosine))) / 16;
+        build_fan(&c, SUBDIV_CATMULL_CLARK, n, 1);
+        CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, SUBDIV_EXACT, NULL), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_stencils_at(&s, surface, 1, &at, NULL), SUBDIV_OK);
+        for (size_t k = 0; k < s.offsets[1]; k++) {
+            const double w = (double)s.du[k];
+            int on_edge = 0;
+            for (int f = 0; f < n; f++) {
+                const int *q = face_vertices(&c.mesh, f);       // from vertex 0 on
+                on_edge |= q[1] == s.indices[k] || q[3] == s.indices[k];
+            }
+            size += on_edge ? w * w / 4 : w * w;
+            if (on_edge) largest = fmax(largest, w);
+        }
+        CHECK_NEAR(4 * size, 2 * eigenvalue * largest, 1e-6);
+        if (n == 4) CHECK_NEAR(largest, 1.0 / 3, 1e-6);
+        subdiv_stencils_free(&s);
+        subdiv_surface_free(surface);
+    }
+}
+
 // ----------------------------------------------------------------------- around irregular vertices
 
 // Quads, triangles under Catmull-Clark, Loop; and what the vertex 0 of their faces is. Each face
@@ -1040,6 +1073,7 @@ int main(void)
     RUN(test_parts);
     RUN(test_anywhere);
     RUN(test_rounding);
+    RUN(test_tangent_sizes);
     RUN(test_valences);
     RUN(test_papers);
     RUN(test_errors);
