@@ -1211,6 +1211,8 @@ static void check_numbers(void)
     subdiv_surface_edges(k.copy, o.ints);           // level 0 has none
     CHECK_EQUAL(subdiv_evaluate_faces(k.plain, 3, k.scratch, k.faces, 0, k.points, 0, o.out, 0,
                                       opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_evaluate_faces(k.copy, 3, k.scratch, 0, 0, 0, k.cage.vertex_count, o.out, 0,
+                                      opt), SUBDIV_OK);                     // level 0, no face
     CHECK(is_filled(&o, sizeof o, 0x55));
     const subdiv_surface *all[] = { k.copy, k.plain, k.limit, k.exact, k.values, k.exact_values };
     for (int i = 0; i < 6; i++) {

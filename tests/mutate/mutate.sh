@@ -60,6 +60,7 @@ compile() {
 
 # run DIRECTORY SECONDS: 0: passed; 137 or 152: it took longer. (Some meshes of test_errors are huge.)
 run() {
+    rm -f build/test_*.obj*                         # of a test that was ended
     (
         ulimit -t "$2"; ulimit -v 40000000; ulimit -c 0
         exec env MALLOC_PERTURB_=165 "$1/test"
@@ -118,7 +119,8 @@ clean() {
         [ -e "$1/sanitized.o" ] ||
             $sanitize -DSUBDIV_IMPLEMENTATION -x c -c "$1/subdiv.h" -o "$1/sanitized.o"
         $sanitize -DSUBDIV_IMPLEMENTED tests/test_"$2".c -x none "$1/sanitized.o" -o "$1/test" -lm ;;
-    esac && (ulimit -t 100; ulimit -c 0; exec "$1/test") > "$1/log" 2>&1 < /dev/null
+    esac && rm -f build/test_*.obj* &&
+        (ulimit -t 100; ulimit -c 0; exec "$1/test") > "$1/log" 2>&1 < /dev/null
 }
 
 # sanitized DIRECTORY SECTION: those of its tests that are clean without a mutation.
