@@ -286,6 +286,34 @@ static void test_anywhere(void)
     }
 }
 
+// Levels beyond those that are made whole, whose grids have frames of work points alone.
+static void test_deep_levels(void)
+{
+    for (int i = 0; i < 6; i++) {
+        static test_cage c;
+        subdiv_surface *surface;
+        subdiv_stencils s;
+        subdiv_mesh fine;
+        build_prism(&c, 3);
+        if (i % 2) build_grid(&c, SUBDIV_LOOP, 2, 1);
+        CHECK_EQUAL(subdiv_prepare(&surface, &c.mesh, 5 + i / 2, NULL), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, c.positions, NULL), SUBDIV_OK);
+        for (int first = 0; first < fine.vertex_count; first += 1 + fine.vertex_count / 7) {
+            const int left = fine.vertex_count - first, count = left < 300 ? left : 300;
+            CHECK_EQUAL(subdiv_refined_stencils(&s, surface, first, count, NULL), SUBDIV_OK);
+            for (int k = 0; k < 3 * count; k++) {
+                double sum = 0;
+                for (size_t j = s.offsets[k / 3]; j < s.offsets[k / 3 + 1]; j++)
+                    sum += (double)s.weights[j] * (double)c.positions[3 * s.indices[j] + k % 3];
+                CHECK_NEAR(sum, fine.positions[3 * first + k], 2e-6);
+            }
+            subdiv_stencils_free(&s);
+        }
+        subdiv_mesh_free(&fine);
+        subdiv_surface_free(surface);
+    }
+}
+
 // The derivatives of the four cubic B-splines at t.
 static double spline(int i, double t, int derivative)
 {
@@ -1063,19 +1091,20 @@ int main(void)
     RUN(test_explained_shapes);
     RUN(test_explained_loop);
     RUN(test_explained_pictures);
-    RUN(test_explained_points);
     RUN(test_explained_data);
     RUN(test_explained_room);
-    RUN(test_explained_masks);
     RUN(test_random_cages);
     RUN(test_face_varying);
     RUN(test_limits);
     RUN(test_parts);
     RUN(test_anywhere);
+    RUN(test_deep_levels);
     RUN(test_rounding);
     RUN(test_tangent_sizes);
     RUN(test_valences);
     RUN(test_papers);
+    RUN(test_explained_points);
+    RUN(test_explained_masks);
     RUN(test_errors);
     return test_end("stencils");
 }
