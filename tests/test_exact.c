@@ -1101,8 +1101,8 @@ static void test_values(void)
     }
 }
 
-// A seam along the middle row of a sheet; a semi-sharp crease leads to it on one side. By these rules
-// the values on the other side are semi-sharp with it.
+// A seam along the middle row of a sheet; a semi-sharp crease leads to it on one side. By these
+// rules the values on the other side are semi-sharp with it.
 static void test_values_across_a_seam(void)
 {
     enum { N = 4, VALUES = (N + 1) * (N + 1) };

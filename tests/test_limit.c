@@ -690,7 +690,8 @@ enum { COPIES = 6 };
 
 typedef struct crowd {
     subdiv_mesh mesh;
-    float positions[3 * COPIES * RANDOM_MAX_VERTICES], crease_sharpness[COPIES * RANDOM_MAX_CREASES];
+    float positions[3 * COPIES * RANDOM_MAX_VERTICES];
+    float crease_sharpness[COPIES * RANDOM_MAX_CREASES];
     float corner_sharpness[COPIES * RANDOM_MAX_CORNERS];
     int   face_sizes[COPIES * RANDOM_MAX_FACES], crease_vertices[2 * COPIES * RANDOM_MAX_CREASES];
     int   face_vertices[COPIES * RANDOM_MAX_FACES * RANDOM_MAX_SIZE];
@@ -707,8 +708,8 @@ static void join_crowd(crowd *all, const subdiv_mesh *m)
     for (int f = 0; f < m->face_count; f++)
         all->face_sizes[mesh->face_count++] = m->face_size ? m->face_size : m->face_sizes[f];
     for (int i = 0; i < m->crease_count; i++, mesh->crease_count++) {
-        for (int k = 0; k < 2; k++)
-            all->crease_vertices[2 * mesh->crease_count + k] = first + m->crease_vertices[2 * i + k];
+        int *ends = all->crease_vertices + 2 * mesh->crease_count;
+        for (int k = 0; k < 2; k++) ends[k] = first + m->crease_vertices[2 * i + k];
         all->crease_sharpness[mesh->crease_count] = m->crease_sharpness[i];
     }
     for (int i = 0; i < m->corner_count; i++, mesh->corner_count++) {

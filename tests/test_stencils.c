@@ -323,8 +323,8 @@ static double spline(int i, double t, int derivative)
     return (derivative == 1 ? a[1] + t * (2 * a[2] + t * 3 * a[3]) : 2 * a[2] + 6 * t * a[3]) / 6;
 }
 
-// Weights up to the rounding of the largest one are left out, others not: for each part of a regular
-// stencil alone, whose weights are products of B-splines.
+// Weights up to the rounding of the largest one are left out, others not: for each part of a
+// regular stencil alone, whose weights are products of B-splines.
 static void test_rounding(void)
 {
     test_cage c;
@@ -363,10 +363,10 @@ static void test_rounding(void)
     subdiv_surface_free(surface);
 }
 
-// At a vertex of any valence n the weights of du are a wave, 4 cos(i a) at edge i and what belongs to
-// it at the faces, times a scale that is the sum of edges^2 / 4 + faces^2: at a regular vertex that
-// makes it the derivative. That holds around the vertex on level 1; the cage is one step before, which
-// multiplies the wave by its eigenvalue L and u by 2.
+// At a vertex of any valence n the weights of du are a wave, 4 cos(i a) at edge i and what belongs
+// to it at the faces, times a scale that is the sum of edges^2 / 4 + faces^2: at a regular vertex
+// that makes it the derivative. That holds around the vertex on level 1; the cage is one step
+// before, which multiplies the wave by its eigenvalue and u by 2.
 static void test_tangent_sizes(void)
 {
     const subdiv_location at = { 0, 0, 0, 0 };

@@ -118,7 +118,8 @@ clean() {
     *)
         [ -e "$1/sanitized.o" ] ||
             $sanitize -DSUBDIV_IMPLEMENTATION -x c -c "$1/subdiv.h" -o "$1/sanitized.o"
-        $sanitize -DSUBDIV_IMPLEMENTED tests/test_"$2".c -x none "$1/sanitized.o" -o "$1/test" -lm ;;
+        $sanitize -DSUBDIV_IMPLEMENTED tests/test_"$2".c -x none "$1/sanitized.o" -o "$1/test" \
+            -lm ;;
     esac && rm -f build/test_*.obj* &&
         (ulimit -t 100; ulimit -c 0; exec "$1/test") > "$1/log" 2>&1 < /dev/null
 }
