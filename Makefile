@@ -112,8 +112,13 @@ playground: $(OUT)/playground.html
 $(OWN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(HELPERS) subdiv.h | $(OUT)
 	$(CC) $(TEST_FLAGS) -DSUBDIV_STATIC $< -o $@ -lm
 
-$(PLAIN:%=$(OUT)/test_%): $(OUT)/test_%: tests/test_%.c $(OUT)/plain.o $(HELPERS)
+$(filter-out %_threads,$(PLAIN:%=$(OUT)/test_%)): $(OUT)/test_%: tests/test_%.c $(OUT)/plain.o \
+		$(HELPERS)
 	$(CC) $(TEST_FLAGS) $(SHARED) $< $(OUT)/plain.o -o $@ -lm
+
+# With small jobs, so that small cages take several.
+$(OUT)/test_threads: tests/test_threads.c $(OUT)/fuzzed.o $(HELPERS)
+	$(CC) $(TEST_FLAGS) $(SHARED) $< $(OUT)/fuzzed.o -o $@ -lm
 
 # Its implementation reports each block of code that runs, and what it copies and clears.
 $(OUT)/counted.o: subdiv.h | $(OUT)

@@ -7259,8 +7259,10 @@ static int sdv_share(int count, int i, int jobs)
 }
 
 enum { SDV_MOST_JOBS = 256 };
-#ifndef SDV_JOB_POINTS                  // (tests ask for smaller jobs)
-#define SDV_JOB_POINTS 1024
+// A job has at least so many points or faces: to wake a thread takes as long as thousands of them.
+// (Tests ask for smaller jobs.)
+#ifndef SDV_JOB_POINTS
+#define SDV_JOB_POINTS 8192
 #endif
 
 // Returns how many jobs to cut work into, each with at least so much; 1 if no threads are lent.
@@ -7609,7 +7611,7 @@ static void sdv_make_fine_faces(const subdiv_surface *surface, const sdv_sides *
     const subdiv_mesh *fine = &surface->fine;
     sdv_faces_out out = { surface, sides, face_vertices, cage_faces, 1 };
     if (surface->levels > 0) {
-        out.jobs = sdv_jobs(opt, surface->face_count, 1);
+        out.jobs = sdv_jobs(opt, fine->face_count, SDV_JOB_POINTS);
         sdv_run(opt, sdv_fine_faces_job, &out, out.jobs);
         return;
     }
@@ -12938,7 +12940,7 @@ static void sdv_tessellate(sdv_context *context, sdv_tessellator *t, const float
     for (int f = 0; f < faces && mesh->hole_count; f++)
         for (size_t i = t->first[f].faces; i < t->first[f + 1].faces && surface->hole[f]; i++)
             *holes++ = (int)i;
-    t->jobs = sdv_jobs(t->opt, faces, 1);
+    t->jobs = sdv_jobs(t->opt, mesh->face_count, SDV_JOB_POINTS);
     sdv_run(t->opt, sdv_tile_job, t, t->jobs);
     sdv_make_samples(context, t);
     sdv_multiply(mesh->positions, 3 * (size_t)mesh->vertex_count, factor);
