@@ -182,11 +182,11 @@
 //                                    results but for rounding. SUBDIV_EXACT keeps its polynomials
 //
 // Define these to leave whole sections out, declarations included. The percentages say how much of
-// the full compile time and code size each saves (gcc -O2):
+// the code each saves (gcc -O2); compile time falls about as much:
 //
 //     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (31 %)
 //     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
-//     SUBDIV_NO_OBJ                  >>obj                                          (10 %)
+//     SUBDIV_NO_OBJ                  >>obj                                          (11 %)
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
 
