@@ -636,8 +636,8 @@ done
 chmod 640 kept.obj
 # The shell has programs in the background ignore INT.
 default=
-env --default-signal=INT true 2> err && default='env --default-signal=INT'
-for signal in ${default:+INT} TERM HUP; do
+env --default-signal=INT true 2> err && default='env --default-signal=INT,HUP'
+for signal in ${default:+INT HUP} TERM; do
     $default "$program" --stream -l 10 box.obj kept.obj 2> err &
     for try in 1 2 3 4 5 6 7 8 9 10; do
         test -s kept.obj.$!.tmp && break
