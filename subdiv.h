@@ -15518,9 +15518,10 @@ static int sdv_stream_window(const sdv_stream *stream, int first, int end)
     const subdiv_options *opt = stream->out->opt;
     const subdiv_limit normals = { NULL, stream->window, NULL, 0, stream->sides };
     int face = 0, faces = surface->cage_face_count, width = stream->width;
-    if (first < stream->inside && end > stream->inside) end = stream->inside;
     if (end - first > SDV_STREAM_POINTS) end = first + SDV_STREAM_POINTS;
-    if (first >= stream->inside) {
+    if (first < stream->inside) {
+        if (end > stream->inside) end = stream->inside;
+    } else {
         face = sdv_face_inside(&surface->order, first);
         faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
     }

@@ -76,7 +76,7 @@ int main(void)
     if (!r) r = subdiv_prepare(&surface, &cage, 0, &opt);
     if (!r) r = subdiv_refined_stencils(&limit, surface, 0, cage.vertex_count, &opt);
     int n = limit.count;
-    double *b = (double *)malloc(6 * sizeof(double) * (size_t)n), *x = b + n, *rest = x + n;
+    double *b = (double *)malloc(6 * sizeof(double) * (size_t)n + 1), *x = b + n, *rest = x + n;
     for (int c = 0; c < 3 && b; c++) {
         for (int i = 0; i < n; i++) b[i] = x[i] = (double)cage.positions[3 * i + c];
         before = fmax(before, find_rest(&limit, b, x, rest));

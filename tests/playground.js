@@ -284,6 +284,8 @@ async function files(page, context) {
     await saveAndLoad(page, context, 'a surface');
 }
 
+const TRIANGLE = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n';
+
 async function refusals(page) {
     const before = await seen(page);
     for (const [text, words] of [
@@ -291,6 +293,11 @@ async function refusals(page) {
         ['\x89PNG\r\n\x1a\n\0\0', /binary data/],
         ['', /no vertices/],
         ['v 0 0 0\n', /no faces/],
+        [`# playground {"scheme":1,"lev\n${TRIANGLE}`, /cannot be read/],
+        [`# playground {"levels":99}\n${TRIANGLE}`, /levels = 99/],
+        [`# playground {"scheme":7}\n${TRIANGLE}`, /scheme = 7/],
+        [`# playground {"scheme":0,"rule":"x"}\n${TRIANGLE}`, /rule = x/],
+        [`# playground {"mode":"foo"}\n${TRIANGLE}`, /mode = foo/],
     ]) {
         await drop(page, 'bad.obj', text);
         const said = await page.textContent('#message');

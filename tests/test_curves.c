@@ -201,7 +201,7 @@ static void small_curves(void)
 static void check_invariants(subdiv_curve_rule rule, subdiv_curve_ends ends)
 {
     enum { POINTS = 6, LEVELS = 3, STRIDE = 5 };
-    const subdiv_options limit = { 0, 0, 0, 1, 0, NULL, NULL, NULL, 0 };
+    subdiv_options limit = { 0 };
     const subdiv_options *ways[] = { NULL, &limit };
     static float in[2 * MOST], moved[2 * MOST], room[STRIDE * MOST], other[2 * MOST];
     static float twice[2 * MOST], *out = room + STRIDE;

@@ -155,11 +155,11 @@ function mark(hit) {
     explain(text);
 }
 
-// The panel breaks prose anew: the lines of a title are one. Formulas keep their lines.
+// The panel breaks prose anew: the lines of a title are one. Formulas and diagrams keep theirs.
 function explain(text) {
     const rows = text
         .trimEnd()
-        .replace(/\n {7}(?=\S)/g, ' ')
+        .replace(/\n {7}(?=[^ /\\])/g, ' ')
         .split('\n')
         .map(line => {
             const row = document.createElement('div');
@@ -415,12 +415,39 @@ function connectPicture() {
 
 const SETTINGS = '# playground ';
 
+// The settings in an OBJ file: those that this page may have.
+function settingsOf(obj) {
+    const line = obj.split('\n').find(line => line.startsWith(SETTINGS));
+    if (!line) return {};
+    let settings;
+    try {
+        settings = JSON.parse(line.slice(SETTINGS.length));
+    } catch (e) {
+        throw Error('The settings in this file cannot be read.');
+    }
+    for (const [key, value] of Object.entries(settings))
+        if (typeof value !== typeof s[key] || !isAllowed(key, value, settings.scheme))
+            throw Error(`The settings in this file have ${key} = ${value}.`);
+    return settings;
+}
+
+// Numbers of lists and levels are what their controls take.
+function isAllowed(key, value, scheme) {
+    if (key === 'mode') return value === 'surface' || value === 'curve';
+    if (key === 'rule') return value in (RULES[scheme] || []);
+    if (typeof value !== 'number') return true;
+    const control = $(key);
+    if (control.tagName === 'SELECT') return control.options[value] !== undefined;
+    return Number.isInteger(value) && value >= 0 && value <= +control.max;
+}
+
 // Shows what is in an OBJ file; if that cannot be, says why and leaves all as it was.
 function load(obj, name) {
     const before = lib.save();
-    let warning;
+    let warning, settings;
     try {
         warning = lib.load(obj);
+        settings = settingsOf(obj);
         const d = lib.describe();
         if (d.faceCount > MOST_FACES)
             throw Error(`A cage of ${number(d.faceCount)} faces is too large for this page.`);
@@ -436,8 +463,7 @@ function load(obj, name) {
         takeLine();
         lib.load(before);
     }
-    const settings = obj.split('\n').find(line => line.startsWith(SETTINGS));
-    if (settings) Object.assign(s, JSON.parse(settings.slice(SETTINGS.length)));
+    Object.assign(s, settings);
     setMode(s.mode);
     if (warning) say(warning);
 }
