@@ -159,6 +159,12 @@ async function keys(page) {
     check('Enter sharpens an edge', (await sharpness()) > sharp);
     await page.keyboard.press('Escape');
     check('Escape takes the mask away', (await page.$$('#labels span')).length === 0);
+    await page.selectOption('#name', 'tetrahedron');
+    await page.focus('canvas');
+    await page.keyboard.press('e');
+    const rows = await page.$$eval('#explain div', all => all.map(row => row.textContent));
+    const sides = rows.filter(row => /^ +[/\\] +[/\\]$/.test(row));
+    check('a diagram keeps its lines', sides.length === 4);
 }
 
 // Of a cube that is its own surface, all vertices can be caught but the one behind.

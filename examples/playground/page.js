@@ -452,6 +452,8 @@ function load(obj, name) {
         if (d.faceCount > MOST_FACES)
             throw Error(`A cage of ${number(d.faceCount)} faces is too large for this page.`);
         if (!d.faceCount && !d.lineCount) throw Error('This file has no faces and no lines.');
+        if (!d.faceCount && d.lineCount > 1)
+            warning = `This page shows the first of ${d.lineCount} polylines.`;
     } catch (e) {
         if (before) lib.load(before);
         return say(e.message);
