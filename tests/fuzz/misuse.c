@@ -438,8 +438,8 @@ static void save(void)
         result = subdiv_save_obj(of, (const char *)needed("no folder/no file"), opt);
         break;
     case 3:
-        plain.part_count = 3;
-        plain.part = opt ? spoil(below(b, 3), 0, 3) : 0;
+        plain.part_count = user ? 3 : 0;  // a part may have nothing to write, and not fail at it
+        plain.part = opt && user ? spoil(below(b, 3), 0, 3) : 0;
         spoiled += !user;
         result = subdiv_stream_obj_callback(s->surface, positions, no_write, user, opt);
         break;
