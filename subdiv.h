@@ -363,8 +363,8 @@ typedef struct subdiv_options {
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
     int           one_normal;         // limit, tessellation: one normal a point, also on creases
-    int           part, part_count;   // stream OBJ: part number part of so many, from 0; or, if
-                                      // part_count is 0, all
+    int           part, part_count;   // stream OBJ: write one part, from 0 to part_count - 1;
+                                      // part_count 0: write all
 } subdiv_options;
 
 // Returns the text of a result, such as "index out of range". Never NULL.
@@ -15470,13 +15470,13 @@ enum { SDV_STREAM_POINTS = 1 << 20, SDV_FLOAT_TIME = 3 };
 
 typedef struct sdv_range { int first, end; } sdv_range;
 
-// Returns which of the next lines belong to the part, those that begin in it, and goes on behind
-// them all. Each takes so much time.
+// Returns which of the next lines belong to the part, those that end in it, and goes on behind them
+// all. Each takes so much time.
 static sdv_range sdv_take(sdv_output *out, int lines, int time)
 {
     int64_t place[2] = { out->begin - out->at, out->end - out->at };
     for (int i = 0; i < 2; i++) {
-        place[i] = place[i] < 0 ? 0 : (place[i] + time - 1) / time;
+        place[i] = place[i] < 0 ? 0 : place[i] / time;
         if (place[i] > lines) place[i] = lines;
     }
     sdv_range range = { (int)place[0], (int)place[1] };
@@ -15510,8 +15510,8 @@ static sdv_stream sdv_begin_stream(sdv_output *out, sdv_arena *arena, const subd
 }
 
 // Evaluates the window that begins with point first, and returns the point behind it, at most end.
-// Points of vertices and edges are evaluated from all faces, as any may make them; points inside
-// faces, which come behind those, from the faces that they are in.
+// Any face may make points of vertices and edges; points inside faces, which come behind those, are
+// made by the faces that they are in.
 static int sdv_stream_window(const sdv_stream *stream, int first, int end)
 {
     const subdiv_surface *surface = stream->surface;
@@ -15519,9 +15519,7 @@ static int sdv_stream_window(const sdv_stream *stream, int first, int end)
     const subdiv_limit normals = { NULL, stream->window, NULL, 0, stream->sides };
     int face = 0, faces = surface->cage_face_count, width = stream->width;
     if (end - first > SDV_STREAM_POINTS) end = first + SDV_STREAM_POINTS;
-    if (first < stream->inside) {
-        if (end > stream->inside) end = stream->inside;
-    } else {
+    if (first >= stream->inside) {
         face = sdv_face_inside(&surface->order, first);
         faces = sdv_face_inside(&surface->order, end - 1) + 1 - face;
     }
@@ -15632,13 +15630,14 @@ static void sdv_stream_end(sdv_output *out, const subdiv_mesh *fine)
     sdv_write_tags(out, fine);
 }
 
+// The number of the part to be written, 0 for all.
 static int sdv_part(const subdiv_options *opt)
 {
     return opt && opt->part_count ? opt->part : 0;
 }
 
-// Sets where the part begins and ends of a text that takes so much time. The sums of quotients and
-// remainders are the products by part that would not fit.
+// Sets where the part begins and ends in a text that takes so much time: at time * part / count,
+// which is added up from two terms because the product might not fit.
 static void sdv_cut_stream(sdv_output *out, int64_t time)
 {
     const subdiv_options *opt = out->opt;

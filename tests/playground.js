@@ -2,18 +2,10 @@
 // what it shows with what the command line makes of the same cage.
 const fs = require('fs');
 const { execFileSync } = require('child_process');
-const { chromium } = require('playwright-core');
+const { check, run } = require('./lib/browse.js');
 
 const [browserPath, pagePath, subdiv] = process.argv.slice(2);
 const out = 'build/playground';
-let passed = 0,
-    failed = 0;
-
-function check(name, holds) {
-    if (holds) return passed++;
-    failed++;
-    console.log(`FAILED  ${name}`);
-}
 
 const numbers = (obj, letter) =>
     obj
@@ -471,11 +463,7 @@ async function open(context, place = pagePlace, drawing = false) {
     return page;
 }
 
-(async () => {
-    const browser = await chromium.launch({
-        executablePath: browserPath,
-        args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-    });
+run('playground', browserPath, async browser => {
     const context = await browser.newContext({ viewport: { width: 1000, height: 600 } });
     pagePlace = `file://${fs.realpathSync(pagePath)}`;
     const page = await open(context, pagePlace, true);
@@ -489,12 +477,4 @@ async function open(context, place = pagePlace, drawing = false) {
     await curves(page, context);
     await largeCage(page);
     await touch(browser);
-    await browser.close();
-    console.log(
-        `${'playground'.padEnd(24)} ${String(passed).padStart(4)} passed, ${failed} failed`,
-    );
-    process.exitCode = failed > 0 ? 1 : 0;
-})().catch(error => {
-    console.log(`FAILED  ${error.stack}`);
-    process.exit(1);
 });

@@ -1,18 +1,10 @@
 // node tests/viewer.js CHROMIUM SUBDIV: opens pages of --html and uses them as a person would.
 const fs = require('fs');
 const { execFileSync } = require('child_process');
-const { chromium } = require('playwright-core');
+const { check, run } = require('./lib/browse.js');
 
 const [browserPath, subdiv] = process.argv.slice(2);
 const out = 'build/viewer';
-let passed = 0,
-    failed = 0;
-
-function check(name, holds) {
-    if (holds) return passed++;
-    failed++;
-    console.log(`FAILED  ${name}`);
-}
 
 // A cube of two materials, with a crease that fades, one that does not, and a sharp corner.
 const cube = `v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1
@@ -164,11 +156,7 @@ const settings = {
     colorScheme: 'light',
 };
 
-(async () => {
-    const browser = await chromium.launch({
-        executablePath: browserPath,
-        args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-    });
+run('viewer', browserPath, async browser => {
     const context = await browser.newContext(settings);
     let page = await open(context, 'cube', cube, '-l', '3');
     check('the page has the name of the mesh', (await page.title()) === 'cube');
@@ -192,10 +180,4 @@ const settings = {
         page = await open(context, name, obj, '-l', '2');
         check(`${name} is drawn`, (await drawn(page)) > 0.05);
     }
-    await browser.close();
-    console.log(`${'viewer'.padEnd(24)} ${String(passed).padStart(4)} passed, ${failed} failed`);
-    process.exitCode = failed > 0 ? 1 : 0;
-})().catch(error => {
-    console.log(`FAILED  ${error.stack}`);
-    process.exit(1);
 });

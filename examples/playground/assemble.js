@@ -12,7 +12,7 @@ const parts = {
 let html = fs.readFileSync(page, 'utf8');
 for (const [mark, text] of Object.entries(parts)) html = html.replace(mark, () => text);
 fs.writeFileSync(output, html);
-const kb = file => Math.round(fs.statSync(file).size / 1024) + ' KB';
+const kb = file => Math.round(fs.statSync(file).size / 1000) + ' KB';
 console.log(
     `${output}: ${kb(output)}, of which the library ${kb(wasm)} and the script ${kb(script)}`,
 );
