@@ -6300,19 +6300,24 @@ static void sdv_flush_tangents(sdv_tangents *tangents)
     tangents->count = 0;
 }
 
-// Makes a point wait with its tangents, if the window has it. from: its work point, or -1.
-static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across,
-                             int from)
+// Makes a point wait with its tangents. from: its work point, or -1.
+SDV_INLINE void sdv_add_tangents(sdv_tangents *tangents, int at, sdv_four along, sdv_four across,
+                                 int from)
 {
-    sdv_tangents *tangents = out->tangents;
-    int at = index - out->first, i = tangents->count;
-    if (at < 0 || at >= out->count) return;
+    int i = tangents->count++;
     tangents->at[i] = at;
     tangents->along[i] = along;
     tangents->across[i] = across;
     tangents->from[i] = from;
-    tangents->count = i + 1;
     if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
+}
+
+// Makes a point wait if the window has it.
+static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across,
+                             int from)
+{
+    int at = index - out->first;
+    if (at >= 0 && at < out->count) sdv_add_tangents(out->tangents, at, along, across, from);
 }
 
 // Writes the normals of four points that stand one behind the other.
@@ -10771,32 +10776,29 @@ static void sdv_sum_powers(const double (*c)[4], int loop, double x, double y, d
     }
 }
 
-// Writes what is asked for of a patch, at location i, of channels from c on.
+// Writes what is asked for of a patch, at location i, of channels from c on. Its normal waits for
+// others.
 SDV_INLINE void sdv_put_lanes(const sdv_exact_evaluation *e, const float *data, int loop,
-                              int lanes, int order, const sdv_where *at, int c, size_t i)
+                              int lanes, int order, const sdv_where *at, int c, size_t i,
+                              sdv_tangents *normals)
 {
     sdv_four values[6];
     data += SDV_SLOTS * c;
     sdv_polynomial_values(data, loop, lanes, at, order, values);
     for (int k = 0; k < (order + 1) * (order + 2) / 2; k++)
         if (e->out[k]) sdv_store_some(e->out[k] + e->stride * i + c, values[k], lanes);
-    if (order > 0 && e->normals && c == 0) {
-        float t[8];
-        int left = e->surface->rules.left_handed;
-        sdv_store(t + 4 * left, values[1]);
-        sdv_store(t + 4 * !left, values[2]);
-        sdv_unit_normal(t, t + 4, NULL, e->normals + e->normal_stride * i);
-    }
+    if (order > 0 && e->normals && c == 0)
+        sdv_add_tangents(normals, (int)i, values[1], values[2], -1);
 }
 
 static void sdv_put_channels(const sdv_exact_evaluation *e, const float *data, int loop,
-                             const sdv_where *at, size_t i)
+                             const sdv_where *at, size_t i, sdv_tangents *normals)
 {
     for (int c = 0; c < e->channels; c += 4) {
         int lanes = sdv_lanes_from(e->channels, c);
-        if (e->order == 0) sdv_put_lanes(e, data, loop, lanes, 0, at, c, i);
-        else if (e->order == 1) sdv_put_lanes(e, data, loop, lanes, 1, at, c, i);
-        else sdv_put_lanes(e, data, loop, lanes, 2, at, c, i);
+        if (e->order == 0) sdv_put_lanes(e, data, loop, lanes, 0, at, c, i, normals);
+        else if (e->order == 1) sdv_put_lanes(e, data, loop, lanes, 1, at, c, i, normals);
+        else sdv_put_lanes(e, data, loop, lanes, 2, at, c, i, normals);
     }
 }
 
@@ -10973,6 +10975,7 @@ typedef struct sdv_queue {
     uint32_t    *keys;                  // [room] from the highest bit: nest, level, face, quarter
     int         *order[2];              // [room] sorted, and while they are
     double      *w;                     // [4 * most_work] for a nest
+    sdv_tangents normals;               // of other samples, which wait until there are four
 } sdv_queue;
 
 // Makes an empty queue for a job's share of the locations.
@@ -10981,6 +10984,9 @@ static void sdv_queue_new(const sdv_exact_evaluation *e, size_t share, sdv_queue
     memset(queue, 0, sizeof *queue);
     queue->context.user = e->user;
     queue->room = share < SDV_QUEUE ? (int)share : SDV_QUEUE;
+    queue->normals.normals = e->normals;
+    queue->normals.stride = e->normal_stride;
+    queue->normals.left_handed = e->surface->rules.left_handed;
 }
 
 // Sorts a queue byte by byte, from the lowest one on.
@@ -11074,7 +11080,8 @@ static void sdv_put_spot(const sdv_exact_evaluation *e, int loop, const sdv_spot
     if (leaf.below_kept)
         sdv_enqueue(e, &leaf, i, queue);
     else if (leaf.patch || leaf.nest_face >= 0)
-        sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i);
+        sdv_put_channels(e, sdv_polynomial_at(e, leaf.polynomial, 0), loop, &at, i,
+                         &queue->normals);
     else
         sdv_put_zeros(e, i);
 }
@@ -11128,6 +11135,7 @@ SDV_INLINE void sdv_put_batch(const sdv_exact_evaluation *e, int loop, int lanes
     const sdv_lookup *l = &batch->at;
     size_t third = SDV_SLOTS * (size_t)e->channels / 3;
     int count = batch->count, fetched = next->count;
+    sdv_tangents *normals = &queue->normals;
     for (int k = 0; k < count; k++, i++) {
         sdv_where at = { l->x[k], l->y[k], l->sx[k], l->sy[k] };
         if (k < fetched) {
@@ -11136,8 +11144,8 @@ SDV_INLINE void sdv_put_batch(const sdv_exact_evaluation *e, int loop, int lanes
             sdv_prefetch(next->data[k] + 2 * third);
         }
         if (l->cells[k] == SDV_CELL_FAR) sdv_put_location(e, loop, i, queue);
-        else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i);
-        else sdv_put_channels(e, batch->data[k], loop, &at, i);
+        else if (lanes) sdv_put_lanes(e, batch->data[k], loop, lanes, order, &at, 0, i, normals);
+        else sdv_put_channels(e, batch->data[k], loop, &at, i, normals);
     }
 }
 
@@ -11166,6 +11174,7 @@ static void sdv_locations_job(void *context, int job)
         else sdv_put_batch(e, loop, 0, 0, batch, next, first, &queue);
     }
     if (queue.count) sdv_empty_queue(e, &queue);
+    sdv_flush_tangents(&queue.normals);
     e->failed[job] = queue.context.result != SUBDIV_OK;
     sdv_arena_free(&queue.arena);
 }
