@@ -15725,10 +15725,11 @@ SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdi
 }
 
 // Checks the arguments of a stream. others: those that are not checked here are there.
-static void sdv_check_stream(sdv_context *context, const subdiv_surface *surface, int others,
-                             const subdiv_options *opt)
+static void sdv_check_stream(sdv_context *context, const subdiv_surface *surface,
+                             const float *positions, int others, const subdiv_options *opt)
 {
     sdv_check_mesh_surface(context, surface, others);
+    if (!context->result) sdv_check_positions(context, positions, surface->cage_vertex_count);
     if (!opt || !opt->part_count || context->result) return;
     if (opt->part < 0 || opt->part >= opt->part_count)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "there is no part %d of %d, counted from 0",
@@ -15740,7 +15741,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surfac
                                                     void *user, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_stream(&context, surface, write != NULL, opt);
+    sdv_check_stream(&context, surface, positions, write != NULL, opt);
     return sdv_write_obj(&context, NULL, surface, positions, write, user, opt);
 }
 
@@ -15952,8 +15953,7 @@ SUBDIV_DEF subdiv_result subdiv_stream_obj(const subdiv_surface *surface, const 
                                            const char *path, const subdiv_options *opt)
 {
     sdv_context context = sdv_begin(opt);
-    sdv_check_stream(&context, surface, path != NULL, opt);
-    if (!context.result) sdv_check_positions(&context, positions, surface->cage_vertex_count);
+    sdv_check_stream(&context, surface, positions, path != NULL, opt);
     return sdv_write_path(&context, NULL, surface, positions, path, opt);
 }
 

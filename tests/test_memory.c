@@ -1190,9 +1190,14 @@ static void wrong_texts(void)
         WRONG(ARGUMENT, subdiv_stream_obj(k.plain, p, path, &of_part));
     }
     k.positions[7] = HUGE_VALF;
-    WRONG(NOT_FINITE, subdiv_stream_obj_callback(k.copy, p, write_away, &sink, opt));
-    WRONG(NOT_FINITE, subdiv_stream_obj_callback(k.plain, p, write_away, &sink, opt));
-    WRONG(NOT_FINITE, subdiv_stream_obj(k.copy, p, path, opt));
+    for (int part = 0; part < 9; part++) {                      // also a part without points
+        subdiv_options of_part = *opt;
+        of_part.part = part, of_part.part_count = 9;
+        WRONG(ARGUMENT, subdiv_stream_obj_callback(k.copy, NULL, write_away, &sink, &of_part));
+        WRONG(NOT_FINITE, subdiv_stream_obj_callback(k.copy, p, write_away, &sink, &of_part));
+        WRONG(NOT_FINITE, subdiv_stream_obj_callback(k.plain, p, write_away, &sink, &of_part));
+        WRONG(NOT_FINITE, subdiv_stream_obj(k.copy, p, path, &of_part));
+    }
     k.positions[7] = 0.5f;
     CHECK(path_has("kept"));
     remove(path);

@@ -481,9 +481,11 @@ static int rate_of_edge(void *user, int edge, const float *a, const float *middl
     return (edge * 7 + *(const int *)user) % 6;
 }
 
+// Rates that make billions of points, but not too many, would only take long.
 static int a_rate(bytes *b)
 {
-    return wild && chance(b, 16) ? any_int(b) : below(b, 6);
+    int rate = wild && chance(b, 16) ? any_int(b) : below(b, 6);
+    return rate > 65535 ? INT_MAX : rate;
 }
 
 static int *some_rates(bytes *b, int count)
