@@ -532,9 +532,9 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
                                                      const subdiv_options *opt);
 
 // Gives any mesh normals: at each vertex the sum of its faces' normals, weighted by their areas and
-// scaled to length 1; or 0 if there is none. Where creases are infinitely sharp, each side has its
-// own, as in a limit, unless opt->one_normal says no. Arrays that have the room are filled, else
-// the mesh gets new ones.
+// scaled to length 1; or 0 if there is none. Each side of an infinitely sharp crease, and each fan
+// of faces at non-manifold places, has its own, as in a limit, unless opt->one_normal says no,
+// which is faster. Arrays that have the room are filled, else the mesh gets new ones.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // Gives a mesh such normals, and splits them also at edges where the normals of the two faces
@@ -13088,11 +13088,7 @@ static sdv_sides sdv_find_mesh_sides(sdv_context *context, sdv_arena *arena,
 {
     subdiv_surface shape;
     sdv_cage cage;
-    int any = most != NULL;
     memset(&shape, 0, sizeof shape);
-    for (int i = 0; i < mesh->crease_count; i++)
-        any |= mesh->crease_sharpness[i] >= SUBDIV_INFINITE;
-    if (!any) return shape.sides;
     sdv_cage_build(context, arena, arena, &cage, mesh);
     if (most && !context->result)
         sdv_sharpen_bends(context, arena, mesh->positions, &cage.level, most);
