@@ -244,9 +244,8 @@ static int check_options(const command *cmd)
     if (given[CURVE] >= 0 && (given[TESSELLATE] > 0 || streams || prints || given[EVAL] == 1))
         return misused("--curve is not for surfaces: no --tessellate, %s, --explain, --eval",
                        stream);
-    if (shows && (streams || prints || given[CURVE] >= 0))
-        return misused("--picture and --html show a whole surface: no %s, --explain, --curve",
-                       stream);
+    if (shows && (streams || prints))
+        return misused("--picture and --html show the whole result: no %s, --explain", stream);
     if (given[PART] > 0 && (prints || given[INFO] == 1 || given[FOLDER] == 1))
         return misused("--part saves one file: no --explain, --info or -o beside it");
     if (given[CREASE_SHARPNESS] == 1 && given[CREASE_ANGLE] < 0 && given[CREASE_GROUPS] < 0 &&
@@ -442,8 +441,9 @@ static int refine_then_save(work *w, const command *cmd, const subdiv_options *o
         : subdiv_surface_mesh(&w->fine, w->surface, w->cage.positions, opt);
     if (result) return report(cmd->input, opt);
     end_step(w->fine.vertex_count);
-    if (shows && w->fine.face_count == 0) {
-        set_error(opt, SUBDIV_ERROR_EMPTY, "there are no faces to show");
+    if (shows && w->fine.face_count == 0 && w->fine.line_count == 0) {
+        set_error(opt, SUBDIV_ERROR_EMPTY, w->cage.line_count ? "there are no faces to show; "
+                  "--curve refines polylines" : "there are no faces to show");
         return report(cmd->input, opt);
     }
     if (cmd->given[PICTURE] == 1 && draw_picture(w, cmd, opt)) return FAILED;

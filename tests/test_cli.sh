@@ -988,7 +988,23 @@ ends 2 --picture box.jpg box.obj
 ends 2 --picture box.png --stream box.obj
 printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' > stroke.obj
 ends 1 --picture stroke.png stroke.obj
-says "there are no faces to show"
+says "there are no faces to show; --curve refines polylines"
+
+# Polylines are drawn, with faces or without.
+ends 0 --curve chaikin -l 3 --picture chaikin.png lines.obj
+sed 's/8/16/' lines.obj > twice.obj
+ends 0 --curve chaikin -l 3 --picture twice.png twice.obj
+same chaikin.png twice.png
+ends 0 --curve b-spline -l 3 --picture spline.png lines.obj
+differ chaikin.png spline.png
+ends 0 -l 0 --picture lines.png lines.obj
+grep -v '^l' lines.obj > face.obj
+ends 0 -l 0 --picture face.png face.obj
+differ lines.png face.png
+ends 0 --curve chaikin --picture beside.png stroke.obj beside.obj
+fine "--curve --picture: the cage is beside the curve" test \
+    "$($width beside.png | awk '{ print $3 * 256 + $4 }')" -eq \
+    "$($width chaikin.png | awk '{ print 2 * ($3 * 256 + $4) }')"
 
 # Pages: the data of each level is what the level writes by itself.
 # words FORMAT NAME STEP: the numbers of an array of page.html, a line each; of the first STEP is 1
@@ -1065,7 +1081,18 @@ printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' > place.obj
 ends 0 -l 1 --picture place.png --html page.html place.obj
 ends 2 --html page.png box.obj
 ends 2 --html page.html --stream box.obj
-ends 2 --html page.html --curve chaikin box.obj
+ends 1 --html page.html --curve chaikin box.obj
+says "no polylines"
+ends 0 --curve chaikin -l 2 --html page.html lines.obj
+for level in 0 1 2; do
+    ends 0 --curve chaikin -l $level lines.obj level.obj
+    words f4 points $((level + 1)) | awk '{ print $1 + 0 }' > points
+    grep '^v ' level.obj | cut -d ' ' -f 2-4 | tr ' ' '\n' | awk '{ print $1 + 0 }' > expected
+    same points expected
+    words u4 polylines $((level + 1)) | paste - - > polylines
+    awk '/^l / { for (i = 3; i <= NF; i++) print $(i - 1) - 1 "\t" $i - 1 }' level.obj > expected
+    same polylines expected
+done
 ends 2 --html page.html -o results box.obj
 ends 2 --html
 

@@ -171,6 +171,13 @@ run('viewer', browserPath, async browser => {
     check('any name', (await page.title()) === `<b>"&amp;'\u00e9`);
     check('a tessellation', (await page.textContent('#label')) === '3 pieces an edge');
     await changes(page, 'the cage of a tessellation', () => page.keyboard.press('0'));
+    const strokes = 'v 0 0 0\nv 8 0 0\nv 0 8 0\nl 1 2 3\nl 1 2 3 1\n';
+    page = await open(context, 'strokes', strokes, '--curve', 'chaikin', '-l', '2');
+    const facts = await page.textContent('#facts');
+    check(`curves: ${facts}`, facts === '24 points, 2 polylines');
+    check('curves are drawn', (await drawn(page)) > 0.005);
+    await changes(page, 'the cage of curves', () => page.click('#cage'));
+    await changes(page, 'a level of curves', () => page.keyboard.press('1'));
     const far = cube.replace(/^v (\S+) (\S+) /gm, (_, x, y) => `v ${+x + 1e6} ${+y - 1e6} `);
     for (const [name, obj] of [
         ['far', far],

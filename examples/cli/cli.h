@@ -111,14 +111,14 @@ void   material_color(int material, float rgb[3]);             // one that tells
 
 // --------------------------------------------------------------------------------------- shape.c
 
-// What is shown of meshes: the box around the points that faces have.
+// What is shown of meshes: the box around the points that faces and polylines have.
 typedef struct frame {
     int    is_full;                   // there is such a point
     double low[3], high[3];
 } frame;
 
 // A mesh as it is shown: in the unit ball or, without a box, where it is. It has normals and the
-// creases of its cage.
+// creases of its cage. Curves have no surface.
 typedef struct shape {
     subdiv_mesh mesh;
     float      *positions;

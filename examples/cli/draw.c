@@ -78,6 +78,7 @@ static int draw_panel(drawing *d, int left, const subdiv_mesh *mesh, int is_cage
     style.edge_width = clear > 0 ? 0.9f : 0;
     style.edge_opacity = clear < 0.5f ? clear : 0.5f;
     style.crease_width = is_cage ? 2.4f : 1.8f;
+    style.line_width = 2.4f;
     style.caster = d->caster.face_count && !is_cage ? &d->caster : NULL;
     render_text(&d->picture, (float)left + WIDTH / 2, HEIGHT + 14, 13, label);
     return render_mesh(&d->picture, left, 0, WIDTH, HEIGHT, mesh, &d->view, &style);
@@ -86,17 +87,21 @@ static int draw_panel(drawing *d, int left, const subdiv_mesh *mesh, int is_cage
 static int draw_panels(drawing *d, const command *cmd, int beside)
 {
     char label[80];
-    int width = beside ? 2 * WIDTH : WIDTH, faces = d->fine.mesh.face_count;
+    int width = beside ? 2 * WIDTH : WIDTH, curve = cmd->given[CURVE] >= 0;
+    const subdiv_mesh *cage = &d->coarse.mesh, *fine = &d->fine.mesh;
+    const char *parts = curve ? "points" : "faces";
+    int count = curve ? fine->vertex_count : fine->face_count;
     int ok = render_picture_new(&d->picture, width, HEIGHT + FOOT);
-    render_view_fit(&d->view, beside ? &d->coarse.mesh : &d->fine.mesh, 30, 22, WIDTH, HEIGHT);
+    render_view_fit(&d->view, beside ? cage : fine, 30, 22, WIDTH, HEIGHT);
     if (beside) {
-        snprintf(label, sizeof label, "cage   %d faces", d->coarse.mesh.face_count);
-        ok = ok && draw_panel(d, 0, &d->coarse.mesh, 1, label);
+        snprintf(label, sizeof label, "cage   %d %s",
+                 curve ? cage->vertex_count : cage->face_count, parts);
+        ok = ok && draw_panel(d, 0, cage, 1, label);
     }
     if (cmd->given[TESSELLATE] > 0)
-        snprintf(label, sizeof label, "%d pieces an edge   %d faces", pieces_of(cmd), faces);
-    else snprintf(label, sizeof label, "level %d   %d faces", levels_of(cmd), faces);
-    return ok && draw_panel(d, width - WIDTH, &d->fine.mesh, 0, label);
+        snprintf(label, sizeof label, "%d pieces an edge   %d faces", pieces_of(cmd), count);
+    else snprintf(label, sizeof label, "level %d   %d %s", levels_of(cmd), count, parts);
+    return ok && draw_panel(d, width - WIDTH, fine, 0, label);
 }
 
 int draw_picture(work *w, const command *cmd, const subdiv_options *opt)

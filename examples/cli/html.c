@@ -124,6 +124,17 @@ static void put_creases(encoder *e, const subdiv_mesh *mesh)
     put_text(e, "\"]");
 }
 
+// The polylines, as edges.
+static void put_polylines(encoder *e, const char *before, const subdiv_mesh *mesh)
+{
+    const int *v = mesh->line_vertices;
+    put_text(e, before);
+    for (int i = 0; i < mesh->line_count; v += mesh->line_sizes[i++])
+        for (int k = 1; k < mesh->line_sizes[i]; k++) put_words(e, v + k - 1, 2);
+    end_words(e);
+    put_text(e, "\"");
+}
+
 static size_t count_corners(const subdiv_mesh *mesh)
 {
     size_t count = (size_t)mesh->face_size * (size_t)mesh->face_count;
@@ -156,10 +167,31 @@ static subdiv_result put_step(encoder *e, const subdiv_mesh *mesh, const char *l
         if (sides) put_array(e, ",\n\"sides\":\"", s.mesh.face_normals, corners);
         put_materials(e, mesh, all);
         put_creases(e, &s.mesh);
+        put_number(e, ",\n\"lineCount\":", mesh->line_count);
+        if (mesh->line_count) put_polylines(e, ",\n\"polylines\":\"", mesh);
         put_text(e, "}");
     }
     free_shape(&s);
     return result;
+}
+
+// Makes a level. at is all zeros; free_level frees it.
+static subdiv_result make_level(work *at, const work *w, const command *cmd, int level,
+                                const subdiv_options *opt)
+{
+    command less = *cmd;
+    if (cmd->given[CURVE] < 0) return subdiv_refine(&at->fine, &w->cage, level, opt);
+    less.given[LEVELS] = level;
+    at->cage = w->cage;
+    return refine_curves(at, &less, opt);
+}
+
+static void free_level(work *at)
+{
+    subdiv_mesh_free(&at->fine);
+    free(at->points);
+    free(at->colors);
+    free(at->numbers);
 }
 
 // The steps of the slider: the levels up to the result; of a tessellation, level 0 and that.
@@ -171,12 +203,12 @@ static subdiv_result put_steps(encoder *e, const work *w, const command *cmd,
     subdiv_result result = SUBDIV_OK;
     char label[80];
     for (int level = 0; level < levels && !result && !e->failed; level++) {
-        subdiv_mesh mesh = {0};
+        work at = {0};
         snprintf(label, sizeof label, "level %d", level);
-        result = subdiv_refine(&mesh, &w->cage, level, opt);
-        if (!result) result = put_step(e, &mesh, label, w, all, 1 << level, opt);
+        result = make_level(&at, w, cmd, level, opt);
+        if (!result) result = put_step(e, &at.fine, label, w, all, 1 << level, opt);
         put_text(e, ",\n");
-        subdiv_mesh_free(&mesh);
+        free_level(&at);
     }
     snprintf(label, sizeof label, cut > 0 ? "%d pieces an edge" : "level %d",
              cut > 0 ? cut : levels);
@@ -185,7 +217,7 @@ static subdiv_result put_steps(encoder *e, const work *w, const command *cmd,
     return result;
 }
 
-// The edges of the cage, which are drawn over each step.
+// The edges of the cage or, for curves, its polylines. They are drawn over each step.
 static subdiv_result put_cage(encoder *e, const work *w, const subdiv_options *opt)
 {
     size_t count = (size_t)subdiv_surface_edge_count(w->surface);
@@ -193,7 +225,8 @@ static subdiv_result put_cage(encoder *e, const work *w, const subdiv_options *o
     if (ends == NULL) return set_error(opt, SUBDIV_ERROR_MEMORY, "out of memory");
     subdiv_surface_edges(w->surface, ends);
     put_array(e, "\"cage\":{\"points\":\"", w->cage.positions, 3 * (size_t)w->cage.vertex_count);
-    put_array(e, ",\n\"edges\":\"", ends, 2 * count);
+    if (w->surface) put_array(e, ",\n\"edges\":\"", ends, 2 * count);
+    else put_polylines(e, ",\n\"edges\":\"", &w->cage);
     put_text(e, "},\n");
     free(ends);
     return SUBDIV_OK;

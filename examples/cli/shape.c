@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Marks the vertices that faces have. Returns NULL when out of memory.
+// Marks the vertices that faces and polylines have. Returns NULL when out of memory.
 static char *find_used(const subdiv_mesh *mesh)
 {
     char *used = (char *)calloc((size_t)mesh->vertex_count + 1, 1);
@@ -14,6 +14,9 @@ static char *find_used(const subdiv_mesh *mesh)
     for (int f = 0; f < mesh->face_count && used; f++)
         for (int i = mesh->face_size ? mesh->face_size : mesh->face_sizes[f]; i > 0; i--)
             used[*vertex++] = 1;
+    vertex = mesh->line_vertices;
+    for (int i = 0; i < mesh->line_count && used; i++)
+        for (int k = mesh->line_sizes[i]; k > 0; k--) used[*vertex++] = 1;
     return used;
 }
 
@@ -113,7 +116,7 @@ subdiv_result make_shape(shape *s, const subdiv_mesh *mesh, const frame *box,
                          const subdiv_mesh *cage, const subdiv_surface *surface, int pieces,
                          const subdiv_options *opt)
 {
-    size_t creases = (size_t)cage->crease_count * (size_t)pieces;
+    size_t creases = surface ? (size_t)cage->crease_count * (size_t)pieces : 0;
     segment *edges = sorted_edges(surface);
     subdiv_result result = SUBDIV_OK;
     s->mesh = *mesh;
@@ -129,7 +132,7 @@ subdiv_result make_shape(shape *s, const subdiv_mesh *mesh, const frame *box,
         s->mesh.crease_vertices = s->creases;
         s->mesh.crease_sharpness = (float *)(s->creases + 2 * creases);
         mark_creases(&s->mesh, cage, edges, (size_t)subdiv_surface_edge_count(surface), pieces);
-        s->mesh.corner_count = cage->corner_count;
+        s->mesh.corner_count = surface ? cage->corner_count : 0;
         s->mesh.corner_vertices = cage->corner_vertices;
         s->mesh.corner_sharpness = cage->corner_sharpness;
     }

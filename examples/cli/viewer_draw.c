@@ -243,7 +243,7 @@ const char *const viewer_draw[] = {
 // ----------------------------------------------------------------------------------------- drawing
 "const dark = matchMedia('(prefers-color-scheme: dark)');",
 "const INK = [0.16, 0.18, 0.22], AMBER = [0.98, 0.66, 0.12], RED = [0.94, 0.3, 0.16];",
-"const TEAL = [0.1, 0.56, 0.54], PALE = [0.86, 0.85, 0.83];",
+"const TEAL = [0.1, 0.56, 0.54], PALE = [0.86, 0.85, 0.83], BLUE = [0.1, 0.38, 0.62];",
 "const paper = () => dark.matches ? [0.141, 0.149, 0.169] : [0.9647, 0.9569, 0.9412];",
 "let box, level, refines = true, pass = 0, waiting = false, began = 0;",
 "const meshes = [], targets = {};",
@@ -311,6 +311,9 @@ const char *const viewer_draw[] = {
 "            const make = () => lineArray(mesh.points, ints(ends));",
 "            drawLines(mesh.lines, 'creases' + i, make, i < 2 ? 2 : 6, i % 2 ? RED : AMBER, 0.95);",
 "        });",
+"    if (step.polylines)",
+"        drawLines(mesh.lines, 'polylines',",
+"                  () => lineArray(mesh.points, ints(step.polylines)), 2.6, BLUE, 0.95);",
 "    if ($('cage').checked) {",
 "        const make = () => lineArray(floats(cage.points), ints(cage.edges));",
 "        gl.disable(gl.DEPTH_TEST);",

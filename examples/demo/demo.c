@@ -82,7 +82,7 @@ static int draw(render_picture *picture, const exhibit *e, const subdiv_mesh *me
                 const unsigned char *face_materials)
 {
     static const int levels[SHOWN] = {0, 1, 2, 4};
-    render_style style = {materials, face_materials, 0, 0, 0, 0, e->lift, NULL};
+    render_style style = {materials, face_materials, 0, 0, 0, 0, e->lift, NULL, 0};
     render_view view;
     int ok = render_picture_new(picture, SHOWN * PANEL_WIDTH, ROW_HEIGHT);
     render_view_fit(&view, mesh, e->yaw, e->pitch, PANEL_WIDTH, PANEL_HEIGHT);

@@ -83,7 +83,7 @@ static side *sorted_sides(const subdiv_mesh *mesh, int *count)
 {
     int face_vertices = count_face_vertices(mesh), k = 0;
     *count = face_vertices + mesh->crease_count;
-    side *sides = malloc((size_t)*count * sizeof *sides);
+    side *sides = malloc(((size_t)*count + 1) * sizeof *sides);
     if (!sides) return NULL;
     for (int f = 0; f < mesh->face_count; f++) {
         int size = face_size(mesh, f);
@@ -126,8 +126,8 @@ static vec *face_vertex_normals(const subdiv_mesh *mesh, const side *sides, int 
                                 int flat)
 {
     int count = count_face_vertices(mesh), k = 0;
-    vec *normals = calloc((size_t)count, sizeof *normals);
-    int *parent = malloc((size_t)count * sizeof *parent);
+    vec *normals = calloc((size_t)count + 1, sizeof *normals);
+    int *parent = malloc(((size_t)count + 1) * sizeof *parent);
     if (!normals || !parent) { free(normals); free(parent); return NULL; }
     for (int i = 0; i < count && mesh->normals && !flat; i++) {
         int n = mesh->face_normals ? mesh->face_normals[i] : mesh->face_vertices[i];
@@ -258,7 +258,7 @@ static void draw_faces(target *t, const subdiv_mesh *mesh, const vec *normals,
     }
 }
 
-enum { PEN_EDGE = 1, PEN_SEMI_SHARP, PEN_SHARP };
+enum { PEN_EDGE = 1, PEN_SEMI_SHARP, PEN_SHARP, PEN_LINE };
 
 static void draw_edges(target *t, const subdiv_mesh *mesh, const side *sides, int side_count,
                        const render_view *view, const render_style *style)
@@ -278,6 +278,19 @@ static void draw_edges(target *t, const subdiv_mesh *mesh, const side *sides, in
         point p = project(view, vec_of(mesh->positions + 3 * mesh->corner_vertices[i]));
         draw_line(t, p, p, 3 * style->crease_width * SAMPLES,
                   mesh->corner_sharpness[i] >= SUBDIV_INFINITE ? PEN_SHARP : PEN_SEMI_SHARP);
+    }
+}
+
+static void draw_polylines(target *t, const subdiv_mesh *mesh, const render_view *view,
+                           const render_style *style)
+{
+    const int *v = mesh->line_vertices;
+    for (int i = 0; i < mesh->line_count; v += mesh->line_sizes[i++]) {
+        point p = project(view, vec_of(mesh->positions + 3 * v[0])), q;
+        for (int k = 1; k < mesh->line_sizes[i]; k++, p = q) {
+            q = project(view, vec_of(mesh->positions + 3 * v[k]));
+            draw_line(t, p, q, style->line_width * SAMPLES, PEN_LINE);
+        }
     }
 }
 
@@ -430,7 +443,7 @@ static int light_scene(scene *s, const subdiv_mesh *caster)
 static vec shade(const scene *s, int x, int y, vec backdrop)
 {
     static const vec pens[] = {{0, 0, 0}, {0.16f, 0.18f, 0.22f}, {0.98f, 0.66f, 0.12f},
-                               {0.94f, 0.30f, 0.16f}};
+                               {0.94f, 0.30f, 0.16f}, {0.10f, 0.38f, 0.62f}};
     const target *t = &s->view_target;
     int i = y * t->width + x;
     vec got = s->received[i], colour = backdrop;
@@ -571,6 +584,7 @@ int render_mesh(render_picture *picture, int left, int top, int width, int heigh
         draw_faces(&s.view_target, mesh, normals, &fine, style);
         for (int i = 0; i < samples; i++) s.view_target.normal[i] = unit(s.view_target.normal[i]);
         draw_edges(&s.view_target, mesh, sides, side_count, &fine, style);
+        draw_polylines(&s.view_target, mesh, &fine, style);
         ok = light_scene(&s, style->caster ? style->caster : mesh);
     }
     if (ok) resolve(&s, picture, left, top);

@@ -32,6 +32,7 @@ typedef struct render_style {
     float crease_width;               // of the sharp edges; corners become dots of thrice this
     float lift;                       // height of the mesh above the ground
     const subdiv_mesh *caster;        // casts the shadows, a coarser level say; NULL: the mesh
+    float line_width;                 // of polylines, in pixels
 } render_style;
 
 // A picture with the backdrop alone. Returns 0 when out of memory.

@@ -265,7 +265,7 @@ int png_row(int argc, char **argv, const char *name, const subdiv_mesh *fit, flo
     for (int i = 0; i < count && ok; i++) {
         const subdiv_mesh *mesh = panels[i].mesh;
         unsigned char *same = malloc((size_t)mesh->face_count);
-        render_style style = {materials, same, 0, 0, 0, 0, 0, NULL};
+        render_style style = {materials, same, 0, 0, 0, 0, 0, NULL, 0};
         subdiv_mesh own = *mesh;
         own.cage_faces = NULL;                          // materials are of the mesh's own faces
         if (same) memset(same, panels[i].material, (size_t)mesh->face_count);
