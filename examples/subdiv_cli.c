@@ -296,14 +296,20 @@ static int check_files(const command *cmd)
     return DONE;
 }
 
-// Refuses inputs that would become the same file in the folder.
+// Refuses inputs that would become the same file in the folder, or are in it.
 static int check_names(const command *cmd)
 {
-    for (int i = 0; i < cmd->file_count; i++)
+    const char *folder = cmd->texts[FOLDER];
+    char path[4096];
+    for (int i = 0; i < cmd->file_count; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, file_name(cmd->files[i]));
+        if (is_same_file(path, cmd->files[i]))
+            return misused("a result would replace its cage, %s", path);
         for (int j = 0; j < i; j++)
             if (strcmp(file_name(cmd->files[i]), file_name(cmd->files[j])) == 0)
                 return misused("%s and %s would be the same file in %s", cmd->files[j],
-                               cmd->files[i], cmd->texts[FOLDER]);
+                               cmd->files[i], folder);
+    }
     return DONE;
 }
 

@@ -1110,6 +1110,11 @@ fine "-o with a broken file ends with 1" test $? -eq 1
 same results/box.obj single.obj
 mkdir -p other && cp box.obj other
 ends 2 -o results box.obj other/box.obj
+for folder in . ../cli other; do
+    ends 2 -l 1 -o $folder single.obj other/box.obj
+    says "a result would replace its cage"
+done
+same other/box.obj box.obj
 ends 2 box.obj single.obj limit.obj
 
 ends 0 --no-tags -l 1 box.obj untagged.obj
