@@ -1067,9 +1067,16 @@ says "there are no faces to show"
 fine "--html: what fails leaves the file" test "$(cat page.html)" = old
 ends 1 --html no/page.html box.obj
 if [ -c /dev/full ]; then
-    ln -s /dev/full full.html
-    ends 1 --html full.html box.obj
-    says "writing failed: No space left on device"
+    for kind in ply stl glb; do
+        ln -s /dev/full full.$kind
+        ends 1 box.obj full.$kind
+        says "writing failed: No space left on device"
+    done
+    for kind in html,--html png,--picture; do
+        ln -s /dev/full full.${kind%,*}
+        ends 1 ${kind#*,} full.${kind%,*} box.obj
+        says "writing failed: No space left on device"
+    done
 fi
 cp box.obj cage.html
 ends 2 --html cage.html cage.html

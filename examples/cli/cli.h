@@ -77,6 +77,7 @@ int    open_output(output *o, const char *name);
 int    close_output(output *o, subdiv_result result, const char *input, const subdiv_options *opt);
 int    flush_output(void);
 size_t write_file(void *file, const void *bytes, size_t size);   // a subdiv_write
+subdiv_result set_write_error(const subdiv_options *opt);        // with the reason, from errno
 const char *file_name(const char *path);       // the last part of a path
 int    is_regular(const char *path);           // can be read twice
 int    is_same_file(const char *a, const char *b);

@@ -2,6 +2,7 @@
 #include "cli.h"
 #include "../demo/render.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -116,8 +117,8 @@ int draw_picture(work *w, const command *cmd, const subdiv_options *opt)
     if (result) failed = report(cmd->input, opt);
     if (!failed) failed = open_output(&out, cmd->texts[PICTURE]);
     if (!failed) {
-        if (!render_write_png(&d.picture, out.file))
-            result = set_error(opt, SUBDIV_ERROR_IO, "writing failed");
+        errno = 0;
+        if (!render_write_png(&d.picture, out.file)) result = set_write_error(opt);
         failed = close_output(&out, result, cmd->input, opt);
     }
     if (!failed) end_step(w->fine.vertex_count);

@@ -24,10 +24,22 @@ int flush_output(void)
     return FAILED;
 }
 
+// Once a write has failed, no other is tried, so that errno stays.
 size_t write_file(void *user, const void *bytes, size_t size)
 {
+    FILE *file = (FILE *)user;
+    if (ferror(file)) return 0;
     written += size;
-    return fwrite(bytes, 1, size, (FILE *)user);
+    errno = 0;
+    return fwrite(bytes, 1, size, file);
+}
+
+subdiv_result set_write_error(const subdiv_options *opt)
+{
+    char message[160];
+    const char *reason = errno ? strerror(errno) : "";
+    snprintf(message, sizeof message, "writing failed%s%s", *reason ? ": " : "", reason);
+    return set_error(opt, SUBDIV_ERROR_IO, message);
 }
 
 const char *file_name(const char *path)

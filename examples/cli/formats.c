@@ -51,7 +51,7 @@ static void put_text(writer *w, const char *text)
 static subdiv_result end_writing(writer *w, const subdiv_options *opt)
 {
     flush(w);
-    return w->failed ? set_error(opt, SUBDIV_ERROR_IO, "writing failed") : SUBDIV_OK;
+    return w->failed ? set_write_error(opt) : SUBDIV_OK;
 }
 
 subdiv_result set_error(const subdiv_options *opt, subdiv_result code, const char *message)

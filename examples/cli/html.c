@@ -2,7 +2,6 @@
 // The page is in viewer.c and viewer_draw.c. Here are its meshes: numbers of four bytes, as base64.
 #include "cli.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +11,7 @@ enum { MEGABYTE = 1000000, MOST_MEGABYTES = 100 };
 
 typedef struct encoder {
     FILE    *file;
-    int      failed;                  // errno of the first failure
+    int      failed;                  // to be written
     size_t   size;                    // bytes in all; the file holds none that are too many
     int      waiting;                 // bytes in group: 0 to 2
     unsigned group;
@@ -23,9 +22,8 @@ typedef struct encoder {
 static void flush(encoder *e)
 {
     e->size += e->used;
-    errno = 0;
     if (!e->failed && e->size <= (size_t)MOST_MEGABYTES * MEGABYTE &&
-        write_file(e->file, e->text, e->used) != e->used) e->failed = errno ? errno : EIO;
+        write_file(e->file, e->text, e->used) != e->used) e->failed = 1;
     e->used = 0;
 }
 
@@ -313,10 +311,7 @@ subdiv_result check_page(const command *cmd, const subdiv_surface *surface, int 
 
 static subdiv_result check_written(const encoder *e, const command *cmd, const subdiv_options *opt)
 {
-    char message[160];
-    if (!e->failed) return check_size(cmd, (double)e->size, "", opt);
-    snprintf(message, sizeof message, "writing failed: %s", strerror(e->failed));
-    return set_error(opt, SUBDIV_ERROR_IO, message);
+    return e->failed ? set_write_error(opt) : check_size(cmd, (double)e->size, "", opt);
 }
 
 int write_page(const work *w, const command *cmd, const subdiv_options *opt)
