@@ -684,8 +684,10 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_at(const subdiv_surface *surface, int c
 // tangents [stride * count], stride 0 stands for 4. x y z is the direction in which the first of
 // the cage's UVs grows and the second stays, at right angles to the normal and of length 1. The
 // second one grows along w times normal x tangent, where w is 1 or -1. All four are 0 where normal
-// or UVs give no direction. Each call evaluates the UVs of the whole cage: ask for many locations
-// at once. Errors: as subdiv_evaluate_at, and ARGUMENT if the cage has no UVs.
+// or UVs give no direction. Where one side of the UVs mirrors the other, let each have indices of
+// its own: vertices that both share have no direction or, under the rule "all", that of one side.
+// Each call evaluates the UVs of the whole cage: ask for many locations at once. Errors: as
+// subdiv_evaluate_at, and ARGUMENT if the cage has no UVs.
 SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const void *scratch,
                                             int count, const subdiv_location *locations,
                                             float *tangents, int stride,

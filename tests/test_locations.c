@@ -276,9 +276,61 @@ static void test_tangents(void)
     }
 }
 
+// A strip whose UVs on the left mirror those on the right: where the sides have indices of their
+// own, each triangle of a buffer has vertices of one handedness.
+static void test_mirrored_uvs(void)
+{
+    enum { COUNT = 10, SIDES = 12, FACES = 4 };
+    static float p[3 * COUNT], uvs[2 * SIDES], tangents[4 * 64];
+    static int vertices[4 * FACES], sides[4 * FACES];
+    static subdiv_location where[4 * 16], at[64];
+    subdiv_mesh strip = {0}, fine;
+    subdiv_surface *surface = NULL;
+    subdiv_options opt = {0};
+    subdiv_buffer b;
+    for (int v = 0; v < COUNT; v++) {
+        p[3 * v] = (float)(v % 5 - 2), p[3 * v + 1] = (float)(v / 5);
+        uvs[2 * v] = fabsf(p[3 * v]), uvs[2 * v + 1] = p[3 * v + 1];
+    }
+    uvs[2 * COUNT + 3] = 1;                           // 10 and 11 are 2 and 7 of the right side
+    for (int f = 0; f < FACES; f++) {
+        int face[4] = { f, f + 1, f + 6, f + 5 };
+        memcpy(vertices + 4 * f, face, sizeof face);
+        for (int i = 0; i < 4; i++)
+            sides[4 * f + i] = f >= 2 && face[i] % 5 == 2 ? COUNT + face[i] / 5 : face[i];
+    }
+    strip.vertex_count = COUNT, strip.positions = p;
+    strip.face_count = FACES, strip.face_size = 4, strip.face_vertices = vertices;
+    strip.uv_count = SIDES, strip.uvs = uvs, strip.face_uvs = sides;
+    opt.limit = 1;
+    for (int rule = SUBDIV_UV_CORNERS_ONLY; rule <= SUBDIV_UV_ALL; rule++) {
+        strip.uv_rule = (subdiv_uv_rule)rule;
+        CHECK_EQUAL(subdiv_prepare(&surface, &strip, 1, &opt), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_surface_mesh(&fine, surface, p, &opt), SUBDIV_OK);
+        CHECK_EQUAL(subdiv_make_buffer(&b, &fine, 4, NULL), SUBDIV_OK);
+        CHECK_EQUAL(b.vertex_count, 27 + 3);
+        CHECK_EQUAL(subdiv_surface_locations(surface, NULL, where, NULL), SUBDIV_OK);
+        for (int i = 0; i < b.vertex_count; i++) at[i] = where[b.face_vertices[i]];
+        ready e = get_ready(&strip, &opt);
+        CHECK_EQUAL(subdiv_tangents_at(e.surface, e.scratch, b.vertex_count, at, tangents, 0,
+                                       NULL), SUBDIV_OK);
+        for (int i = 0; i < b.index_count; i++) {
+            const int *triangle = (const int *)b.indices + i - i % 3;
+            float x = 0;
+            for (int k = 0; k < 3; k++) x += fine.positions[3 * b.points[triangle[k]]];
+            CHECK(tangents[4 * triangle[i % 3] + 3] == (x > 0 ? 1.0f : -1.0f));
+        }
+        put_away(&e);
+        subdiv_buffer_free(&b);
+        subdiv_mesh_free(&fine);
+        subdiv_surface_free(surface);
+    }
+}
+
 int main(void)
 {
     RUN(test_random_cages);
+    RUN(test_mirrored_uvs);
     RUN(test_splines);
     RUN(test_tangents);
     return test_end("locations");
