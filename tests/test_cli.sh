@@ -984,6 +984,7 @@ width='od -An -v -tu1 -j 16 -N 4'
 fine "with OUTPUT, the picture is twice as wide" test \
     "$($width beside.png | awk '{ print $3 * 256 + $4 }')" -eq \
     "$($width box.png | awk '{ print 2 * ($3 * 256 + $4) }')"
+ends 0 -s loop --triangulate --picture beside.png box.obj beside.obj
 ends 2 --picture box.jpg box.obj
 ends 2 --picture box.png --stream box.obj
 printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' > stroke.obj

@@ -56,6 +56,7 @@ static subdiv_result make_shapes(drawing *d, const work *w, int pieces, int besi
 {
     subdiv_options plain = {0};
     plain.error = opt->error;
+    plain.triangulate = opt->triangulate;
     subdiv_result result = take_materials(d, &w->cage, opt);
     if (!result) result = frame_mesh(&d->box, &w->fine, opt);
     if (!result && beside) result = subdiv_refine(&d->cage, &w->cage, 0, &plain);
