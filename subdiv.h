@@ -551,7 +551,8 @@ SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degree
 //     subdiv_make_buffer(&buffer, &mesh, 4, &opt);
 //     float *data = malloc(8 * sizeof(float) * buffer.vertex_count);
 //     subdiv_vertices out = {0};
-//     out.positions = data;  out.normals = data + 3;  out.uvs = data + 6;  out.stride = 8;
+//     out.positions = data;  out.normals = data + 3;  out.stride = 8;
+//     if (mesh.uv_count) out.uvs = data + 6;
 //     subdiv_fill_buffer(&buffer, &mesh, &out, &opt);
 //     subdiv_evaluate_buffer(&buffer, surface, moved, &out, scratch, &opt);       // each frame
 //
@@ -13368,9 +13369,11 @@ SUBDIV_DEF subdiv_result subdiv_fill_buffer(const subdiv_buffer *buffer, const s
     int two = out->stride ? out->stride : 2;
     if (mesh->vertex_count != buffer->point_count || normals != buffer->normal_count)
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the buffer was made of another mesh");
-    if ((out->positions && !mesh->positions) || (out->normals && !mesh->normals) ||
-        (out->uvs && !mesh->uv_count) || (out->colors && !mesh->colors))
-        sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the mesh does not have all that is wanted");
+    const char *missing = out->positions && !mesh->positions ? "positions"
+                        : out->normals && !mesh->normals ? "normals"
+                        : out->uvs && !mesh->uv_count ? "UVs"
+                        : out->colors && !mesh->colors ? "colors" : NULL;
+    if (missing) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the mesh has no %s", missing);
     if (context.result) return context.result;
     sdv_copy_vectors(out->positions, three, 3, 0, count, buffer->points, mesh->positions, 3);
     sdv_copy_vectors(out->normals, three, 3, 0, count, buffer->normals, mesh->normals, 3);

@@ -176,6 +176,9 @@ static void test_errors(void)
     subdiv_buffer b;
     subdiv_surface *surface;
     subdiv_vertices out = {0};
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    opt.error = &error;
     mesh.vertex_count = 3;
     mesh.positions = p;
     mesh.face_count = 1;
@@ -195,8 +198,13 @@ static void test_errors(void)
     CHECK_EQUAL(subdiv_make_buffer(&b, &other, 2, NULL), SUBDIV_ERROR_TOO_LARGE);
     CHECK_EQUAL(subdiv_make_buffer(&b, &mesh, 4, NULL), SUBDIV_OK);
     out.normals = p;
-    CHECK_EQUAL(subdiv_fill_buffer(&b, &mesh, &out, NULL), SUBDIV_ERROR_ARGUMENT);
+    CHECK_EQUAL(subdiv_fill_buffer(&b, &mesh, &out, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK(strcmp(error.message, "the mesh has no normals") == 0);
     out.normals = NULL;
+    out.uvs = p;
+    CHECK_EQUAL(subdiv_fill_buffer(&b, &mesh, &out, &opt), SUBDIV_ERROR_ARGUMENT);
+    CHECK(strcmp(error.message, "the mesh has no UVs") == 0);
+    out.uvs = NULL;
     out.stride = 2;
     out.positions = p;
     CHECK_EQUAL(subdiv_fill_buffer(&b, &mesh, &out, NULL), SUBDIV_ERROR_ARGUMENT);
