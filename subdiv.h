@@ -2616,8 +2616,8 @@ static int sdv_counter_clockwise(const sdv_level *level, int h)
 // --------------------------------------------------------------------------------- >>masks
 // Every rule of refinement, once. A mask is a set of weights that sum to 1. Refinement multiplies
 // the points around by these weights and adds them up, whatever the points are. Change a weight
-// here, and every point, limit, stencil and explanation follows; SUBDIV_EXACT refuses a mask that
-// makes no spline.
+// here, and every point, limit, stencil and explanation follows, as the weights are scaled to sum
+// to 1 again; SUBDIV_EXACT refuses a mask that makes no spline.
 //
 //     point = self v + edge (sum of neighbours) + face (sum of face points)
 //                    + crease (sum of the two neighbours along the crease)
@@ -2628,6 +2628,16 @@ typedef struct sdv_mask {
     double face;                        // each face point (Loop: each vertex opposite the edge)
     double crease;                      // on top of edge: the two neighbours along the crease
 } sdv_mask;
+
+// Scales weights that do not sum to 1, of so many ends (a vertex is one), neighbours and faces.
+static sdv_mask sdv_scaled(sdv_mask mask, int ends, int edges, int faces)
+{
+    double sum = ends * mask.self + edges * mask.edge + faces * mask.face + 2 * mask.crease;
+    double scale = fabs(sum - 1) < 1e-9 ? 1 : 1 / sum;      // 1: to the same bits
+    sdv_mask scaled = { scale * mask.self, scale * mask.edge, scale * mask.face,
+                        scale * mask.crease };
+    return scaled;
+}
 
 // Face point [CC78]: the mean of the face's n vertices. Returns the weight of each.
 //
@@ -2645,7 +2655,7 @@ static double sdv_face_weight(int n)
 static sdv_mask sdv_crease_edge(void)
 {
     sdv_mask mask = { 0.5, 0, 0, 0 };
-    return mask;
+    return sdv_scaled(mask, 2, 0, 0);
 }
 
 // Smooth edge point, Catmull-Clark [CC78]: the mean of the two ends and the two face points. Where
@@ -2657,7 +2667,7 @@ static sdv_mask sdv_crease_edge(void)
 static sdv_mask sdv_catmull_clark_edge(int faces)
 {
     sdv_mask mask = { 0.25, 0, 0.5 / faces, 0 };
-    return mask;
+    return sdv_scaled(mask, 2, 0, faces);
 }
 
 // Smooth edge point beside one or two triangles, with SUBDIV_TRIANGLES_SMOOTH [OSD]. A triangle has
@@ -2667,7 +2677,7 @@ static sdv_mask sdv_smooth_triangle_edge(int triangles)
 {
     double face = 0.5 * (0.47 * triangles + 0.25 * (2 - triangles));
     sdv_mask mask = { 0.5 - face, 0, face, 0 };
-    return mask;
+    return sdv_scaled(mask, 2, 0, 2);
 }
 
 // Smooth odd point, Loop [Loop87]: 3/8 for the ends of the edge, 1/8 for the vertices opposite.
@@ -2680,14 +2690,14 @@ static sdv_mask sdv_smooth_triangle_edge(int triangles)
 static sdv_mask sdv_loop_edge(int faces)
 {
     sdv_mask mask = { 0.375, 0, 0.25 / faces, 0 };
-    return mask;
+    return sdv_scaled(mask, 2, 0, faces);
 }
 
 // Vertex point of a corner: the vertex stays where it is.
 static sdv_mask sdv_corner_vertex(void)
 {
     sdv_mask mask = { 1, 0, 0, 0 };
-    return mask;
+    return sdv_scaled(mask, 1, 0, 0);
 }
 
 // Vertex point on a crease or boundary: the cubic B-spline curve along it [HDD94].
@@ -2696,7 +2706,7 @@ static sdv_mask sdv_corner_vertex(void)
 static sdv_mask sdv_crease_vertex(void)
 {
     sdv_mask mask = { 0.75, 0, 0, 0.125 };
-    return mask;
+    return sdv_scaled(mask, 1, 0, 0);
 }
 
 // Smooth vertex point, Catmull-Clark, valence n [CC78]: V = (F + 2R + (n - 3) v) / n, with F the
@@ -2711,7 +2721,7 @@ static sdv_mask sdv_catmull_clark_vertex(int n)
 {
     double w = 1.0 / ((double)n * n);
     sdv_mask mask = { (n - 2.0) / n, w, w, 0 };
-    return mask;
+    return sdv_scaled(mask, 1, n, n);
 }
 
 // Returns the cosine of k/n of a full turn, 0 <= k <= n, and so many quarters more: those of the C
@@ -2742,7 +2752,7 @@ static sdv_mask sdv_loop_vertex(int n)
     double c = 0.375 + 0.25 * sdv_cosine(1, n);
     double b = n == 6 ? 0.0625 : (0.625 - c * c) / n;
     sdv_mask mask = { 1 - n * b, b, 0, 0 };
-    return mask;
+    return sdv_scaled(mask, 1, n, 0);
 }
 
 // Any rule for smooth vertices that weighs means: r R + q Q + (1 - r - q) v. R is the mean of the
