@@ -491,11 +491,12 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // face_normals: normals 0 to vertex_count - 1 are those of the points, the others follow. (On a
 // linear surface each edge of the cage is a crease.)
 //
-// A corner with more than 2 faces (Loop: 3) between its creases, or without creases, is a spike: it
-// has no tangent plane, and its normal is a mean of those around. The normal is 0 where there is
-// none: without faces, between two triangles back to back, where a tangent is 0 and where both are
-// parallel, to within rounding; and where the vertex rule makes a spike, as "five-eighths" does at
-// valence 3. Error ARGUMENT: the weights of a valence lead to no limit at all (vertex_weights).
+// Some vertices have no tangent plane. For shading, the normal is one amid those around at corners
+// with more than 2 faces (Loop: 3) between their creases, or without creases; at creases with more
+// than 4 faces (Loop: 6) on that side; and between two quads back to back. It is 0 without faces,
+// between two triangles back to back, where a tangent is 0 and where both are parallel, to within
+// rounding; and where the vertex rule makes a spike, as "five-eighths" does at valence 3. Error
+// ARGUMENT: the weights of a valence lead to no limit at all (vertex_weights).
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -666,9 +667,8 @@ typedef struct subdiv_derivatives {
 //   subdominant eigenvalue. At the vertex this factor is left out: du x dv is along the normal. The
 //   second derivatives are 0.
 // * Infinite corner or dart: as above, and the lengths of du and dv mean nothing.
-// * 4 faces or more (Loop: 6) on a side of a crease: the normal is that of the limit masks. There
-//   is no tangent plane: the crease, or boundary, shrinks by 1/2 a level, and other waves across
-//   those faces by less.
+// * 4 faces or more (Loop: 6) on a side of a crease: normals close by tend to that of the vertex
+//   slowly, with more faces not at all (see >>limit).
 //
 // Errors: ARGUMENT if normals have fewer than 3 channels, the surface was not prepared for
 // SUBDIV_EXACT or subdiv_evaluate_begin has not filled scratch for it. Three errors may come after
