@@ -9009,8 +9009,8 @@ typedef struct sdv_exact_maker {
 SDV_INLINE void sdv_exact_row(const sdv_shape *shape, const int *row, const float *weights,
                               double *work)
 {
-    const double *p0 = work + 4 * (size_t)row[1];
-    double *out = work + 4 * (size_t)row[0], sum[4] = { 0, 0, 0, 0 };
+    double *out = work + 4 * (size_t)row[0], p0[4], sum[4] = { 0, 0, 0, 0 };
+    memcpy(p0, work + 4 * (size_t)row[1], sizeof p0);
     row += 2;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < shape->count[k]; i++) {
