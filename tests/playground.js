@@ -80,8 +80,10 @@ async function surfaces(page) {
     const text = await dragVertex(page, 3, 70, -50);
     check('the text explains', text.startsWith('Point 3 of the mesh refined once'));
     check(
-        'the text has room',
-        await page.$$eval('#explain div', rows => rows.every(r => r.scrollWidth <= r.clientWidth)),
+        'the panel and its text have room',
+        await page.$$eval('#panel, #explain div', parts =>
+            parts.every(part => part.scrollWidth <= part.clientWidth),
+        ),
     );
     const dragged = await compare(page, 'a vertex dragged', '-l', '2');
     check('dragging moves the surface', distance(before.points[3], dragged.points[3]) > 0.05);
@@ -171,6 +173,41 @@ async function inSight(page) {
         }),
     );
     check(`vertices in sight can be caught: ${caught}`, `${caught}` === '0,1,2,3,4,5,7');
+}
+
+// The pixels of a square of the picture, as it is when all frames are drawn.
+const pixels = (page, x, y, size) =>
+    page.evaluate(
+        async ([x, y, size]) => {
+            for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+            const picture = new OffscreenCanvas(size, size).getContext('2d');
+            picture.drawImage(window.playground.scene.canvas, -x, -y);
+            return Array.from(picture.getImageData(0, 0, size, size).data);
+        },
+        [x, y, size],
+    );
+
+// A flat face has one shade. When the graphics card comes back, so does the picture.
+async function pictures(page) {
+    await page.click('#reset');
+    await set(page, { levels: 0, limit: false, cage: false });
+    const [x, y] = await page.evaluate(() => window.playground.scene.onScreen([0, 1, 0]));
+    const face = await pixels(page, x - 20, y - 20, 40),
+        red = face.filter((_, i) => i % 4 === 0);
+    const shades = Math.max(...red) - Math.min(...red);
+    check(`a flat face has one shade, not ${shades}`, red[0] > 150 && shades < 4);
+    const told = is =>
+        page.waitForFunction(
+            is => (document.getElementById('message').textContent !== '') === is,
+            is,
+        );
+    await page.evaluate(() => window.playground.scene.renderer.forceContextLoss());
+    await told(true);
+    await page.evaluate(() => window.playground.scene.renderer.forceContextRestore());
+    await told(false);
+    const again = await pixels(page, x - 20, y - 20, 40);
+    check('a lost picture comes back', `${again}` === `${face}`);
+    await set(page, { cage: true });
 }
 
 async function touch(browser) {
@@ -471,6 +508,7 @@ run('playground', browserPath, async browser => {
     await undoing(page);
     await keys(page);
     await inSight(page);
+    await pictures(page);
     await dragLarge(page, context);
     await files(page, context);
     await refusals(page);

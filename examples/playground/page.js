@@ -408,6 +408,10 @@ function connectPicture() {
     canvas.addEventListener('pointercancel', pointerUp);
     canvas.addEventListener('dblclick', addPoint);
     canvas.addEventListener('keydown', pictureKey);
+    canvas.addEventListener('webglcontextlost', () =>
+        say('The graphics card was taken away: when it is back, so is the picture.'),
+    );
+    canvas.addEventListener('webglcontextrestored', () => say(''));
     addEventListener('keydown', undoKey);
 }
 
@@ -656,4 +660,4 @@ async function start() {
     };
 }
 
-start();
+start().catch(e => say(e.message));

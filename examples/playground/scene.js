@@ -104,13 +104,22 @@ export class Scene {
         this.makeTargets();
         this.makeCage();
         this.place_ = place;
+        this.canvas.addEventListener('webglcontextrestored', () => {
+            this.mirror();
+            this.wake(true);
+        });
         new ResizeObserver(() => this.resize()).observe(place);
         this.resize();
     }
 
-    light() {
+    // Makes the room that the surface mirrors, which lives on the graphics card alone.
+    mirror() {
         const pmrem = new THREE.PMREMGenerator(this.renderer);
         this.scene.environment = pmrem.fromScene(new RoomEnvironment(), 0.04).texture;
+    }
+
+    light() {
+        this.mirror();
         this.scene.environmentIntensity = 0.36;
         this.key = new THREE.DirectionalLight(0xfff2e0, 2.3);
         this.sky = new THREE.DirectionalLight(0xe2ecff, 1);
@@ -118,6 +127,7 @@ export class Scene {
             light.castShadow = true;
             light.shadow.mapSize.set(1024, 1024);
             light.shadow.radius = 3;
+            light.shadow.bias = -0.0015; // flat faces have no normals for normalBias
             this.scene.add(light, light.target);
         }
         this.rim = new THREE.DirectionalLight(0xe4eeff, 0.9);
