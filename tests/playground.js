@@ -161,18 +161,23 @@ async function keys(page) {
     check('a diagram keeps its lines', sides.length === 4);
 }
 
-// Of a cube that is its own surface, all vertices can be caught but the one behind.
+// Of a cube that is its own surface, of any size, all vertices can be caught but the one behind.
 async function inSight(page) {
     await page.selectOption('#name', 'cube');
     await set(page, { levels: 0, limit: false });
-    const caught = await page.evaluate(() =>
-        [0, 1, 2, 3, 4, 5, 6, 7].filter(v => {
-            const [x, y] = window.playground.vertexOnScreen(v),
-                hit = window.playground.hitAt(x, y);
-            return hit && hit.kind === 'vertex' && hit.index === v;
-        }),
-    );
-    check(`vertices in sight can be caught: ${caught}`, `${caught}` === '0,1,2,3,4,5,7');
+    const cube = await obj(page);
+    for (const size of [1e-12, 1e12, 1]) {
+        const scaled = (_, at) => `v ${at.split(' ').map(x => size * x).join(' ')}`;
+        await drop(page, 'cube.obj', cube.replace(/^v (.*)$/gm, scaled));
+        const caught = await page.evaluate(() =>
+            [0, 1, 2, 3, 4, 5, 6, 7].filter(v => {
+                const [x, y] = window.playground.vertexOnScreen(v),
+                    hit = window.playground.hitAt(x, y);
+                return hit && hit.kind === 'vertex' && hit.index === v;
+            }),
+        );
+        check(`vertices in sight can be caught: ${caught}`, `${caught}` === '0,1,2,3,4,5,7');
+    }
 }
 
 // The pixels of a square of the picture, as it is when all frames are drawn.
@@ -328,6 +333,7 @@ async function refusals(page) {
         ['\x89PNG\r\n\x1a\n\0\0', /binary data/],
         ['', /no vertices/],
         ['v 0 0 0\n', /no faces/],
+        [TRIANGLE.replace('1', '1e30'), /too large/],
         [`# playground {"scheme":1,"lev\n${TRIANGLE}`, /cannot be read/],
         [`# playground {"levels":99}\n${TRIANGLE}`, /levels = 99/],
         [`# playground {"scheme":7}\n${TRIANGLE}`, /scheme = 7/],
@@ -359,8 +365,12 @@ function grid(n) {
 }
 
 async function largeCage(page) {
+    await set(page, { levels: 4 });
     await drop(page, 'grid.obj', grid(120));
-    await page.waitForTimeout(300);
+    const begun = await page.textContent('#message');
+    check(`a large cage begins low, "${begun}"`, /14,400 faces: .* level 2\.$/.test(begun));
+    const few = await page.evaluate(() => window.playground.count());
+    check(`at the level it says: ${few}`, few === 481 ** 2);
     await set(page, { scheme: 0, levels: 6 });
     const told = await page.textContent('#message');
     check(
@@ -475,9 +485,37 @@ async function curves(page, context) {
     await drop(other, 'curve.obj', shown[0]);
     const again = await obj(other);
     check('a dropped curve is the same', again === shown[0]);
+    await set(other, { ends: 0 });
+    await dragVertex(other, 2, 20, 20);
+    await other.click('#reset');
+    check('reset goes back to it', (await obj(other)) === shown[0]);
     await other.click('#surface');
     check('and the cage is still there', (await on(other, 'count')) > 300);
     await other.close();
+}
+
+// The masks that pointer and keys show are those of all points of level 1.
+async function curveMasks(page) {
+    for (const [curveRule, ends] of [0, 1].flatMap(rule => [0, 1, 2].map(ends => [rule, ends]))) {
+        await set(page, { curveRule, ends, levels: 1, limit: false });
+        const name = `rule ${curveRule}, ends ${ends}`,
+            [a, b] = [await on(page, 'vertexOnScreen', 1), await on(page, 'vertexOnScreen', 2)];
+        await page.mouse.move(a[0] + 0.7 * (b[0] - a[0]), a[1] + 0.7 * (b[1] - a[1]));
+        const labels = await page.$$eval('#labels span', spans => spans.map(s => s.textContent));
+        check(`${name}: the mask is ${labels}`, `${labels}` === ['1/2,1/2,', '1/4,3/4,'][curveRule]);
+        await page.focus('canvas');
+        const shown = [];
+        for (const key of 'vvvvveeeeeeeeee') {
+            await page.keyboard.press(key);
+            shown.push(await page.evaluate(() => window.playground.scene.marks.at(-1)?.at));
+        }
+        const made = Object.values(await page.evaluate(() => window.playground.curve())),
+            points = made.flatMap((_, i) => (i % 3 ? [] : [made.slice(i, i + 3)])),
+            among = (point, list) => list.some(other => distance(point, other) < 1e-6),
+            places = shown.filter(Boolean);
+        check(`${name}: all points have masks`, points.every(point => among(point, places)));
+        check(`${name}: all masks have points`, places.every(place => among(place, points)));
+    }
 }
 
 let pagePlace;
@@ -513,6 +551,7 @@ run('playground', browserPath, async browser => {
     await files(page, context);
     await refusals(page);
     await curves(page, context);
+    await curveMasks(page);
     await largeCage(page);
     await touch(browser);
 });

@@ -24,4 +24,5 @@ const tetrahedron =
 
 export const CAGES = { cube, patch: patch(), tetrahedron, octopus, camera, lotus, whale };
 export const OF_TRIANGLES = ['tetrahedron', 'whale'];
-export const POLYGON = [-1.6, -0.9, 0, -1.2, 0.9, 0, 0, 0.6, 0, 0.3, -0.9, 0, 1.6, 0.8, 0];
+export const POLYGON =
+    'v -1.6 -0.9 0\nv -1.2 0.9 0\nv 0 0.6 0\nv 0.3 -0.9 0\nv 1.6 0.8 0\nl 1 2 3 4 5\n';

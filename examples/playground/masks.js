@@ -17,22 +17,48 @@ export function surfaceMask({ kind, index }) {
     return { weights: lib.mask(before + index), text: lib.explain(before + index) };
 }
 
-// The weights of the control points in the first new point of point i: the curve of unit vectors.
-export function curveMask(curve, count, i) {
-    const isEnd = curve.ends !== 2 && (i === 0 || i === count - 1),
-        text = curveText(curve, i, isEnd);
-    if (curve.ends === 1 && isEnd) return { weights: [], text };
-    const unit = new Array(count * count).fill(0),
+// How many points an edge of a curve gets: of a B-spline one, under Chaikin's rule two.
+export const perEdge = curve => (curve.rule ? 2 : 1);
+
+// The weights of the control points in a point of level 1, that of a vertex (under Chaikin's rule
+// the first of two) or one on an edge: what becomes of unit vectors.
+export function curveMask(curve, count, { kind, index }) {
+    const once = { ...curve, levels: 1, limit: false },
+        made = lib.curveCount(once, count),
+        isVertex = kind === 'vertex',
+        at = isVertex ? index : Math.floor(index / perEdge(curve)),
+        isEnd = isVertex && curve.ends !== 2 && (at === 0 || at === count - 1),
+        text = isVertex
+            ? vertexText(curve, at, isEnd)
+            : edgeText(curve, at, (at + 1) % count, index % 2),
         weights = [];
-    for (let j = 0; j < count; j++) unit[j * count + j] = 1;
-    const made = lib.curve({ ...curve, levels: 1, limit: false }, count, unit),
-        row = 2 * i - (curve.ends === 1 ? 1 : 0);
-    for (let j = 0; j < count; j++)
-        if (made[row * count + j]) weights.push([j, made[row * count + j]]);
+    if (isEnd && curve.ends === 1) return { weights, text };
+    let row = 2 * at + (isVertex ? 0 : 1 + (index % perEdge(curve))) - (curve.ends === 1 ? 1 : 0);
+    if (isEnd && at) row = made - 1;
+    for (const v of new Set([-1, 0, 1, 2].map(k => (at + k + count) % count))) {
+        const unit = new Array(count).fill(0);
+        unit[v] = 1;
+        const weight = lib.curve(once, 1, unit)[row % made];
+        if (weight) weights.push([v, weight]);
+    }
     return { weights, text };
 }
 
-function curveText(curve, i, isEnd) {
+function edgeText(curve, from, to, isSecond) {
+    const ends = `from point ${from} to point ${to}`;
+    if (curve.rule === 0)
+        return `The edge ${ends} gets an odd point, its middle.
+
+    E = (a + b) / 2
+
+    1/2 ------ 1/2`;
+    return `The edge ${ends} gets two points. This is ${isSecond ? 'Q' : 'P'}.
+
+    P = (3 a + b) / 4
+    Q = (a + 3 b) / 4`;
+}
+
+function vertexText(curve, i, isEnd) {
     const end = curve.ends ? 'It is cut off.' : 'It stays: its mask is 1.';
     if (isEnd) return `Point ${i} is an end.\n${end}`;
     if (curve.rule === 0)

@@ -2,7 +2,7 @@
 import * as lib from './library.js';
 import { Scene } from './scene.js';
 import { pack, unpack } from './address.js';
-import { curveMask, fraction, surfaceMask } from './masks.js';
+import { curveMask, fraction, perEdge, surfaceMask } from './masks.js';
 import { CAGES, OF_TRIANGLES, POLYGON } from './cages.js';
 
 const RULES = [
@@ -14,6 +14,8 @@ const LOOP = 1,
     CLOSED = 2, // ends of a curve
     FOREVER = 10,
     MOST_FACES = 1.2e6,
+    MOST_AT_FIRST = 3e5, // faces of the level that a file is shown at
+    MOST_COORDINATE = 1e15, // its square is still a float
     MOST_BYTES = 1e8,
     MOST_SHARED = 5e6, // letters of a state in the address,
     MOST_KEPT = 1e8; // and of all states that undo goes back to
@@ -39,9 +41,9 @@ const s = {
 };
 let scene,
     faces = [],
-    points = POLYGON.slice(), // of the curve
+    points = [], // of the curve
     chosen = -1, // edge that the slider sharpens
-    loaded = '', // what reset goes back to
+    loaded = {}, // what reset goes back to: { surface, curve }
     evaluated = 0, // milliseconds
     marked = null; // what has its mask shown: { kind: 'vertex' | 'edge' | 'face', index }
 
@@ -62,10 +64,10 @@ function facesAt(level) {
     return level ? sides * 4 ** (level - 1) : faces.length;
 }
 
-// The level asked for, unless it has too many faces for a page.
-function levels() {
+// The level asked for, or below it the highest one that has at most so many faces.
+function levels(most = MOST_FACES) {
     let level = s.levels;
-    while (level && facesAt(level) > MOST_FACES) level--;
+    while (level && facesAt(level) > most) level--;
     return level;
 }
 
@@ -131,6 +133,7 @@ function sharpen(edge, sharpness) {
 }
 
 function sharpenMore(edge) {
+    if (isCurve()) return;
     const now = lib.describe().sharpness[edge];
     sharpen(edge, [1, 2, 3, FOREVER].find(x => x > now) ?? 0);
 }
@@ -138,11 +141,12 @@ function sharpenMore(edge) {
 // Shows the mask of a vertex, an edge or a face; of nothing if null.
 function mark(hit) {
     if (hit?.kind === 'face' && s.scheme === LOOP) hit = null;
+    if (isCurve() && hit?.kind === 'edge' && hit.index >= curveEdgePoints()) hit = null;
     marked = hit;
     const { weights, text } = !hit
         ? { weights: [], text: 'Point at the cage: this says which rule makes the point there.' }
         : isCurve()
-          ? curveMask(curve(), points.length / 3, hit.index)
+          ? curveMask(curve(), points.length / 3, hit)
           : surfaceMask(hit);
     const from = weights.map(([v, weight]) => ({
         at: vertexAt(v),
@@ -175,7 +179,19 @@ function explain(text) {
 const middle = (face, positions) =>
     [0, 1, 2].map(k => face.reduce((sum, v) => sum + positions[3 * v + k], 0) / face.length);
 
-// What can be seen under the pointer: a vertex, else an edge, else the middle of a face.
+// The edges of a curve, as pairs of points.
+function curveEdges() {
+    const count = points.length / 3,
+        edges = [];
+    for (let i = 0; i < (s.ends === CLOSED ? count : count - 1); i++)
+        edges.push(i, (i + 1) % count);
+    return edges;
+}
+
+const curveEdgePoints = () => (curveEdges().length / 2) * perEdge(curve());
+
+// What can be seen under the pointer: a vertex, else an edge, of a curve a point on it, else the
+// middle of a face.
 function hitAt(x, y, reach = 1) {
     if (!s.cage) return null;
     const d = lib.describe(),
@@ -183,8 +199,10 @@ function hitAt(x, y, reach = 1) {
         inSight = at => isCurve() || !lib.hidden(at, scene.camera.position.toArray());
     const vertex = scene.nearest(seen, x, y, 12 * reach);
     if (vertex >= 0 && inSight(vertexAt(vertex))) return { kind: 'vertex', index: vertex };
-    if (isCurve()) return null;
-    const { edge, depth } = scene.nearestEdge(seen, d.edges, x, y, 7 * reach);
+    const edges = isCurve() ? curveEdges() : d.edges,
+        { edge, t, depth } = scene.nearestEdge(seen, edges, x, y, 7 * reach);
+    if (isCurve())
+        return edge < 0 ? null : { kind: 'edge', index: Math.floor((edge + t) * perEdge(curve())) };
     if (edge >= 0 && inSight(scene.unproject(x, y, depth))) return { kind: 'edge', index: edge };
     if (s.scheme === LOOP) return null;
     const middles = faces.map(face => middle(face, d.positions)),
@@ -279,12 +297,12 @@ function pictureKey(event) {
 function goThrough(kind, step) {
     const d = lib.describe(),
         count = isCurve()
-            ? { vertex: points.length / 3, edge: 0, face: 0 }
+            ? { vertex: points.length / 3, edge: curveEdgePoints(), face: 0 }
             : { vertex: d.vertexCount, edge: d.edgeCount, face: d.faceCount };
     if (!count[kind]) return;
     const from = marked?.kind === kind ? marked.index : step > 0 ? -1 : 0;
     mark({ kind, index: (from + step + count[kind]) % count[kind] });
-    if (kind !== 'edge') return;
+    if (kind !== 'edge' || isCurve()) return;
     chosen = marked.index;
     scene.showCage(d, chosen);
     showControls();
@@ -355,15 +373,9 @@ function setMode(mode) {
     set({});
 }
 
-function reset() {
-    if (!isCurve()) return load(loaded, s.name);
-    points = POLYGON.slice();
-    setMode('curve');
-}
-
 function addPoint(event) {
     const { x, y } = scene.place(event);
-    if (!isCurve() || hitAt(x, y)) return;
+    if (!isCurve() || hitAt(x, y)?.kind === 'vertex') return;
     points.push(...scene.unproject(x, y, scene.onScreen(points)[2]));
     rebuild();
 }
@@ -386,7 +398,7 @@ function connectControls() {
     });
     on('name', 'change', () => {
         const name = $('name').value,
-            obj = CAGES[name] ?? loaded;
+            obj = CAGES[name] ?? loaded.surface;
         s.scheme = OF_TRIANGLES.includes(name) ? LOOP : 0;
         s.levels = obj.length > 3000 ? 3 : 4;
         load(obj, name);
@@ -395,7 +407,7 @@ function connectControls() {
     on('curve', 'click', () => setMode('curve'));
     on('undo', 'click', () => undo(-1));
     on('redo', 'click', () => undo(1));
-    on('reset', 'click', reset);
+    on('reset', 'click', () => load(loaded[s.mode], s.name));
 }
 
 function connectPicture() {
@@ -455,6 +467,8 @@ function load(obj, name) {
         const d = lib.describe();
         if (d.faceCount > MOST_FACES)
             throw Error(`A cage of ${number(d.faceCount)} faces is too large for this page.`);
+        if (d.positions.some(x => Math.abs(x) > MOST_COORDINATE))
+            throw Error('Coordinates above 1e15 are too large for this page.');
         if (!d.faceCount && !d.lineCount) throw Error('This file has no faces and no lines.');
         if (!d.faceCount && d.lineCount > 1)
             warning = `This page shows the first of ${d.lineCount} polylines.`;
@@ -466,10 +480,15 @@ function load(obj, name) {
     chosen = -1;
     if (lib.describe().faceCount) takeCage(obj, name);
     else {
-        takeLine();
+        takeLine(obj);
         lib.load(before);
     }
     Object.assign(s, settings);
+    const level = settings.levels ?? levels(MOST_AT_FIRST);
+    if (!isCurve() && level < s.levels) {
+        s.levels = level;
+        warning ||= `This cage has ${number(faces.length)} faces: it begins at level ${level}.`;
+    }
     setMode(s.mode);
     if (warning) say(warning);
 }
@@ -478,14 +497,15 @@ function takeCage(obj, name) {
     const { boundary, creasing, triangles } = lib.describe();
     Object.assign(s, { boundary, creasing, triangles, name, mode: 'surface' });
     faces = lib.faces();
-    loaded = obj;
+    loaded.surface = obj;
 }
 
-function takeLine() {
+function takeLine(obj) {
     const line = lib.line(),
         { positions } = lib.describe(),
         closed = line[0] === line[line.length - 1];
     s.mode = 'curve';
+    loaded.curve = obj;
     s.ends = closed ? CLOSED : s.ends === CLOSED ? 0 : s.ends;
     points = [];
     for (const v of closed ? line.slice(0, -1) : line)
@@ -579,7 +599,10 @@ const state = () => ({
     ...s,
     points,
     obj: lib.save(),
-    loaded: CAGES[s.name] === loaded ? undefined : loaded,
+    loaded: {
+        surface: CAGES[s.name] === loaded.surface ? undefined : loaded.surface,
+        curve: POLYGON === loaded.curve ? undefined : loaded.curve,
+    },
 });
 
 function show({ obj, points: given, loaded: first, view, ...settings }) {
@@ -587,7 +610,7 @@ function show({ obj, points: given, loaded: first, view, ...settings }) {
     faces = lib.faces();
     Object.assign(s, settings);
     points = given;
-    loaded = first ?? CAGES[s.name];
+    loaded = { surface: CAGES[s.name], curve: POLYGON, ...first };
     [chosen, marked] = [-1, null];
     if (view) {
         scene.frame(isCurve() ? points : lib.describe().positions);
@@ -637,6 +660,8 @@ async function start() {
     connectPicture();
     connectFiles();
     load(CAGES.cube, 'cube');
+    load(POLYGON, 'cube');
+    setMode('surface');
     await recall();
     // For tests and the console.
     window.playground = {

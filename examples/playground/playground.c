@@ -76,6 +76,7 @@ EXPORT int load(const char *obj, size_t size)
     subdiv_mesh loaded;
     subdiv_options opt = {0};
     opt.error = &error;
+    error.warning_count = 0;
     if (subdiv_load_obj_memory(&loaded, obj, size, &opt)) return error.code;
     if (crease_room) free(cage.crease_vertices), free(cage.crease_sharpness);
     crease_room = 0;
@@ -261,7 +262,7 @@ EXPORT char *statement(int i, int *face)
 
 // ----------------------------------------------------------------------------- pointing
 
-typedef struct point { float x, y, z; } point;
+typedef struct point { double x, y, z; } point;
 
 static point minus(point a, point b)
 {
@@ -273,7 +274,7 @@ static point cross(point a, point b)
     return (point){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 
-static float dot(point a, point b)
+static double dot(point a, point b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -291,9 +292,9 @@ EXPORT int hidden(float x, float y, float z, float eye_x, float eye_y, float eye
     for (int i = 0; i < buffer.index_count; i += 3) {
         point a = vertex(i), u = minus(vertex(i + 1), a), v = minus(vertex(i + 2), a);
         point w = minus(eye, a), p = cross(way, v), q = cross(w, u);
-        float area = dot(u, p), s = dot(w, p) / area, t = dot(way, q) / area;
-        float there = dot(v, q) / area;
-        if (s >= 0 && t >= 0 && s + t <= 1 && there > 0 && there < 0.99f) return 1;
+        double area = dot(u, p), s = dot(w, p) / area, t = dot(way, q) / area;
+        double there = dot(v, q) / area;
+        if (s >= 0 && t >= 0 && s + t <= 1 && there > 0 && there < 0.99) return 1;
     }
     return 0;
 }

@@ -33,6 +33,8 @@ const COLOURS = {
     sucker: 0xcc5252,
 };
 
+const rgb = colour => new THREE.Color(colour).toArray();
+
 function lines(width, options) {
     const material = new LineMaterial({ linewidth: width, vertexColors: true, ...options });
     const object = new LineSegments2(new LineSegmentsGeometry(), material);
@@ -252,7 +254,7 @@ export class Scene {
         const box = new THREE.Box3().setFromArray(positions),
             ball = box.getBoundingSphere(new THREE.Sphere());
         this.center = ball.center.clone();
-        this.radius = Math.max(ball.radius, 1e-3);
+        this.radius = ball.radius > 1e-15 ? ball.radius : 1;
         this.floor = box.min.y;
         const flat = box.max.z - box.min.z < 1e-3 * this.radius;
         const direction = flat ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0.5, 0.42, 1);
@@ -282,7 +284,7 @@ export class Scene {
 
     viewpoint() {
         return [...this.camera.position.toArray(), ...this.controls.target.toArray()].map(
-            x => +x.toFixed(4),
+            x => +x.toPrecision(6),
         );
     }
 
@@ -457,13 +459,15 @@ export class Scene {
     showCage({ positions, edges, sharpness }, chosen) {
         const ends = new Float32Array(3 * edges.length),
             colours = new Float32Array(3 * edges.length),
-            colour = new THREE.Color();
+            [ink, amber, coral, teal] = [INK, AMBER, CORAL, TEAL].map(rgb);
         edges.forEach((v, i) => {
             const e = i >> 1,
-                s = sharpness[e];
-            colour.set(e === chosen && s === 0 ? TEAL : s >= 10 ? CORAL : s > 0 ? AMBER : INK);
-            colour.toArray(colours, 3 * i);
-            for (let k = 0; k < 3; k++) ends[3 * i + k] = positions[3 * v + k];
+                s = sharpness[e],
+                colour = e === chosen && s === 0 ? teal : s >= 10 ? coral : s > 0 ? amber : ink;
+            for (let k = 0; k < 3; k++) {
+                ends[3 * i + k] = positions[3 * v + k];
+                colours[3 * i + k] = colour[k];
+            }
         });
         this.cageLines.material.linewidth = sharpness.length > 400 ? 1.4 : 2.2;
         this.setLines([this.cageLines, this.hiddenLines], ends, colours);
@@ -487,15 +491,15 @@ export class Scene {
     // The first of them are control points, the others points of a curve.
     showDots(positions, own = positions.length / 3) {
         const count = positions.length / 3,
-            colours = new Float32Array(positions.length);
-        for (let i = 0; i < count; i++)
-            new THREE.Color(i < own ? INK : CORAL).toArray(colours, 3 * i);
+            colours = new Float32Array(positions.length),
+            [ink, coral] = [INK, CORAL].map(rgb);
+        for (let i = 0; i < count; i++) colours.set(i < own ? ink : coral, 3 * i);
         this.dots.geometry.dispose();
         this.dots.geometry = new THREE.BufferGeometry();
         for (const [name, values] of Object.entries({ position: positions, color: colours }))
             this.dots.geometry.setAttribute(
                 name,
-                new THREE.BufferAttribute(Float32Array.from(values), 3),
+                new THREE.BufferAttribute(new Float32Array(values), 3),
             );
         this.dots.material.size = count > 200 ? 4.5 : 9;
         this.wake();
@@ -532,10 +536,10 @@ export class Scene {
                 n = list.length / 3;
             for (let i = 0; i + 1 < n + last; i++)
                 for (const j of [i, (i + 1) % n]) ends.push(...list.slice(3 * j, 3 * j + 3));
-            const rgb = new THREE.Color(colour).toArray();
+            const shade = rgb(colour);
             return [
                 new Float32Array(ends),
-                new Float32Array(ends.length).map((_, i) => rgb[i % 3]),
+                new Float32Array(ends.length).map((_, i) => shade[i % 3]),
             ];
         };
         this.setLines([this.curveLines], ...segments(smooth, CORAL, closed ? 1 : 0));
