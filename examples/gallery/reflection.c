@@ -22,7 +22,7 @@ static unsigned char *stripes(const subdiv_mesh *mesh)
 
 int main(int argc, char **argv)
 {
-    static const char *const labels[] = {"valence 4, c2", "valence 3, c1", "valence 7, c1",
+    static const char *const labels[] = {"valence 4, C2", "valence 3, C1", "valence 7, C1",
                                          "a crease"};
     static const int valences[] = {4, 3, 7, 4};
     shape cage;

@@ -4,8 +4,8 @@
 
 int main(int argc, char **argv)
 {
-    static const char *const labels[] = {"quads", "catmull-clark", "split", "loop",
-                                         "catmull-clark, split"};
+    static const char *const labels[] = {"quads", "Catmull-Clark", "split", "Loop",
+                                         "Catmull-Clark, split"};
     shape quads, triangles;
     subdiv_mesh fine[3];
     panel panels[5] = {{0}};

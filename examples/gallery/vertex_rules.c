@@ -13,7 +13,7 @@ static void weights(void *user, int valence, double w[3])
 
 int main(int argc, char **argv)
 {
-    static const char *const labels[] = {"cage", "standard", "averaged", "doo-sabin",
+    static const char *const labels[] = {"cage", "standard", "averaged", "Doo-Sabin",
                                          "a rule of your own"};
     shape cage;
     subdiv_mesh fine[4];
