@@ -1,6 +1,7 @@
 // node tests/playground.js CHROMIUM PAGE SUBDIV: plays on the page as a person would, and compares
 // what it shows with what the command line makes of the same cage.
 const fs = require('fs');
+const zlib = require('zlib');
 const { execFileSync } = require('child_process');
 const { check, run } = require('./lib/browse.js');
 
@@ -243,6 +244,13 @@ async function address(page, context) {
     const other = await open(context, page.url());
     check('the address has the state', page.url().includes('#'));
     check('a page at the address shows it', (await seen(page)) === (await seen(other)));
+    const held = zlib.inflateRawSync(Buffer.from(page.url().split('#')[1], 'base64url')),
+        odd = zlib.deflateRawSync(`${held}`.replace(/"levels":\d/, '"levels":99'));
+    await other.evaluate(hash => (location.hash = hash), odd.toString('base64url'));
+    await other.waitForTimeout(300);
+    const said = await other.textContent('#message');
+    check('an address with odd settings is refused', said.startsWith('The address holds'));
+    check('and changes nothing', (await seen(page)) === (await seen(other)));
     await other.close();
     await set(page, { wire: false, creasing: 0 });
 }

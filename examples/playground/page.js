@@ -441,6 +441,10 @@ function settingsOf(obj) {
     } catch (e) {
         throw Error('The settings in this file cannot be read.');
     }
+    return checked(settings);
+}
+
+function checked(settings) {
     for (const [key, value] of Object.entries(settings))
         if (typeof value !== typeof s[key] || !isAllowed(key, value, settings.scheme))
             throw Error(`The settings in this file have ${key} = ${value}.`);
@@ -606,6 +610,7 @@ const state = () => ({
 });
 
 function show({ obj, points: given, loaded: first, view, ...settings }) {
+    checked(settings);
     lib.load(obj);
     faces = lib.faces();
     Object.assign(s, settings);
