@@ -14882,7 +14882,8 @@ static const char *sdv_read_face(sdv_obj *obj, const char *p)
     if (size > INT_MAX || number == INT_MAX) {
         sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many faces");
     } else if (size < 3) {
-        sdv_warn(obj->context, obj->line, "a face with %d vertices is skipped", (int)size);
+        sdv_warn(obj->context, obj->line, "skipped: a face has 3 vertices or more, not %d",
+                 (int)size);
         sdv_push(obj->context, &obj->skipped, &number, sizeof number);
         sdv_series_drop(&obj->indices[0], size * sizeof(int));
     } else {
@@ -14907,7 +14908,7 @@ static const char *sdv_read_line(sdv_obj *obj, const char *p)
     if (size == INT_MAX || obj->line_sizes.count == INT_MAX)
         sdv_fail_line(obj, SUBDIV_ERROR_TOO_LARGE, "too many lines");
     if (size > 1) sdv_push(obj->context, &obj->line_sizes, &size, sizeof size);
-    else sdv_warn(obj->context, obj->line, "a line with %d vertices is skipped", size);
+    else sdv_warn(obj->context, obj->line, "skipped: a line has 2 vertices or more, not %d", size);
     if (size < 2) obj->line_vertices.count = first;
     return p;
 }

@@ -171,7 +171,7 @@ static void test_other_keywords(void)
     static const other cases[] = {
         {QUAD "vn 0 0 1\nvn nan x\nvn\n", 0, ""},
         {QUAD "p 1\np 1 2\np 99\n", 1, "line 6: 3 points (p)"},
-        {QUAD "l 1\nl # 2 3\n", 2, "line 6: a line with 1 vertices is skipped"},
+        {QUAD "l 1\nl # 2 3\n", 2, "line 6: skipped: a line has 2 vertices or more, not 1"},
         {"vp 1 2\ncstype bspline\ndeg 3 3\n" V4 "curv 0 1 1 2\nsurf 0 1 0 1 9 9\nparm u 0 1\nend\n"
          "f 1 2 3 4\n", 1, "line 1: 7 free-form"},
         {V4 "vertex 1 2 3\ncall x.obj\nf 1 2 3 4\nfoo bar\nface 1 2\nlod 3\nbevel on\n", 1,
@@ -232,7 +232,7 @@ static void test_faces_without_uvs(void)
          "-1 -1 -1;-1 -1 -1;3 2 1;-1 -1 -1;", 2, "line 10: 1 of 4 faces have a vt at some"},
         {V4 VT4 "f 1/1 2/2 3//\n", 0, "", 1, "line 9: 1 of 1 faces have a vt at some"},
         {V4 "vt 0 0\nvn 0 0 1\nf 1 2/1 3//1 4/1/1\n", 0, "", 1, "line 7: 1 of 1 faces have a vt at some"},
-        {V4 VT4 "f 1/1 2/2\nf 1/3 2/2 3/1\nf 4/1\n", 4, "2 1 0;", 2, "line 9: a face with 2"},
+        {V4 VT4 "f 1/1 2/2\nf 1/3 2/2 3/1\nf 4/1\n", 4, "2 1 0;", 2, "line 9: skipped: a face"},
         {"f 1/1 2/2 3\nf 3/3 2/2 1/1\n" V4 VT4, 4, "-1 -1 -1;2 1 0;", 1, "line 1: 1 of 2 faces"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
