@@ -5303,6 +5303,7 @@ static size_t sdv_surviving_creases(subdiv_surface *surface, const sdv_level *ca
         int end = cage->face_vertices[sdv_next(cage, h)];
         const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
         sdv_side side = sdv_seen_edge(&surface->order, e, from > end);
+        if (!of_edge && !sdv_survives(cage->sharpness[h])) continue;
         if (!sdv_edge_is_seen(surface, cage, e)) continue;
         for (int j = 0, to; j < n; j++, from = to) {
             float s = of_edge ? of_edge[j] : cage->sharpness[h];
