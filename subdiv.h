@@ -66,19 +66,19 @@
              >>prepare   what makes a surface: >>limit-rows  >>fill  >>create
            * >>grids     the general step: points of a level from those of the level before
              >>results   what makes the result: >>limit-surface  >>evaluate  >>results-as-meshes
-           * >>calls     subdiv_refine and the other public functions up to here
+           * >>calls     subdiv_refine and the other functions of >>refine, >>animation, >>limit
              >>split     levels as meshes; >>plain makes all points of such levels, for SUBDIV_PLAIN
              >>exact-surface  the limit between the points: >>patches  >>nests  >>leaves
                          >>locations  >>cells  >>polynomials  >>samples
              >>stencils  >>tiles  >>tile-points  >>tessellator  >>normals  >>vertex-buffers
              >>generators  >>inspection  >>oddities  >>numbers  >>obj-read  >>obj-write  >>explain
              >>cleanup
-   A student reads examples/README.md and examples/00_lecture.c first, then >>masks and the other
-   sections with a star, and may skip the rest. The way from the first call to a mask:
-   subdiv_refine > sdv_prepare > sdv_prepare_rows > sdv_fill_level > sdv_vertex_row >
-   sdv_vertex_mask > sdv_catmull_clark_vertex. To where it is added up: subdiv_refine >
-   sdv_make_mesh > subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points >
-   sdv_make_batches > sdv_batch_sum. Under SUBDIV_PLAIN every point of every level has such a way:
+   Students: read examples/README.md and examples/00_lecture.c first, then >>masks and the other
+   sections with a star; skip the rest. These calls lead to a mask: subdiv_refine > sdv_prepare >
+   sdv_prepare_rows > sdv_fill_level > sdv_vertex_row > sdv_vertex_mask > sdv_smooth_vertex >
+   sdv_catmull_clark_vertex. These lead to the sum: subdiv_refine > sdv_make_mesh >
+   subdiv_evaluate > sdv_make_all > sdv_make_range > sdv_make_points > sdv_make_batches >
+   sdv_batch_sum. Under SUBDIV_PLAIN, these lead to the masks of all points of all levels:
    sdv_prepare_rows > sdv_plain_rows > sdv_split_step > sdv_split_rows > sdv_vertex_row.
 
    WORDS
@@ -87,7 +87,8 @@
    valence         number of edges at a vertex; 4 is regular for quads, 6 for triangles
    extraordinary   an interior vertex of another valence
    boundary        an edge with one face
-   non-manifold    an edge with three or more faces, or a vertex whose faces are not one fan
+   non-manifold    an edge with three or more faces, or with two wound against each other; a vertex
+                   at such an edge, or whose faces are not one fan
    face point, edge point, vertex point    what a face, an edge, a vertex becomes one level down
    even, odd       Loop's names: even = vertex points, odd = edge points
    mask            the weights that make such a point from the points around it
@@ -111,24 +112,24 @@
        to 1-2                0 . . . 1                                  0 . . . 1
 
      Any other polygon under Catmull-Clark or bilinear has its centre first; then the inside of each
-     spoke, from the centre to the middle of edge i; then the inside of each quad at vertex i, row
-     by row as above. The corners of this quad are vertex i, the middle of edge i, the centre and
-     the middle of edge i-1.
+     spoke i, from the centre to the middle of edge i (from vertex i to i+1); then the inside of the
+     quad at each vertex i, row by row as above. The corners of this quad are vertex i, the middle
+     of edge i, the centre and the middle of edge i-1.
    * The fine faces of cage face f are one contiguous range, in the order of f. They go row by row,
      those of an n-gon quad by quad. A quad in row r and column c is (r,c) (r,c+1) (r+1,c+1)
      (r+1,c). In a row of triangles, those like the parent, (r,c) (r,c+1) (r+1,c), alternate with
-     those turned by half, (r+1,c+1) (r+1,c) (r,c+1). Holes have no faces, but their points stay.
+     those upside down, (r+1,c+1) (r+1,c) (r,c+1). Holes have no faces, but their points stay.
 
    WHERE IT DIFFERS FROM OPENSUBDIV
    * Chaikin creasing: where an end of a crease turns smooth, the crease rule is weighted by the
      sharpness, but at most by 1. OpenSubdiv has no such bound: above 1, it extrapolates.
-   * Limit: in OpenSubdiv, sharpness that is left on the last level counts as infinite and a dart as
-     smooth, so it is not where refinement leads. A smooth Catmull-Clark vertex of valence 2 stays
-     where it is. Its tangents at a crease or boundary are wrong unless there are 1 or 2 faces
-     (Loop: 1 to 3) on that side, and those of a corner are two edges. It writes them out of bounds
-     where a vertex has more faces than edges.
+   * Limit: OpenSubdiv counts sharpness that is left on the last level as infinite, and a dart as
+     smooth, so its limit is not where refinement leads. It leaves a smooth Catmull-Clark vertex of
+     valence 2 where it is. Its tangents at a crease or boundary are wrong unless there are 1 or 2
+     faces (Loop: 1 to 3) on that side. Its tangents at a corner are two edges. Where a vertex has
+     more faces than edges, it writes tangents out of bounds.
    * A crease of two non-manifold edges runs through a vertex only if every sheet of faces there
-     leads from the one to the other; else the vertex is sharp. OpenSubdiv only counts faces.
+     leads from one edge to the other; else the vertex is sharp. OpenSubdiv only counts faces.
    * UVs: where values around a vertex go A B A B, OpenSubdiv takes the second B for a third value.
    * Defaults: the boundary is "edge", not "none"; the rule for UVs is "corners only", not "all".
      Indices are checked. Valence has no limit.
@@ -137,8 +138,8 @@
    * A mesh made by the library is one block, which subdiv_mesh_free frees. It also frees the crease
      lists and normals that the library adds to a mesh of yours. Arrays that you filled in are never
      written or freed. Output is overwritten, not freed.
-   * An error zeroes the output, but leaves a mesh that was to be changed, and arrays of yours that
-     were to be filled, as they were. Where a call can fail halfway, its comment says so.
+   * An error zeroes the output. A mesh that was to be changed, and arrays of yours that were to be
+     filled, stay as they were. Where a call can fail halfway, its comment says so.
    * The library keeps no state, so different threads may call it at once. One call uses the threads
      that you lend it. The same input gives the same bits on any number of threads, with SIMD and
      without, from any compiler and on any platform that rounds each operation as IEEE 754 does:
@@ -147,8 +148,8 @@
      deeper for a larger mesh.
    * A result has up to 2^31-1 vertices and faces, a cage up to 2^30 face-vertices. Larger ones are
      refused before they are built.
-   * Meshes have positions of any size that floats have. UVs, colours and what is evaluated may be
-     up to 2^116: sums of larger values may not be finite.
+   * Positions of meshes may be as large as floats go. UVs, colours and values to evaluate have to
+     be below 2^116 (8e34) in size, or sums may overflow.
 
    REFERENCES
    [CC78]  Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes
@@ -171,21 +172,22 @@
 //
 //     SUBDIV_STATIC                  functions are private to that file, compiled only if called
 //     SUBDIV_DEF                     your own decoration of the public functions
-//     SUBDIV_MALLOC(size, user)      your own allocator, both or neither: user is opt->user, memory
-//     SUBDIV_FREE(pointer, user)     must be aligned as by malloc
+//     SUBDIV_MALLOC(size, user)      your own allocator: define both or neither; align as malloc
+//     SUBDIV_FREE(pointer, user)     does. user is opt->user
 //     SUBDIV_ASSERT(condition)       checks the library's own logic; assert by default
 //     SUBDIV_NO_STDIO                no FILE: OBJ through memory and callbacks alone
 //     SUBDIV_NO_HUGE_PAGES           Linux: pages of the usual size for large blocks
 //     SUBDIV_NO_SIMD                 plain C instead of SSE2, NEON or WebAssembly SIMD
 //     SUBDIV_PLAIN                   no shortcuts, for classrooms and tests: all levels are meshes,
 //                                    and a breakpoint in a mask stops at every point. Slow; equal
-//                                    results but for rounding. SUBDIV_EXACT keeps its polynomials
+//                                    results but for rounding. SUBDIV_EXACT still uses polynomials
 //
 // Define these to leave whole sections out, declarations included. The percentages say how much of
 // the code each saves (gcc -O2); compile time falls about as much:
 //
-//     SUBDIV_NO_EXACT                >>exact, >>tessellation, subdiv_stencils_at    (31 %)
-//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain           (10 %)
+//     SUBDIV_NO_EXACT                >>exact (but subdiv_surface_locations), >>tessellation,
+//                                    subdiv_stencils_at                             (31 %)
+//     SUBDIV_NO_TOOLS                >>creases, >>inspect, subdiv_explain, _points  (10 %)
 //     SUBDIV_NO_OBJ                  >>obj                                          (11 %)
 
 #define SUBDIV_VERSION 1              // 100 * major + minor
@@ -273,16 +275,16 @@ typedef enum subdiv_vertex_rule {
     SUBDIV_VERTEX_FIVE_EIGHTHS        // Loop: v 5/8, each neighbour 3/(8n), for every n
 } subdiv_vertex_rule;
 
-// A rule of your own: sets the weights of v, R and Q (Loop: of v and R), which are 0 to begin with,
-// for a valence from 1 on. Weights that are not finite, or do not sum to 1, are an error that names
-// the valence. The library asks while it prepares 1 level or more, or SUBDIV_EXACT, or explains,
-// and not later. It asks for the regular valence, for those of all vertices that may be smooth on
-// some level and, under Catmull-Clark, for the sizes of faces.
+// A rule of your own: sets the weights of v, R and Q (Loop: of v and R) for a valence, 1 or more.
+// They come in as 0. Weights that are not finite, or do not sum to 1, are an error that names the
+// valence. The library calls your function only while it prepares (1 level or more, a limit or
+// SUBDIV_EXACT) or explains: for the regular valence, for those of all vertices that may be smooth
+// on some level and, under Catmull-Clark, for the sizes of faces.
 typedef void (*subdiv_vertex_weights)(void *user, int valence, double weights[3]);
 
 // A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
 // The mesh says what the surface is; the options say what to compute. All numbers are finite, but
-// sharpness may be infinite. UVs and colours should be below 1e35 in size, or sums may overflow.
+// sharpness may be infinite. UVs and colours should be below 2^116 in size, or sums may overflow.
 typedef struct subdiv_mesh {
     int    vertex_count;
     float *positions;                 // [3 * vertex_count]   x y z
@@ -295,11 +297,11 @@ typedef struct subdiv_mesh {
 
     int    crease_count;
     int   *crease_vertices;           // [2 * crease_count]   the ends of an edge, either order
-    float *crease_sharpness;          // [crease_count]       levels; the later of two entries wins;
-                                      //                      below 0 is 0, with a warning
+    float *crease_sharpness;          // [crease_count]       in levels; below 0 is 0, with a
+                                      //                      warning; of two entries the later wins
     int    corner_count;
     int   *corner_vertices;           // [corner_count]
-    float *corner_sharpness;          // [corner_count]       levels
+    float *corner_sharpness;          // [corner_count]       as crease_sharpness
     int    hole_count;
     int   *holes;                     // [hole_count]         invisible: they only shape the surface
 
@@ -309,12 +311,12 @@ typedef struct subdiv_mesh {
                                       //                      Seams are where indices differ, even
                                       //                      of equal UVs: see subdiv_join_values
     float *colors;                    // [3 * vertex_count]   r g b, refined as positions, or NULL
-    int    normal_count;              // counts only with face_normals
+    int    normal_count;              // used only with face_normals
     float *normals;                   // [3 * normal_count]   of length 1 (or 0), or NULL
     int   *face_normals;              // [sum of sizes]       the normal of each face-vertex; NULL:
                                       //                      vertex i has normal i
     int    statement_count;           // OBJ's g, o, s, usemtl and mtllib, as they stand in the file
-    int   *statement_faces;           // [statement_count]    the face that each precedes, rising;
+    int   *statement_faces;           // [statement_count]    the face that each precedes, in order;
                                       //                      face_count: after all faces
     char **statements;                // [statement_count]    "usemtl stone": keyword, blank, text
     int    line_count;                // OBJ's l; of results, only level 0 has lines
@@ -328,13 +330,13 @@ typedef struct subdiv_mesh {
     subdiv_uv_rule   uv_rule;
     subdiv_vertex_rule vertex_rule;
     subdiv_vertex_weights vertex_weights;     // instead of vertex_rule; or NULL
-    void *vertex_user;                // handed to vertex_weights; results have both again
+    void *vertex_user;                // handed to vertex_weights; results keep both
 
     int  *cage_faces;                 // [face_count]         results only: the face of the cage
                                       //                      that each face is a part of
     void *memory;                     // the library's own, or NULL: the arrays are yours
     int   left_handed;                // faces are clockwise: normals point the other way. Results
-                                      // keep the order of their faces, and are left-handed again
+                                      // are clockwise and left_handed, too
 } subdiv_mesh;
 
 // Receives what went wrong, and where. Zero it once. Every call that gets it overwrites code, place
@@ -362,7 +364,7 @@ typedef struct subdiv_options {
     subdiv_error *error;
     void         *user;               // handed to SUBDIV_MALLOC, SUBDIV_FREE and run
     subdiv_run    run;                // your threads; NULL: the caller's alone
-    int           one_normal;         // limit, tessellation: one normal a point, also on creases
+    int           one_normal;         // limit, tessellation, subdiv_normals: one normal a point
     int           part, part_count;   // stream OBJ: write one part, from 0 to part_count - 1;
                                       // part_count 0: write all
 } subdiv_options;
@@ -381,8 +383,8 @@ SUBDIV_DEF void subdiv_mesh_free(subdiv_mesh *mesh);
 // again: refining by 2 levels is refining by 1 level twice. Only what a mesh cannot express is
 // lost: holes, unless opt->keep_holes keeps them; an edge along which two faces are wound against
 // each other; a face that has an edge twice or a vertex twice in a row; under Loop, two faces on
-// the same three vertices; where two UVs meet at a vertex under the rules "plus 1" and "plus 2",
-// that semi-sharp creases of one have faded away before those of the other. Lines are left out.
+// the same three vertices; and, at a vertex where two UVs meet under the rules "plus 1" and
+// "plus 2", which of their semi-sharp creases faded away first. Lines are left out.
 //
 // fine must not be the cage itself. A crease between vertices that share no edge is skipped with a
 // warning; level 0 keeps it.
@@ -429,28 +431,28 @@ SUBDIV_DEF void subdiv_surface_edges(const subdiv_surface *surface, int *ends);
 // subdiv_evaluate takes [value_count] values of any number of channels and makes [vertex_count];
 // subdiv_surface_faces gives the indices of values, -1 where there are none. Value i stays value i
 // at the first cage vertex that has it. From level 1 on, other vertices that share it have values
-// of their own, numbered from value_count. Cage faces of this surface are only those that have a
-// value at each vertex. opt->limit changes nothing here.
+// of their own, numbered from value_count, and subdiv_evaluate_faces counts only the cage faces
+// that have a value at each vertex. opt->limit changes nothing here.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
                                                      int levels, const subdiv_options *opt);
 
 // Finds equal values: firsts [value_count] is, for each of values [channels * value_count], the
-// number of the first one that equals it in all channels. UVs that come without indices, one for
-// each face-vertex, make seams where they differ with firsts as their face_uvs.
+// number of the first one that equals it in all channels. If your UVs come without indices, one for
+// each face-vertex, take firsts as face_uvs: then seams are where values differ.
 SUBDIV_DEF subdiv_result subdiv_join_values(int *firsts, int channels, int value_count,
                                             const float *values, const subdiv_options *opt);
 
-// Returns the bytes of scratch memory that evaluating this many channels takes. Up to level 4 they
-// grow with the result; from there on they only double with each level, as the points on the edges
-// of the cage do. SIZE_MAX: more than the machine can address.
+// Returns the bytes of scratch memory that evaluating this many channels takes. Up to level 4 the
+// size grows with the result; from there on it only doubles with each level, as the number of
+// points on the cage's edges does. SIZE_MAX: more than the machine can address.
 SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channels);
 
 // Evaluates every point of the result: out [out_stride * vertex_count] from in [in_stride * cage
 // vertex_count]. Strides are in floats, 0 stands for channels; other floats of out stay as they
 // are. scratch has subdiv_scratch_size bytes, aligned as float: then nothing is allocated. If it is
-// NULL, the call allocates it. Values should be below 1e35 in size, or sums may overflow.
+// NULL, the call allocates it. Values should be below 2^116 in size, or sums may overflow.
 SUBDIV_DEF subdiv_result subdiv_evaluate(const subdiv_surface *surface, int channels,
                                          const float *in, int in_stride,
                                          float *out, int out_stride,
@@ -487,16 +489,16 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 //
 // A point has one normal and two tangents. On a crease they belong to the side of the first face
 // there that is no hole. Each other side of an infinitely sharp crease has a normal of its own, for
-// shading that shows the edge, unless opt->one_normal says no. Where there are such sides, fine has
+// shading that shows the edge, unless opt->one_normal is set. If there are such sides, fine has
 // face_normals: normals 0 to vertex_count - 1 are those of the points, the others follow. (On a
 // linear surface each edge of the cage is a crease.)
 //
-// Some vertices have no tangent plane. For shading, the normal is one amid those around at corners
-// with more than 2 faces (Loop: 3) between their creases, or without creases; at creases with more
-// than 4 faces (Loop: 6) on that side; and between two quads back to back. It is 0 without faces,
-// between two triangles back to back, where a tangent is 0 and where both are parallel, to within
-// rounding; and where the vertex rule makes a spike, as "five-eighths" does at valence 3. Error
-// ARGUMENT: the weights of a valence lead to no limit at all (vertex_weights).
+// Some vertices have no tangent plane. For shading, their normal lies between those around
+// * at a corner with more than 2 faces (Loop: 3) between two creases, or without creases;
+// * at a crease with more than 4 faces (Loop: 6) on that side; and between two quads back to back.
+// It is 0 without faces, between two triangles back to back, where a tangent is 0 or both are
+// parallel (to within rounding), and where the vertex rule makes a spike, as "five-eighths" does at
+// valence 3. Error ARGUMENT: the vertex_weights of some valence lead to no limit.
 
 // Where to write the results: arrays with this many floats a point, or NULL.
 typedef struct subdiv_limit {
@@ -519,7 +521,7 @@ SUBDIV_DEF subdiv_result subdiv_surface_face_normals(const subdiv_surface *surfa
                                                      int *face_normals, const subdiv_options *opt);
 
 // Evaluate limit positions, normals and tangents from positions in [in_stride * cage vertex_count]:
-// as subdiv_evaluate does and, in pieces, as subdiv_evaluate_begin and _faces do, with 3 channels.
+// all at once, as subdiv_evaluate does, or in pieces, after subdiv_evaluate_begin for 3 channels.
 // Error ARGUMENT: the surface was prepared without opt->limit.
 SUBDIV_DEF subdiv_result subdiv_evaluate_limit(const subdiv_surface *surface,
                                                const float *in, int in_stride,
@@ -534,12 +536,12 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 
 // Gives any mesh normals: at each vertex the sum of its faces' normals, weighted by their areas and
 // scaled to length 1; or 0 if there is none. Each side of an infinitely sharp crease, and each fan
-// of faces at non-manifold places, has its own, as in a limit, unless opt->one_normal says no,
-// which is faster. Arrays that have the room are filled, else the mesh gets new ones.
+// of faces at non-manifold places, has its own, as in a limit, unless opt->one_normal is set, which
+// is faster. Arrays that have the room are filled, else the mesh gets new ones.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
-// Gives a mesh such normals, and splits them also at edges where the normals of the two faces
-// differ by more than this many degrees, 0 to 180, as subdiv_crease_by_angle does.
+// Gives a mesh such normals, whatever opt->one_normal says. Splits them also where the normals of
+// an edge's two faces differ by more than this many degrees, 0 to 180: see subdiv_crease_by_angle.
 SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degrees,
                                                  const subdiv_options *opt);
 
@@ -558,11 +560,11 @@ SUBDIV_DEF subdiv_result subdiv_normals_by_angle(subdiv_mesh *mesh, float degree
 //     subdiv_evaluate_buffer(&buffer, surface, moved, &out, scratch, &opt);       // each frame
 //
 // Tangents for normal maps, if you need them, come from another surface of the cage, prepared for
-// SUBDIV_EXACT: subdiv_tangents_at writes them with the same stride. Vertex i is at the location
-// [buffer.face_vertices[i]] of those that subdiv_surface_locations gives for face-vertices.
+// SUBDIV_EXACT: subdiv_tangents_at writes them with the same stride. The location of vertex i is
+// that of face-vertex buffer.face_vertices[i]: see subdiv_surface_locations.
 typedef struct subdiv_buffer {
     int    vertex_count;              // vertex i is point i of the mesh; copies of points follow
-    int    point_count, normal_count; // of the mesh; vertex i has normal i, as long as there are
+    int    point_count, normal_count; // of the mesh; vertex i < normal_count has normal i
     int   *points;                    // [vertex_count]  the point of each vertex,
     int   *normals;                   // [vertex_count]  its normal
     int   *uvs;                       // [vertex_count]  and its UV, or -1
@@ -582,9 +584,10 @@ typedef struct subdiv_vertices {
     int    stride;                    // floats from vertex to vertex in all of them; 0: dense
 } subdiv_vertices;
 
-// Makes the buffer of a mesh: a result, or any mesh without face_normals. Cuts faces from their
-// first vertex on; triangles of a left-handed mesh are turned round, so that all are counter-
-// clockwise. index_size is 2 or 4. Error TOO_LARGE: 2 bytes, and more than 65536 vertices.
+// Makes the buffer of a mesh: a result, or any mesh without face_normals or with those of
+// subdiv_normals. Cuts faces into fans around their first vertex. Turns triangles of a left-handed
+// mesh round, so that all are counter-clockwise. index_size is 2 or 4. Error TOO_LARGE: also more
+// than 65536 vertices with 2 bytes.
 SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_mesh *mesh,
                                             int index_size, const subdiv_options *opt);
 SUBDIV_DEF void subdiv_buffer_free(subdiv_buffer *buffer);
@@ -607,7 +610,7 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_buffer(const subdiv_buffer *buffer,
 // Evaluates the limit surface at any point of any face: values, derivatives and normals. They are
 // exact, also at and arbitrarily near extraordinary vertices, creases and boundaries. A regular
 // face is a bicubic B-spline, under Loop a quartic box spline [Stam98]. Error ARGUMENT: the vertex
-// rule makes it another surface, or a vertex without a limit.
+// rule makes regular faces anything else, or leaves a vertex without a limit.
 //
 //     subdiv_prepare(&surface, &cage, SUBDIV_EXACT, &opt);
 //     void *scratch = malloc(subdiv_scratch_size(surface, 3));
@@ -627,16 +630,16 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_buffer(const subdiv_buffer *buffer,
 #define SUBDIV_EXACT (-1)             // as levels of subdiv_prepare and _prepare_face_varying
 
 typedef struct subdiv_location {
-    int   face, corner;               // from 0; corner: the vertex of an n-gon whose quad it is on,
-    float u, v;                       // 0 in other faces. 0 <= u, v <= 1; Loop: u + v <= 1
+    int   face, corner;               // from 0; corner i: on the quad at vertex i of an n-gon; in
+    float u, v;                       // other faces 0. 0 <= u, v <= 1; Loop: u + v <= 1
 } subdiv_location;
 
 // Tells where the points [vertex_count] and face-vertices [sum of face sizes] of a result are; one
 // may be NULL. A face-vertex is on the face of the cage that its face is a part of. A point is on
 // the first face around it, on a hole only if there is no other face, and on face -1 if no face has
-// a surface; on level 0 it is on the first face of all. Faces that boundary "none" drops are there
-// with opt->keep_holes, though subdiv_evaluate_at gives zeros on them. Error ARGUMENT: the surface
-// is one of face-varying values, or prepared for SUBDIV_EXACT.
+// a surface; on level 0 it is on the first face, hole or not. With opt->keep_holes, faces that
+// boundary "none" drops have face-vertices, too, though subdiv_evaluate_at gives zeros there. Error
+// ARGUMENT: the surface is one of face-varying values, or prepared for SUBDIV_EXACT.
 SUBDIV_DEF subdiv_result subdiv_surface_locations(const subdiv_surface *surface,
                                                   subdiv_location *points,
                                                   subdiv_location *face_vertices,
@@ -655,9 +658,9 @@ typedef struct subdiv_derivatives {
 // (under opt->triangulate: triangles), holes included. Faces that boundary "none" drops, and faces
 // without face-varying values, have no surface: they give zeros.
 //
-// Faces evaluate the points that they share to the same bits: those of a vertex, and those of an
-// edge at t and, from the other end, 1 - t (closer to a vertex than t = 0.001 only if 1 - t is not
-// rounded); in an n-gon also those of the edges and vertices between its quads.
+// Points that faces share have the same bits on each of them: at a vertex; along an edge, where one
+// face has t and the other 1 - t (closer to a vertex than t = 0.001, only if 1 - t is exact); and,
+// in an n-gon, along the edges and at the vertices between its quads.
 //
 // Derivatives are with respect to u and v; on a crease they belong to the face's side. Beyond the
 // range of floats they are not finite. The normal is along du x dv; against it if the cage is
@@ -666,9 +669,9 @@ typedef struct subdiv_derivatives {
 // * Extraordinary: close by, du and dv go to 0 or infinity like (2 l)^j at u = 2^-j, where l is the
 //   subdominant eigenvalue. At the vertex this factor is left out: du x dv is along the normal. The
 //   second derivatives are 0.
-// * Infinite corner or dart: as above, and the lengths of du and dv mean nothing.
-// * 4 faces or more (Loop: 6) on a side of a crease: normals close by tend to that of the vertex
-//   slowly, with more faces not at all (see >>limit).
+// * Infinitely sharp corner or dart: as above, and the lengths of du and dv mean nothing.
+// * 4 faces (Loop: 6) on a side of a crease: normals close by tend to that of the vertex, but
+//   slowly; with more faces they do not (see >>limit).
 //
 // Errors: ARGUMENT if normals have fewer than 3 channels, the surface was not prepared for
 // SUBDIV_EXACT or subdiv_evaluate_begin has not filled scratch for it. Three errors may come after
@@ -757,9 +760,9 @@ typedef enum subdiv_reason {          // why a rule holds
 typedef struct subdiv_point {
     subdiv_point_kind kind;
     int   parent;                     // the number of the cage's vertex, edge or face
-    int   ends[2];                    // of the edge; or the other ends of the first two sharp edges
-                                      // at the vertex, as far as there are any, else -1
-    int   faces[2];                   // an edge's first two, else -1
+    int   ends[2];                    // of the edge; of a vertex, the other ends of its first two
+                                      // sharp edges; -1 where there is none
+    int   faces[2];                   // the first two of an edge; -1 where there is none
     int   valence;                    // faces at the vertex, or of the edge; vertices of the face
     int   sharp_edges;                // at the vertex
     float sharpness;                  // of the edge or vertex itself, at most SUBDIV_INFINITE
@@ -781,7 +784,7 @@ SUBDIV_DEF subdiv_result subdiv_explain_points(subdiv_explanation *explanation,
                                                const subdiv_mesh *cage, const subdiv_options *opt);
 SUBDIV_DEF void subdiv_explanation_free(subdiv_explanation *explanation);
 
-// Writes for the classroom what these data say of one point: what it is, which rule holds there and
+// Writes the same about one point as text for the classroom: what it is, which rule holds there and
 // why, the formula, the paper and the mask, in fractions where possible. The text has lines of up
 // to 80 characters and ends with 0; 2000 bytes are enough except for large faces and valences.
 // Errors leave text empty: INDEX for no such point, TOO_LARGE if the text does not fit, ARGUMENT if
@@ -826,14 +829,14 @@ typedef struct subdiv_tessellation {
 //     a triangle under Loop    r pieces a side: r the largest rate of its edges
 //     any other polygon        a quad at each vertex, with r / 2 pieces a side, rounded up
 //
-// If all edges are cut like the sides of the grid, the faces are those of the grid. So one rate 2^k
-// makes the faces of subdiv_refine by k levels with opt->limit, and where there is a surface its
-// points and normals, to rounding. (The other polygons need even rates for this; at rate 1 they are
-// fans around their centres.)
+// If all edges are cut like the sides of the grid, the faces are those of the grid. So a rate of
+// 2^k everywhere makes the faces of subdiv_refine by k levels with opt->limit and, where there is a
+// surface, the same points and normals, to rounding. (Polygons that are not quads need an even rate
+// for this; at rate 1 they are fans around their centres.)
 //
-// Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost ones.
-// Strips join what remains with each edge; they follow its faces, from edge 0-1 on. They consist of
-// triangles and, where two pieces are opposite, quads. A quad with rate 1 on two opposite edges has
+// Otherwise the grid has at least 2 pieces a side, in a triangle 3, and loses its outermost faces.
+// Strips join the faces that remain with each edge and come after them, from edge 0-1 on: triangles
+// and, where two pieces are opposite, quads. A quad with rate 1 on two opposite edges has
 // no points inside, unless its face rate asks for some: its other two edges are joined directly.
 // Rates that are far apart make thin triangles and, at curved edges, some that are folded over.
 //
@@ -877,17 +880,17 @@ typedef enum subdiv_curve_ends {      // each level makes of n points       B-sp
     SUBDIV_ENDS_CLOSED                // the last is joined to the first    2n          2n
 } subdiv_curve_ends;
 
-// Returns how many points a curve has after so many levels; 0 for an error of subdiv_curve.
+// Returns how many points a curve has after this many levels; 0 if subdiv_curve refuses them.
 SUBDIV_DEF int subdiv_curve_point_count(subdiv_curve_rule rule, subdiv_curve_ends ends,
                                         int point_count, int levels);
 
 // Refines a curve by this many levels: out [out_stride * subdiv_curve_point_count] from in
 // [in_stride * point_count], with channels and strides as subdiv_evaluate has them. out may be in,
 // with the same stride, but may not overlap it otherwise. Nothing is allocated. With opt->limit,
-// points go to the spline in the end, (a + 4v + b) / 6 or under Chaikin (a + 6v + b) / 8, but the
-// first and the last of an open curve stay: cut ends are not on it. The boundary of a refined
-// surface is such a curve, to the bit unless the cage is small and far from 0. Errors: EMPTY,
-// TOO_LARGE; ARGUMENT also if fewer than 3 points are cut.
+// points then move to the spline: to (a + 4v + b) / 6, under Chaikin to (a + 6v + b) / 8. The first
+// and the last point of an open curve stay, so cut ends are not on the spline. The boundary of a
+// refined surface is such a curve, with the same bits unless the cage is small and far from 0.
+// Errors: EMPTY, TOO_LARGE; ARGUMENT also if the ends of fewer than 3 points are to be cut.
 SUBDIV_DEF subdiv_result subdiv_curve(subdiv_curve_rule rule, subdiv_curve_ends ends, int levels,
                                       int channels, int point_count, const float *in,
                                       int in_stride, float *out, int out_stride,
@@ -898,8 +901,8 @@ SUBDIV_DEF subdiv_result subdiv_curve(subdiv_curve_rule rule, subdiv_curve_ends 
 // Add edges to the mesh's crease list. The functions named crease_by find them: an edge that is
 // listed already keeps the larger sharpness; boundary and non-manifold edges, which are sharp by
 // themselves, are never added. Other entries stay. A list that changes is replaced by a new one. To
-// try several angles, use copies of the struct with memory = NULL: freeing a copy frees
-// its new list alone. Error NOT_FINITE: also if sharpness is not a number.
+// try several angles, use copies of the struct with memory = NULL: freeing a copy then frees its
+// new list alone. Error NOT_FINITE: also if sharpness is not a number.
 
 // Finds edges where the normals of the two faces differ by more than this many degrees, 0 to 180;
 // up to 0.001 degrees more is taken for rounding. Faces without area have no normal, so no creases.
@@ -971,7 +974,7 @@ typedef struct subdiv_finding {
     subdiv_oddity kind;
     int face, other_face;                // from 0; -1: none
     int vertex, other_vertex;
-    const char *text;                    // "edge 3-7 has 3 faces: 1, 5, 9"; until report returns
+    const char *text;                    // "edge 3-7 has 3 faces: 1, 5, 9"; valid only in report
 } subdiv_finding;
 
 typedef void (*subdiv_report)(void *user, const subdiv_finding *finding);
@@ -1034,18 +1037,18 @@ typedef size_t (*subdiv_write)(void *user, const void *bytes, size_t size);
 SUBDIV_DEF subdiv_result subdiv_save_obj_callback(const subdiv_mesh *mesh, subdiv_write write,
                                                   void *user, const subdiv_options *opt);
 
-// Refines and writes at once, cage face by cage face: the text of subdiv_surface_mesh and
-// subdiv_save_obj. From level 1 on, the mesh is never in memory as a whole. With opt->part_count,
-// writes only part opt->part. All parts, joined in order, are the whole text: several processes or
-// machines can share the work, each with a surface of the whole cage. Parts take about as long as
-// each other. Level 0 is all in the first part. Error ARGUMENT: there is no such part.
+// Refines and writes at once, cage face by cage face: the text that subdiv_save_obj writes of
+// subdiv_surface_mesh. From level 1 on, the mesh is never in memory as a whole. If opt->part_count
+// is set, writes only part opt->part. All parts, joined in order, are the whole text: several
+// processes or machines can share the work, each with a surface of the whole cage. Parts take about
+// equally long. Level 0 is all in the first part. Error ARGUMENT: there is no such part.
 SUBDIV_DEF subdiv_result subdiv_stream_obj_callback(const subdiv_surface *surface,
                                                     const float *positions, subdiv_write write,
                                                     void *user, const subdiv_options *opt);
 
 // Files. Paths are UTF-8, on Windows too. Saving replaces a regular file when the new one is whole.
-// Until then that is beside it: fine.obj.0.tmp, or the next number that is free. An error removes
-// it and leaves the old file as it was. Permissions stay. Devices, pipes, links, and files in
+// Until then the new one is beside it: fine.obj.0.tmp, or the next free number. An error removes
+// the new one and leaves the old as it was. Permissions stay. Devices, pipes, links, and files in
 // folders that take no new ones, are written in place: an error may leave a part of the text.
 #ifndef SUBDIV_NO_STDIO
 SUBDIV_DEF subdiv_result subdiv_load_obj(subdiv_mesh *mesh, const char *path,
@@ -2629,7 +2632,7 @@ typedef struct sdv_mask {
     double crease;                      // on top of edge: the two neighbours along the crease
 } sdv_mask;
 
-// Scales weights that do not sum to 1, of so many ends (a vertex is one), neighbours and faces.
+// Scales a mask to sum to 1. ends: 1 of a vertex point, 2 of an edge point; edges, faces: counts.
 static sdv_mask sdv_scaled(sdv_mask mask, int ends, int edges, int faces)
 {
     double sum = ends * mask.self + edges * mask.edge + faces * mask.face + 2 * mask.crease;
@@ -2709,7 +2712,7 @@ static sdv_mask sdv_crease_vertex(void)
     return sdv_scaled(mask, 1, 0, 0);
 }
 
-// Smooth vertex point, Catmull-Clark, valence n [CC78]: V = (F + 2R + (n - 3) v) / n, with F the
+// Smooth vertex point, Catmull-Clark, valence n [CC78]: V = (Q + 2R + (n - 3) v) / n, with Q the
 // mean of the face points and R the mean of the edges' midpoints, (v + e) / 2 each:
 //
 //     f----e----f
@@ -2724,9 +2727,9 @@ static sdv_mask sdv_catmull_clark_vertex(int n)
     return sdv_scaled(mask, 1, n, n);
 }
 
-// Returns the cosine of k/n of a full turn, 0 <= k <= n, and so many quarters more: those of the C
-// libraries differ in their last bits. k/n is reduced, exactly for whole numbers, to an angle x up
-// to an eighth of a turn, where the series of cos x or sin x ends. The error is below 2^-52.
+// Returns the cosine of k/n of a full turn, 0 <= k <= n, plus this many quarter turns. (Cosines of
+// C libraries differ in their last bits.) Reduces the angle, exactly for whole k and n, to x of at
+// most an eighth of a turn, and sums the series of cos x or sin x. The error is below 2^-52.
 static double sdv_circle(double k, double n, int quarters)
 {
     double whole = floor(4 * k / n), rest = 4 * k - whole * n, sum = 1;
@@ -2810,9 +2813,9 @@ static sdv_mask sdv_vertex_mask(const sdv_rules *rules, sdv_fading fading, int f
     return sdv_blend(fading.weight, masks[fading.rule], masks[fading.next]);
 }
 
-// Returns the mask of an edge point: sharp while both halves of the edge stay sharp, a blend where
-// one of them turns smooth. triangles: how many of the edge's two faces are triangles, under
-// SUBDIV_TRIANGLES_SMOOTH; else 0.
+// Returns the mask of an edge point: that of a crease while both halves of a sharp edge stay sharp,
+// a blend with the smooth mask where a half turns smooth. triangles: how many of the edge's two
+// faces are triangles, under SUBDIV_TRIANGLES_SMOOTH; else 0.
 static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays_sharp,
                               int faces, int triangles)
 {
@@ -2825,7 +2828,7 @@ static sdv_mask sdv_edge_mask(const sdv_rules *rules, float sharpness, int stays
 
 // Limit masks say where a vertex ends up when refinement goes on forever, and how the surface lies
 // there. They are left eigenvectors of one step of refinement around the vertex: for the point, of
-// the eigenvalue 1; for tangents, whose weights sum to 0, of the next ones. So they follow from the
+// eigenvalue 1; for tangents, whose weights sum to 0, of the next largest. So they follow from the
 // masks above, whatever weights these have. They are for levels from 1 on, where all faces are
 // quads (Loop: triangles), and for vertices where nothing fades any more: see >>limit-rows.
 //
@@ -2867,8 +2870,8 @@ static sdv_mask sdv_chaikin_point(void)
     return mask;
 }
 
-// Limit point of such a vertex, on a quadratic B-spline: the middle between its two points, as what
-// is left of an edge has the same middle.
+// Limit point of such a vertex, on a quadratic B-spline: the midpoint of its two points. They make
+// an edge, and what each cut leaves of an edge has the same midpoint.
 //
 //     1/8---6/8---1/8        P = self v + edge/2 (a + b)
 static sdv_mask sdv_chaikin_limit(void)
@@ -2877,9 +2880,9 @@ static sdv_mask sdv_chaikin_limit(void)
     return mask;
 }
 
-// A wave around a vertex is a set of weights that one step of refinement only multiplies, by the
-// eigenvalue L. Neighbour i weighs 4 cos(i a); the vertex f across a quad weighs g times the sum of
-// the cosines beside it. With self and face the weights of the edge mask:
+// A wave around a vertex is a set of weights that one step of refinement only scales, by the
+// eigenvalue L. Neighbour i weighs 4 cos(i a). The vertex f across a quad weighs g times the sum of
+// the cosines of the neighbours beside it. With self and face the weights of the edge mask:
 //
 //     L = (b + sqrt(b^2 - 16 self)) / 8      b = 1 + 4 self + 2 face (1 + cos a)
 //     g = 4 face / (4 L - 1)                 Loop:  L = self + 2 face cos a
@@ -2899,14 +2902,14 @@ static sdv_wave sdv_wave_of(const sdv_rules *rules, double n)
     return wave;
 }
 
-// A spike is the same all around: one step of refinement is a matrix for the means of e and of f,
-// as seen from v, with two eigenvalues of sum T and product D. Loop has but one:
+// A spike is the same all around: one step of refinement is a 2 x 2 matrix for the means of e and f
+// less v, with two eigenvalues, of sum T and product D. Loop has only one eigenvalue:
 //
 //     T = 3/4 - P - 3/4 Q    D = (1/2 - P - Q/2) (1/4 - face/2)    P, Q = n times v.edge, v.face
 //     Loop:  self + 2 face - P
 //
-// Returns the larger one in size. Below 1 the vertex has a limit. Below L for a = 2 pi/n, what is
-// left far down is that wave, and it has a tangent plane [Loop87].
+// Returns the size of the larger one. If it is below 1, the vertex has a limit. If it is below L of
+// the wave a = 2 pi/n, that wave outlasts the spike: the vertex has a tangent plane [Loop87].
 static double sdv_spike_of(const sdv_rules *rules, int n)
 {
     sdv_mask v = sdv_smooth_vertex(rules, n), edge = sdv_smooth_edge(rules, 2);
@@ -2958,8 +2961,8 @@ static void sdv_smooth_tangents(const sdv_rules *rules, int n, double *t0, doubl
 // fills a straight angle: t1 = e_0 + e_1 - 2v, the way the curve bends.
 //
 // A corner between two creases has such tangents, by the mask of its vertex point. Where the wave
-// shrinks faster than the creases, their plane is left: t1 = e_0 + e_k - 2v. Where it shrinks as
-// fast, L = c, it turns to that plane by the same bit on each level; then t1 is what is there after
+// shrinks faster than the creases, only their plane remains: t1 = e_0 + e_k - 2v. Where it shrinks
+// as fast (L = c), it turns to that plane a little on each level: t1 is where it is after some
 // three thousand. Where it shrinks more slowly, the surface ends in a spike, which has no tangent
 // plane; t0 and t1 span the mean of its faces' planes.
 static void sdv_crease_tangents(const sdv_rules *rules, sdv_mask v, int k, double *t0, double *t1)
@@ -7744,13 +7747,13 @@ static void sdv_begin_mesh(sdv_context *context, subdiv_mesh *fine, const subdiv
 }
 
 // ----------------------------------------------------------------------------------- >>calls
-// The public functions of >>refine, >>animation and >>limit, which call all that stands above.
-// subdiv_refine prepares a surface, evaluates it and makes the result a mesh:
+// The public functions of >>refine, >>animation and >>limit that build on the sections above, and
+// subdiv_surface_locations. subdiv_refine prepares a surface, then makes its mesh:
 //
 //     sdv_prepare        the cage's topology (sdv_cage_build), then its rows (sdv_prepare_rows): on
 //                        each level sdv_fill_level > sdv_vertex_row > sdv_vertex_mask
+//     sdv_make_mesh      the arrays of the result, its points by subdiv_evaluate, UVs and faces
 //     subdiv_evaluate    sdv_make_work, then sdv_make_points: rows and grids add up the points
-//     sdv_make_mesh      the arrays of the result, its faces and what it carries along
 
 SUBDIV_DEF subdiv_result subdiv_refine(subdiv_mesh *fine, const subdiv_mesh *cage, int levels,
                                        const subdiv_options *opt)
@@ -7781,7 +7784,7 @@ SUBDIV_DEF subdiv_result subdiv_prepare(subdiv_surface **surface, const subdiv_m
     return sdv_prepare(surface, &request);
 }
 
-// Prepares a surface of the cage with these values for UVs, of which it keeps that of the values.
+// Prepares the cage with these values as its UVs, and keeps the surface of the values alone.
 SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      const subdiv_mesh *cage, int value_count,
                                                      const int *indices, subdiv_uv_rule rule,
@@ -7872,8 +7875,8 @@ SUBDIV_DEF subdiv_result subdiv_surface_faces(const subdiv_surface *surface, int
     return context.result;
 }
 
-// Writes the locations of a grid's points, unless they are known, and of its faces: of quads, of
-// triangles or of triangles turned by half. Returns the place behind.
+// Writes the locations of a grid's points that have none yet, and those of the face-vertices of its
+// faces: quads, or triangles and those upside down. Returns the place behind the last.
 static subdiv_location *sdv_put_locations(const sdv_grid *grid, int face, int corner,
                                           subdiv_location *points, subdiv_location *out)
 {
@@ -7975,8 +7978,8 @@ SUBDIV_DEF size_t subdiv_scratch_size(const subdiv_surface *surface, int channel
     return ((size_t)channels + 3) / 4 * 4 * sizeof(float) * ((size_t)surface->work_count + 1);
 }
 
-// Makes the points of the result that belong to a range of cage faces and are in a range of points,
-// from scratch: to out or as a limit. Returns the context's result.
+// Makes, from the values in scratch, the points of the result that belong to a range of cage faces
+// and are in a range of points. Writes them to out, or to limit. Returns the context's result.
 static subdiv_result sdv_make_range(sdv_context *context, const subdiv_surface *surface,
                                     int channels, const void *scratch, int first_face,
                                     int face_count, int first_point, int point_count, float *out,
@@ -8041,8 +8044,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_faces(const subdiv_surface *surface, in
                           first_point, point_count, out, out_stride, NULL, opt);
 }
 
-// Makes all points of the result from values of the cage: to out or as a limit. Allocates scratch
-// if it is NULL. Returns the context's result.
+// Makes all points of the result from values of the cage. Writes them to out, or to limit.
+// Allocates scratch if it is NULL. Returns the context's result.
 static subdiv_result sdv_make_all(sdv_context *context, const subdiv_surface *surface,
                                   int channels, const float *in, int in_stride, float *out,
                                   int out_stride, const subdiv_limit *limit, void *scratch,
