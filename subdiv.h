@@ -2867,7 +2867,7 @@ static sdv_mask sdv_crease_limit(void)
 static sdv_mask sdv_chaikin_point(void)
 {
     sdv_mask mask = { 0.75, 0.25, 0, 0 };
-    return mask;
+    return sdv_scaled(mask, 1, 1, 0);
 }
 
 // Limit point of such a vertex, on a quadratic B-spline: the midpoint of its two points. They make

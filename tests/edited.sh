@@ -23,6 +23,8 @@ crease_number sdv_crease_vertex 0.7, 0, 0, 0.125
 smooth_triangle_number sdv_smooth_triangle_edge 0.6 - face, 0, face, 0
 loop_edge_number sdv_loop_edge 0.375, 0, 0.2 / faces, 0
 loop_vertex_number sdv_loop_vertex 0.9 - n * b, b, 0, 0
+chaikin sdv_chaikin_point 0.7, 0.3, 0, 0
+chaikin_number sdv_chaikin_point 0.6, 0.25, 0, 0
 END
 
 awk '
@@ -64,6 +66,8 @@ edit crease_number 'crease loop_crease' 'cubic B-spline'
 edit smooth_triangle_number triangles ''
 edit loop_edge_number loop '(3 a + 3 b + c + d) / 8'
 edit loop_vertex_number loop '(5/8 - '
+edit chaikin chaikin ''
+edit chaikin_number chaikin ''
 
 printf '%-24s %4d passed, %d failed\n' edited "$passed" "$failed"
 test "$failed" -eq 0

@@ -192,6 +192,35 @@ static void test_cages(void)
         }
 }
 
+// A curve of both rules: three levels are three times one, and its vertices, after 12 levels, are at
+// the limit. Under Chaikin a vertex goes on as the edge between its two points.
+static const float curve[5] = { 0.1f, 2.3f, -1.7f, 5.9f, 0.6f };
+
+static void test_curves(void)
+{
+    static float fine[5 << 12];
+    const subdiv_curve_ends closed = SUBDIV_ENDS_CLOSED;
+    subdiv_options opt = {0};
+    opt.limit = 1;
+    for (int rule = 0; rule < 2; rule++) {
+        subdiv_curve_rule r = (subdiv_curve_rule)rule;
+        float three[40], once[40], limit[5];
+        subdiv_curve(r, closed, 3, 1, 5, curve, 0, three, 0, NULL);
+        subdiv_curve(r, closed, 1, 1, 5, curve, 0, once, 0, NULL);
+        subdiv_curve(r, closed, 1, 1, 10, once, 0, once, 0, NULL);
+        subdiv_curve(r, closed, 1, 1, 20, once, 0, once, 0, NULL);
+        CHECK(memcmp(three, once, sizeof once) == 0);
+        subdiv_curve(r, closed, 12, 1, 5, curve, 0, fine, 0, NULL);
+        subdiv_curve(r, closed, 0, 1, 5, curve, 0, limit, 0, &opt);
+        for (int i = 0; i < 5; i++) {
+            int middle = (2 * i + 1) << 11;
+            double at = rule ? ((double)fine[middle - 1] + (double)fine[middle]) / 2
+                             : (double)fine[i << 12];
+            CHECK_NEAR(at, limit[i], 1e-3);
+        }
+    }
+}
+
 // ---------------------------------------------------------------------------------- what moves
 
 static int is_on_crease(const subdiv_mesh *cage, int v)
@@ -215,6 +244,9 @@ static void write_points(FILE *file)
                         (double)fine.positions[3 * v + 1], (double)fine.positions[3 * v + 2]);
         subdiv_mesh_free(&fine);
     }
+    float cut[40];
+    subdiv_curve(SUBDIV_CURVE_CHAIKIN, SUBDIV_ENDS_CLOSED, 3, 1, 5, curve, 0, cut, 0, NULL);
+    for (int i = 0; i < 40; i++) fprintf(file, "chaikin %a 0 0\n", (double)cut[i]);
 }
 
 static int count_still(FILE *a, FILE *b, const char *name, int *points)
@@ -236,6 +268,7 @@ static int check(const char *path)
     if (!file) return 1;
     RUN(test_random);
     RUN(test_cages);
+    RUN(test_curves);
     write_points(file);
     fclose(file);
     return test_end("edited");
