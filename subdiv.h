@@ -439,8 +439,9 @@ SUBDIV_DEF subdiv_result subdiv_prepare_face_varying(subdiv_surface **surface,
                                                      int levels, const subdiv_options *opt);
 
 // Finds equal values: firsts [value_count] is, for each of values [channels * value_count], the
-// number of the first one that equals it in all channels. If your UVs come without indices, one for
-// each face-vertex, take firsts as face_uvs: then seams are where values differ.
+// number of the first one that equals it in all channels; its own, if it is not a number. If your
+// UVs come without indices, one for each face-vertex, take firsts as face_uvs: then seams are where
+// values differ.
 SUBDIV_DEF subdiv_result subdiv_join_values(int *firsts, int channels, int value_count,
                                             const float *values, const subdiv_options *opt);
 
@@ -4552,7 +4553,7 @@ static void sdv_find_firsts(const float *values, int channels, int count, int *h
                !sdv_same_values(values + (size_t)channels * (size_t)first, value, channels))
             first = next[first];
         firsts[i] = first < 0 ? i : first;
-        if (first >= 0) continue;
+        if (first >= 0 || !sdv_same_values(value, value, channels)) continue;   // NaN equals none
         next[i] = *head;
         *head = i;
     }

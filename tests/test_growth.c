@@ -450,6 +450,39 @@ static size_t in_pieces(const subdiv_mesh *m, int levels)
     return count;
 }
 
+// What draws a limit mesh, and where its points are.
+static size_t buffers(const subdiv_mesh *m, int levels)
+{
+    subdiv_surface *s;
+    subdiv_mesh fine;
+    subdiv_buffer b;
+    options.limit = 1;
+    CHECK_EQUAL(subdiv_prepare(&s, m, levels, &options), SUBDIV_OK);
+    options.limit = 0;
+    CHECK_EQUAL(subdiv_surface_mesh(&fine, s, m->positions, &options), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_make_buffer(&b, &fine, 4, &options), SUBDIV_OK);
+    size_t count = (size_t)fine.vertex_count, size = size_of_mesh(&fine) + (size_t)b.vertex_count;
+    subdiv_location *at = (subdiv_location *)malloc(count * sizeof *at);
+    CHECK_EQUAL(subdiv_surface_locations(s, at, NULL, &options), SUBDIV_OK);
+    free(at);
+    subdiv_buffer_free(&b);
+    subdiv_mesh_free(&fine);
+    subdiv_surface_free(s);
+    return size;
+}
+
+// Values that are all equal, or not even equal to themselves.
+static size_t join(const subdiv_mesh *m, int numbers)
+{
+    int count = 3 * m->vertex_count, *firsts = (int *)malloc((size_t)count * sizeof *firsts);
+    float *values = (float *)malloc((size_t)count * sizeof *values);
+    for (int i = 0; i < count; i++) values[i] = numbers ? 1 : (float)NAN;
+    CHECK_EQUAL(subdiv_join_values(firsts, 1, count, values, &options), SUBDIV_OK);
+    CHECK_EQUAL(firsts[count - 1], numbers ? 0 : count - 1);
+    free(firsts), free(values);
+    return (size_t)count;
+}
+
 // Locations of all faces, under Loop of one; of an n-gon one in each corner. At a vertex, or close
 // by, a location may take as long as the valence: so there are few of these.
 static int find_locations(const subdiv_mesh *m, subdiv_location *at)
@@ -586,20 +619,26 @@ static size_t creases(const subdiv_mesh *m, int how)
     if (how == 0) subdiv_crease_by_angle(&copy, 5, 1, &options);
     if (how == 1) subdiv_crease_by_smoothing_groups(&copy, 1, &options);
     if (how == 2) subdiv_crease_by_uv_seams(&copy, 1, &options);
+    int chains = m->face_count > 0, sides = chains ? face_size(m, 0) : 0;
+    const float sharpness = 1;
+    if (how == 3) subdiv_crease_chains(&copy, chains, &sides, m->face_vertices, chains, &sharpness,
+                                       &options);
     CHECK_EQUAL(error.code, SUBDIV_OK);
     size_t count = (size_t)copy.crease_count;
     subdiv_mesh_free(&copy);
     return count;
 }
 
-static size_t normals(const subdiv_mesh *m, int unused)
+static size_t normals(const subdiv_mesh *m, int by_angle)
 {
     subdiv_mesh copy = *m;
-    (void)unused;
     copy.memory = NULL;
-    CHECK_EQUAL(subdiv_normals(&copy, &options), SUBDIV_OK);
+    if (by_angle) subdiv_normals_by_angle(&copy, 5, &options);
+    else subdiv_normals(&copy, &options);
+    CHECK_EQUAL(error.code, SUBDIV_OK);
+    size_t count = (size_t)copy.normal_count;
     subdiv_mesh_free(&copy);
-    return 1;
+    return count;
 }
 
 typedef struct obj_text {
@@ -658,7 +697,9 @@ calls[] = {
     { "explain points", explain_points, 0 },
     { "explain", explain, 0 }, { "explain", explain, 1 }, { "explain", explain, 2 },
     { "check", check, 0 }, { "inspect", inspect, 0 }, { "creases", creases, 0 },
-    { "creases", creases, 1 }, { "creases", creases, 2 }, { "normals", normals, 0 },
+    { "creases", creases, 1 }, { "creases", creases, 2 }, { "creases", creases, 3 },
+    { "normals", normals, 0 }, { "normals", normals, 1 }, { "buffers", buffers, 1 },
+    { "join", join, 0 }, { "join", join, 1 },
     { "obj", obj, 1 << 20 }, { "obj", obj, 1 }, { "stream", stream, 1 }
 };
 enum { CALLS = sizeof calls / sizeof *calls };
