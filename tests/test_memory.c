@@ -328,6 +328,29 @@ static subdiv_result call_exact(const trial *t, const subdiv_options *opt)
     return result;
 }
 
+// A failure leaves the vertices as they were.
+static subdiv_result call_buffers(const trial *t, const subdiv_options *opt)
+{
+    subdiv_mesh fine = {0};
+    subdiv_buffer buffer = {0};
+    subdiv_vertices out = {0};
+    subdiv_surface *surface;
+    subdiv_result result = prepare(&surface, t, t->level, opt);
+    TRY(subdiv_surface_mesh(&fine, surface, t->cage->positions, opt));
+    TRY((FILL(buffer), subdiv_make_buffer(&buffer, &fine, 4, opt)));
+    if (result) CHECK(IS_ZERO(buffer));
+    size_t size = 3 * sizeof(float) * (size_t)buffer.vertex_count;
+    out.positions = (float *)malloc(size + 1);
+    memset(out.positions, 0x55, size);
+    TRY(subdiv_evaluate_buffer(&buffer, surface, t->cage->positions, &out, NULL, opt));
+    CHECK(size == 0 || is_filled(out.positions, size, 0x55) == (result != SUBDIV_OK));
+    free(out.positions);
+    subdiv_buffer_free(&buffer);
+    subdiv_mesh_free(&fine);
+    subdiv_surface_free(surface);
+    return result;
+}
+
 static subdiv_result call_stencils(const trial *t, const subdiv_options *opt)
 {
     subdiv_stencils stencils;
@@ -412,6 +435,8 @@ static subdiv_result call_normals(const trial *t, const subdiv_options *opt)
     subdiv_result result = SUBDIV_OK;
     mesh.memory = NULL;
     TRY_CHANGE(mesh, subdiv_normals(&mesh, opt));
+    mesh.normals = NULL;
+    TRY_CHANGE(mesh, subdiv_normals_by_angle(&mesh, 20, opt));
     subdiv_mesh_free(&mesh);
     return result;
 }
@@ -504,13 +529,16 @@ static subdiv_result write_to(pipe_end *p, const trial *t, const subdiv_options 
 {
     size_t size = 7;
     subdiv_surface *surface;
+    subdiv_options part = *opt;
     subdiv_result result = SUBDIV_OK;
+    part.part_count = 3, part.part = 1 + t->odd;
     TRY(subdiv_save_obj_callback(t->cage, write_away, p, opt));
     TRY(subdiv_save_obj_memory(t->cage, NULL, 0, &size, opt));
     CHECK((size == 0 || p->calls == p->fail_at) == (result != SUBDIV_OK));
     if (result) return result;
     result = prepare(&surface, t, t->level, opt);
     TRY(subdiv_stream_obj_callback(surface, t->cage->positions, write_away, p, opt));
+    TRY(subdiv_stream_obj_callback(surface, t->cage->positions, write_away, p, &part));
     subdiv_surface_free(surface);
     return result;
 }
@@ -627,7 +655,7 @@ static const struct { const char *name; call run; int exact; } calls[] = {
     { "explain", call_explain, 0 },       { "tessellate", call_tessellate, 1 },
     { "normals", call_normals, 0 },       { "creases", call_creases, 0 },
     { "inspect", call_inspect, 0 },       { "write", call_write, 0 },
-    { "files", call_files, 0 },
+    { "files", call_files, 0 },           { "buffers", call_buffers, 0 },
 };
 
 static void test_random_cages(void)
@@ -844,6 +872,7 @@ static struct outputs {
     subdiv_surface *made;
     subdiv_stencils stencils;
     subdiv_explanation explanation;
+    subdiv_buffer buffer;
     subdiv_info info;
     int   counts[SUBDIV_ODDITY_COUNT];
     size_t size;
@@ -869,6 +898,7 @@ static void check_outputs(const char *call)
     KEPT("&o.made", o.made);
     KEPT("&o.stencils", o.stencils);
     KEPT("&o.explanation", o.explanation);
+    KEPT("&o.buffer", o.buffer);
     KEPT("&o.info", o.info);
     KEPT("o.counts", o.counts);
     KEPT("&o.size", o.size);
@@ -904,6 +934,8 @@ static struct kinds {
     subdiv_mesh cage;
     float *positions;
     subdiv_surface *copy, *plain, *limit, *exact, *values, *exact_values;
+    subdiv_mesh fine;                 // of plain, and what draws it
+    subdiv_buffer buffer;
     void *scratch;                    // enough for any
     int faces, points;                // of plain
 } k;
@@ -924,6 +956,8 @@ static void make_kinds(void)
     with_error.limit = 1;
     CHECK_EQUAL(subdiv_prepare(&k.limit, cage, 1, opt), SUBDIV_OK);
     with_error.limit = 0;
+    CHECK_EQUAL(subdiv_surface_mesh(&k.fine, k.plain, k.positions, opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_make_buffer(&k.buffer, &k.fine, 4, opt), SUBDIV_OK);
     k.scratch = malloc(1 << 20);
     k.faces = subdiv_surface_cage_face_count(k.plain);
     k.points = subdiv_surface_vertex_count(k.plain);
@@ -935,6 +969,8 @@ static void free_kinds(void)
 {
     subdiv_surface *all[] = { k.copy, k.plain, k.limit, k.exact, k.values, k.exact_values };
     for (int i = 0; i < 6; i++) subdiv_surface_free(all[i]);
+    subdiv_buffer_free(&k.buffer);
+    subdiv_mesh_free(&k.fine);
     subdiv_mesh_free(&k.cage);
     free(k.scratch);
     CHECK_EQUAL(heap.live, 0);
@@ -1036,6 +1072,72 @@ static void wrong_evaluation(void)
     }
 }
 
+static void wrong_buffers(void)
+{
+    const subdiv_mesh *cage = &k.cage, *fine = &k.fine;
+    const subdiv_buffer *b = &k.buffer;
+    const subdiv_vertices to = { o.out, NULL, NULL, NULL, 0 };
+    const subdiv_vertices narrow = { o.out, NULL, NULL, NULL, 2 };
+    const subdiv_vertices narrow_uvs = { NULL, NULL, o.out, NULL, 1 };
+    const subdiv_vertices negative = { NULL, NULL, NULL, NULL, -1 };
+    const subdiv_vertices normals = { NULL, o.out, NULL, NULL, 0 };
+    const subdiv_vertices colors = { NULL, NULL, NULL, o.out, 0 };
+    const float *p = k.positions;
+    void *work = k.scratch;
+    WRONG(ARGUMENT, subdiv_make_buffer(NULL, fine, 4, opt));
+    WRONG(ARGUMENT, subdiv_make_buffer(&o.buffer, NULL, 4, opt));
+    WRONG(ARGUMENT, subdiv_make_buffer(&o.buffer, fine, 0, opt));
+    WRONG(ARGUMENT, subdiv_make_buffer(&o.buffer, fine, -4, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(NULL, fine, &to, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, NULL, &to, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, NULL, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &narrow, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &narrow_uvs, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &negative, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &normals, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &colors, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, cage, &to, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(NULL, k.plain, p, &to, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, NULL, p, &to, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.plain, NULL, &to, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.plain, p, NULL, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.plain, p, &narrow, NULL, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.plain, p, &negative, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.plain, p, &normals, NULL, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.copy, p, &to, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.exact, p, &to, work, opt));
+    WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.values, p, &to, work, opt));
+}
+
+// rule, ends, levels, points: of no curve.
+static void wrong_curves(void)
+{
+    static const struct { int rule, ends, levels, count; } bad[] = {
+        { 2, 0, 1, 5 }, { -1, 0, 1, 5 }, { 0, 3, 1, 5 }, { 0, -1, 1, 5 }, { 0, 0, -1, 5 },
+        { 1, 0, INT_MIN, 5 }, { 0, 0, 1, -1 }, { 1, 2, 1, INT_MIN }, { 0, 1, 1, 2 }, { 1, 1, 0, 1 },
+        { 0, 0, 1, 0 }, { 0, 0, 31, 5 }, { 1, 2, INT_MAX, 1 }, { 1, 0, 1, INT_MAX } };
+    const float *in = k.positions;
+    float *out = o.out;
+    for (int i = 0; i < (int)(sizeof bad / sizeof *bad); i++) {
+        subdiv_curve_rule rule = (subdiv_curve_rule)bad[i].rule;
+        subdiv_curve_ends ends = (subdiv_curve_ends)bad[i].ends;
+        int levels = bad[i].levels, count = bad[i].count;
+        CHECK_EQUAL(subdiv_curve_point_count(rule, ends, count, levels), 0);
+        if (i < 10) WRONG(ARGUMENT, subdiv_curve(rule, ends, levels, 3, count, in, 0, out, 0, opt));
+        if (i == 10) WRONG(EMPTY, subdiv_curve(rule, ends, levels, 3, count, in, 0, out, 0, opt));
+        if (i > 10)
+            WRONG(TOO_LARGE, subdiv_curve(rule, ends, levels, 3, count, in, 0, out, 0, opt));
+    }
+    const subdiv_curve_rule rule = SUBDIV_CURVE_CHAIKIN;
+    const subdiv_curve_ends ends = SUBDIV_ENDS_KEPT;
+    WRONG(ARGUMENT, subdiv_curve(rule, ends, 1, 0, 5, in, 0, out, 0, opt));
+    WRONG(ARGUMENT, subdiv_curve(rule, ends, 1, INT_MIN, 5, in, 0, out, 0, opt));
+    WRONG(ARGUMENT, subdiv_curve(rule, ends, 1, 3, 5, NULL, 0, out, 0, opt));
+    WRONG(ARGUMENT, subdiv_curve(rule, ends, 1, 3, 5, in, 0, NULL, 0, opt));
+    WRONG(ARGUMENT, subdiv_curve(rule, ends, 1, 3, 5, in, 2, out, 0, opt));
+    WRONG(ARGUMENT, subdiv_curve(rule, ends, 1, 3, 5, in, 0, out, -3, opt));
+}
+
 static void wrong_places(void)
 {
     static const float nan = (float)NAN;
@@ -1122,6 +1224,10 @@ static void wrong_tools(void)
     WRONG(ARGUMENT, subdiv_inspect(&o.info, NULL, opt));
     WRONG(ARGUMENT, subdiv_check(o.counts, NULL, count_finding, NULL, opt));
     WRONG(ARGUMENT, subdiv_normals(NULL, opt));
+    WRONG(ARGUMENT, subdiv_normals_by_angle(NULL, 30, opt));
+    WRONG(ARGUMENT, subdiv_normals_by_angle(mesh, -1, opt));
+    WRONG(ARGUMENT, subdiv_normals_by_angle(mesh, 181, opt));
+    WRONG(ARGUMENT, subdiv_normals_by_angle(mesh, nan, opt));
     WRONG(ARGUMENT, subdiv_crease_by_angle(NULL, 30, 1, opt));
     WRONG(ARGUMENT, subdiv_crease_by_angle(mesh, -1, 1, opt));
     WRONG(ARGUMENT, subdiv_crease_by_angle(mesh, 181, 1, opt));
@@ -1209,7 +1315,8 @@ static void check_numbers(void)
     FILL(o);
     CHECK_EQUAL(subdiv_surface_vertex_count(NULL) + subdiv_surface_face_count(NULL) +
                 subdiv_surface_face_size(NULL) + subdiv_surface_cage_face_count(NULL) +
-                subdiv_surface_edge_count(NULL) + subdiv_first_inside(NULL, 0), 0);
+                subdiv_surface_edge_count(NULL) + subdiv_first_inside(NULL, 0) +
+                subdiv_surface_normal_count(NULL), 0);
     CHECK_EQUAL(subdiv_scratch_size(NULL, 3), 0);
     subdiv_surface_edges(NULL, o.ints);
     subdiv_surface_edges(k.plain, NULL);
@@ -1218,6 +1325,9 @@ static void check_numbers(void)
                                       opt), SUBDIV_OK);
     CHECK_EQUAL(subdiv_evaluate_faces(k.copy, 3, k.scratch, 0, 0, 0, k.cage.vertex_count, o.out, 0,
                                       opt), SUBDIV_OK);                     // level 0, no face
+    CHECK_EQUAL(subdiv_surface_locations(k.plain, NULL, NULL, opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_join_values(NULL, 1, 0, NULL, opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_crease_chains(&k.cage, 0, NULL, NULL, 0, NULL, opt), SUBDIV_OK);
     CHECK(is_filled(&o, sizeof o, 0x55));
     const subdiv_surface *all[] = { k.copy, k.plain, k.limit, k.exact, k.values, k.exact_values };
     for (int i = 0; i < 6; i++) {
@@ -1232,6 +1342,7 @@ static void check_numbers(void)
     subdiv_mesh_free(NULL);
     subdiv_stencils_free(NULL);
     subdiv_explanation_free(NULL);
+    subdiv_buffer_free(NULL);
 }
 
 static void test_wrong_arguments(void)
@@ -1242,6 +1353,8 @@ static void test_wrong_arguments(void)
     wrong_preparation();
     wrong_evaluation();
     wrong_places();
+    wrong_buffers();
+    wrong_curves();
     wrong_tools();
     wrong_texts();
     check_numbers();
