@@ -1104,6 +1104,28 @@ done
 ends 2 --html page.html -o results box.obj
 ends 2 --html
 
+# What cannot be written is an error that says why, and leaves the old file; also of a part.
+# unwritten FORMAT ARGUMENTS: that is so of a file of this format.
+unwritten() {
+    rm -f kept* && echo kept > kept_copy.obj && echo kept > "kept.$1"
+    fits="kept.$1" && shift
+    (ulimit -f 8 && exec "$program" -l 4 "$@" "$fits" 2> err)
+    fine "$*: exit 1" test $? = 1
+    says "$fits: writing failed: File too large"
+    same "$fits" kept_copy.obj
+    fine "$*: nothing is left beside it" test "$(ls kept*)" = "$(printf '%s\n' "$fits" kept_copy.obj)"
+    [ -c /dev/full ] || return
+    ln -sf /dev/full "$fits"
+    subdiv -l 4 "$@" "$fits" 2> err
+    fine "$*, disk full: exit 1" test $? = 1
+    says "$fits: writing failed: No space left on device"
+}
+
+for format in ply stl glb; do unwritten $format limit.obj; done
+unwritten obj --part 2/3 limit.obj
+unwritten png limit.obj --picture
+unwritten html limit.obj --html
+
 # Several inputs go to a folder; one that fails does not keep the others.
 ends 0 -l 1 -o results box.obj limit.obj
 ends 0 -l 1 box.obj single.obj
