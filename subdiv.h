@@ -13314,7 +13314,8 @@ SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "index_size is %d", index_size);
     if (context.result) return context.result;
     size_t count = sdv_face_vertex_count(mesh);
-    if (count > INT_MAX / 3)
+    int64_t indices = 3 * ((int64_t)count - 2 * (int64_t)mesh->face_count);
+    if (indices > INT_MAX)
         sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the mesh has too many triangles");
     make.mesh = mesh;
     make.normals = mesh->normals && mesh->face_normals ? mesh->face_normals : mesh->face_vertices;
@@ -13330,7 +13331,7 @@ SUBDIV_DEF subdiv_result subdiv_make_buffer(subdiv_buffer *buffer, const subdiv_
         sdv_fail(&context, SUBDIV_ERROR_TOO_LARGE, "the buffer has more than %d vertices",
                  index_size == 2 ? 65536 : INT_MAX);
     subdiv_buffer made = { (int)vertices, mesh->vertex_count, make.normal_count, NULL, NULL, NULL,
-                           3 * ((int)count - 2 * mesh->face_count), index_size, NULL, NULL, NULL };
+                           context.result ? 0 : (int)indices, index_size, NULL, NULL, NULL };
     sdv_block *block = context.result ? NULL
                      : sdv_allocate(&context, sdv_carve_buffer(&made, NULL));
     if (block) {
@@ -13386,9 +13387,12 @@ SUBDIV_DEF subdiv_result subdiv_fill_buffer(const subdiv_buffer *buffer, const s
         sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the buffer was made of another mesh");
     const char *missing = out->positions && !mesh->positions ? "positions"
                         : out->normals && !mesh->normals ? "normals"
-                        : out->uvs && !mesh->uv_count ? "UVs"
+                        : out->uvs && (!mesh->uv_count || !mesh->uvs) ? "UVs"
                         : out->colors && !mesh->colors ? "colors" : NULL;
     if (missing) sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the mesh has no %s", missing);
+    for (int i = 0; i < count && out->uvs && !context.result; i++)
+        if (buffer->uvs[i] >= mesh->uv_count)
+            sdv_fail(&context, SUBDIV_ERROR_ARGUMENT, "the mesh has no UV %d", buffer->uvs[i]);
     if (context.result) return context.result;
     sdv_copy_vectors(out->positions, three, 3, 0, count, buffer->points, mesh->positions, 3);
     sdv_copy_vectors(out->normals, three, 3, 0, count, buffer->normals, mesh->normals, 3);

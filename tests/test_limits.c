@@ -120,8 +120,8 @@ static void test_one_more(void)
 #include <sys/mman.h>
 #include <unistd.h>
 
-// Zeros that take no memory until something else is written: one megabyte of a file, mapped over and
-// over. (Fresh pages take the system longer than all other tests take.)
+// Zeros that take no memory until something else is written: one megabyte of a file, mapped over
+// and over. (Fresh pages take the system longer than all other tests take.)
 static void *zeros(size_t size)
 {
     const size_t part = (size_t)1 << 20;
@@ -166,11 +166,15 @@ static void test_many_faces(void)
     const size_t size = (((size_t)1 << 28) + 1) * 4 * sizeof(int);
     int *zero = (int *)zeros(size);
     subdiv_mesh fine;
+    subdiv_buffer buffer;
     cage = strip(1);
     cage.face_count = (1 << 28) + 1;
     cage.face_vertices = zero;
     if (zero) {
         CHECK_EQUAL(subdiv_refine(&fine, &cage, 1, NULL), SUBDIV_ERROR_TOO_LARGE);
+        cage.face_count = 1;                    // of 2^30 vertices: 2^30 - 2 triangles
+        cage.face_size = 1 << 30;
+        CHECK_EQUAL(subdiv_make_buffer(&buffer, &cage, 4, NULL), SUBDIV_ERROR_TOO_LARGE);
         munmap(zero, size);
     } else puts("no room for 2^30 face-vertices");
 }

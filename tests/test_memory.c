@@ -1074,12 +1074,14 @@ static void wrong_evaluation(void)
 
 static void wrong_buffers(void)
 {
+    subdiv_mesh fewer = k.fine, none = k.fine;
     const subdiv_mesh *cage = &k.cage, *fine = &k.fine;
     const subdiv_buffer *b = &k.buffer;
     const subdiv_vertices to = { o.out, NULL, NULL, NULL, 0 };
     const subdiv_vertices narrow = { o.out, NULL, NULL, NULL, 2 };
     const subdiv_vertices narrow_uvs = { NULL, NULL, o.out, NULL, 1 };
     const subdiv_vertices negative = { NULL, NULL, NULL, NULL, -1 };
+    const subdiv_vertices uvs = { NULL, NULL, o.out, NULL, 0 };
     const subdiv_vertices normals = { NULL, o.out, NULL, NULL, 0 };
     const subdiv_vertices colors = { NULL, NULL, NULL, o.out, 0 };
     const float *p = k.positions;
@@ -1097,6 +1099,10 @@ static void wrong_buffers(void)
     WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &normals, opt));
     WRONG(ARGUMENT, subdiv_fill_buffer(b, fine, &colors, opt));
     WRONG(ARGUMENT, subdiv_fill_buffer(b, cage, &to, opt));
+    CHECK(fine->uv_count > 1);
+    fewer.uv_count--, none.uvs = NULL;              // of the same points
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, &fewer, &uvs, opt));
+    WRONG(ARGUMENT, subdiv_fill_buffer(b, &none, &uvs, opt));
     WRONG(ARGUMENT, subdiv_evaluate_buffer(NULL, k.plain, p, &to, work, opt));
     WRONG(ARGUMENT, subdiv_evaluate_buffer(b, NULL, p, &to, work, opt));
     WRONG(ARGUMENT, subdiv_evaluate_buffer(b, k.plain, NULL, &to, work, opt));
