@@ -114,6 +114,28 @@ static void test_one_more(void)
     CHECK_EQUAL(subdiv_refine(&fine, &cage, LEVELS + 1, NULL), SUBDIV_ERROR_TOO_LARGE);
 }
 
+// Quads without neighbours have more vertices than faces: 66049 each on level 8, of 65536 faces. So
+// many as have 2^31 - 30,000 vertices fit, and one more does not.
+static void test_many_vertices(void)
+{
+    enum { MOST = 32513, EACH = 257 * 257 };
+    static float places[12 * (MOST + 1)];
+    static int vertices[4 * (MOST + 1)];
+    subdiv_error error = {0};
+    subdiv_options opt = {0};
+    subdiv_mesh quads = {0};
+    opt.error = &error;
+    for (int i = 0; i < 4 * (MOST + 1); i++) vertices[i] = i;
+    quads.positions = places, quads.face_vertices = vertices, quads.face_size = 4;
+    quads.vertex_count = 4 * MOST, quads.face_count = MOST;
+    CHECK_EQUAL(subdiv_prepare(&surface, &quads, 8, &opt), SUBDIV_OK);
+    CHECK_EQUAL(subdiv_surface_vertex_count(surface), (long long)MOST * EACH);
+    subdiv_surface_free(surface);
+    quads.vertex_count = 4 * (MOST + 1), quads.face_count = MOST + 1;
+    CHECK_EQUAL(subdiv_prepare(&surface, &quads, 8, &opt), SUBDIV_ERROR_TOO_LARGE);
+    CHECK(surface == NULL && strstr(error.message, "more than 2147483647 vertices"));
+}
+
 // ------------------------------------------------------------------------------------ long lists
 
 #ifdef __linux__
@@ -184,6 +206,7 @@ int main(void)
 {
     RUN(test_windows);
     RUN(test_one_more);
+    RUN(test_many_vertices);
 #ifdef __linux__
     RUN(test_many_creases);
     RUN(test_many_faces);
