@@ -96,6 +96,21 @@ step "README has every function" awk '
         if (end == "") { print name; missing = 1 }
     }
     END { exit missing }' README.md subdiv.h
+# has_calls FILES...: every public call that can fail is made in one of them.
+has_calls() {
+    cat "$@" | awk '
+        FNR == NR { text = text $0; next }
+        /End of the public API/ { exit }
+        /^SUBDIV_DEF subdiv_result/ && match($0, /subdiv_[a-z_]+\(/) {
+            name = substr($0, RSTART, RLENGTH)
+            if (!index(text, name)) { print name; missing = 1 }
+        }
+        END { exit missing }' - subdiv.h
+}
+
+step "stack and threads: every call" has_calls tests/lib/every_call.h
+step "wrong arguments: every call" has_calls tests/test_memory.c
+step "misuse: every call" has_calls tests/fuzz/misuse.c
 step "README has every option" awk '
     FNR == NR { text = text $0; next }
     match($0, /^    \{.*, "[a-z-]+"/) {

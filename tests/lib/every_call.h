@@ -75,6 +75,22 @@ static inline void every_buffer(every *e, const subdiv_surface *surface, const s
     subdiv_buffer_free(&b);
 }
 
+// Where the points and face-vertices of a limit mesh are, and which normals the latter have.
+static inline void every_place(every *e, const subdiv_surface *surface, const subdiv_mesh *m)
+{
+    size_t corners = 0, points = sizeof(subdiv_location) * (size_t)m->vertex_count;
+    for (int f = 0; f < m->face_count; f++)
+        corners += (size_t)(m->face_size ? m->face_size : m->face_sizes[f]);
+    subdiv_location *at = (subdiv_location *)every_room(e, points);
+    subdiv_location *of = (subdiv_location *)every_room(e, corners * sizeof *of);
+    int *normals = (int *)every_room(e, corners * sizeof *normals);
+    EVERY(e, subdiv_surface_locations(surface, at, of, e->opt));
+    EVERY(e, subdiv_surface_face_normals(surface, normals, e->opt));
+    every_keep(e, at, points);
+    every_keep(e, of, corners * sizeof *of);
+    every_keep(e, normals, corners * sizeof *normals);
+}
+
 static inline void every_stencils(every *e, subdiv_stencils *s)
 {
     size_t count = s->offsets ? s->offsets[s->count] : 0;
@@ -161,10 +177,9 @@ static inline void every_refinement(every *e)
     if (EVERY(e, subdiv_prepare(&surface, cage, e->levels, &limit))) {
         EVERY(e, subdiv_surface_mesh(&fine, surface, cage->positions, e->opt));
         every_buffer(e, surface, &fine);
-        size_t places = sizeof(subdiv_location) * (size_t)fine.vertex_count;
-        subdiv_location *where = (subdiv_location *)every_room(e, places);
-        EVERY(e, subdiv_surface_locations(surface, where, NULL, e->opt));
-        every_keep(e, where, places);
+        every_place(e, surface, &fine);
+        limit.part = 1, limit.part_count = 3;
+        EVERY(e, subdiv_stream_obj_callback(surface, cage->positions, every_write, e, &limit));
         every_mesh(e, &fine);
         every_limit(e, surface);
         every_surface(e, surface, 3, cage->positions);
@@ -223,6 +238,41 @@ static inline void every_exact(every *e)
     subdiv_surface_free(surface);
 }
 
+static inline void every_curve(every *e)
+{
+    int count = e->cage->vertex_count;
+    int made = subdiv_curve_point_count(SUBDIV_CURVE_CHAIKIN, SUBDIV_ENDS_CLOSED, count, 2);
+    size_t size = 3 * sizeof(float) * (size_t)made;
+    float *points = (float *)every_room(e, size);
+    EVERY(e, subdiv_curve(SUBDIV_CURVE_CHAIKIN, SUBDIV_ENDS_CLOSED, 2, 3, count,
+                          e->cage->positions, 3, points, 3, e->opt));
+    every_keep(e, points, size);
+}
+
+static inline size_t every_read(void *user, void *bytes, size_t size)
+{
+    const char **text = (const char **)user;
+    size_t left = strlen(*text), got = left < size ? left : size;
+    memcpy(bytes, *text, got);
+    *text += got;
+    return got;
+}
+
+static inline void every_file(every *e)
+{
+    const char *nowhere = "/dev/null", *text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    subdiv_surface *surface;
+    subdiv_mesh loaded;
+    EVERY(e, subdiv_load_obj_callback(&loaded, every_read, &text, e->opt));
+    every_mesh(e, &loaded);
+    EVERY(e, subdiv_load_obj(&loaded, nowhere, e->opt));        // an error: there is nothing in it
+    EVERY(e, subdiv_save_obj_callback(e->cage, every_write, e, e->opt));
+    EVERY(e, subdiv_save_obj(e->cage, nowhere, e->opt));
+    if (EVERY(e, subdiv_prepare(&surface, e->cage, e->levels, e->opt)))
+        EVERY(e, subdiv_stream_obj(surface, e->cage->positions, nowhere, e->opt));
+    subdiv_surface_free(surface);
+}
+
 static inline void every_tool(every *e)
 {
     subdiv_mesh copy = *e->cage, loaded;
@@ -267,6 +317,8 @@ static inline unsigned long long every_call(const subdiv_mesh *cage, int levels,
     every e = { cage, opt, levels, after, 1 };
     every_refinement(&e);
     every_exact(&e);
+    every_curve(&e);
+    every_file(&e);
     every_tool(&e);
     return e.sum;
 }
