@@ -1113,7 +1113,7 @@ unwritten() {
     fine "$*: exit 1" test $? = 1
     says "$fits: writing failed: File too large"
     same "$fits" kept_copy.obj
-    fine "$*: nothing is left beside it" test "$(ls kept*)" = "$(printf '%s\n' "$fits" kept_copy.obj)"
+    fine "$*: nothing is left beside it" test "$(ls kept* | wc -l)" -eq 2
     [ -c /dev/full ] || return
     ln -sf /dev/full "$fits"
     subdiv -l 4 "$@" "$fits" 2> err

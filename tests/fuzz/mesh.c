@@ -308,6 +308,33 @@ static void draw(const subdiv_surface *s, const subdiv_mesh *fine, bytes *b)
     REQUIRE(is_zero(&buffer, sizeof buffer));
 }
 
+static int on_cage(const subdiv_location *at, int faces)
+{
+    int whole = at->face < 0 || faces != lent.face_count;       // Loop's triangles, of larger faces
+    int size = whole ? 3 : size_of_face(&lent, at->face);
+    return at->face < faces && at->corner >= 0 && at->corner < size && at->u >= 0 && at->u <= 1 &&
+           at->v >= 0 && at->v <= 1;
+}
+
+// Where the points and face-vertices of a result are, and which normals the latter have.
+static void place(const subdiv_surface *s, const subdiv_mesh *fine)
+{
+    int faces = subdiv_surface_cage_face_count(s), sum = (int)face_vertex_sum(fine);
+    subdiv_location *at = (subdiv_location *)need((size_t)fine->vertex_count * sizeof *at);
+    subdiv_location *of_faces = (subdiv_location *)need((size_t)sum * sizeof *of_faces);
+    int *normals = (int *)need((size_t)sum * sizeof *normals);
+    subdiv_options opt = options(0);
+    REQUIRE(settled(subdiv_surface_locations(s, at, of_faces, &opt)));
+    for (int i = 0; i < fine->vertex_count; i++)
+        REQUIRE(at[i].face >= -1 && on_cage(at + i, faces));
+    for (int i = 0; i < sum; i++) REQUIRE(of_faces[i].face >= 0 && on_cage(of_faces + i, faces));
+    opt = options(1);
+    REQUIRE(settled(subdiv_surface_face_normals(s, normals, &opt)));
+    REQUIRE(same_bytes(normals, fine->face_normals ? fine->face_normals : fine->face_vertices, sum,
+                       sizeof(int)));
+    free(at), free(of_faces), free(normals);
+}
+
 static void door_limit(bytes *b)
 {
     subdiv_surface *s = NULL;
@@ -345,6 +372,7 @@ static void door_limit(bytes *b)
             REQUIRE(same_bytes(fine.normals, n, 3 * points, sizeof(float)));
             REQUIRE(same_bytes(fine.normals + 3 * points, sides, 3 * others, sizeof(float)));
             draw(s, &fine, b);
+            place(s, &fine);
         }
         subdiv_mesh_free(&fine);
     }
@@ -605,26 +633,54 @@ static void change(bytes *b)
     subdiv_mesh with = lent, before;
     float angle = chance(b, 4) ? any_float(b) : (float)take(b), sharpness = a_sharpness(b);
     const int ends[] = { 0, lent.vertex_count - 1, 0 }, three = 3;
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 6; i++) {
         subdiv_options opt = options(0);
-        with.normals = i ? with.normals : NULL;
+        with.normals = i % 5 ? with.normals : NULL;
         before = with;
         subdiv_result result = i == 0 ? subdiv_normals(&with, &opt)
                              : i == 1 ? subdiv_crease_by_angle(&with, angle, sharpness, &opt)
                              : i == 2 ? subdiv_crease_by_smoothing_groups(&with, sharpness, &opt)
                              : i == 3 ? subdiv_crease_by_uv_seams(&with, sharpness, &opt)
-                             : subdiv_crease_chains(&with, 1, &three, ends, 1, &sharpness, &opt);
+                             : i == 4 ? subdiv_crease_chains(&with, 1, &three, ends, 1, &sharpness,
+                                                             &opt)
+                             : subdiv_normals_by_angle(&with, angle, &opt);
         if (!settled(result)) {
             REQUIRE(memcmp(&with, &before, sizeof with) == 0);
             continue;
         }
         REQUIRE(with.crease_count >= before.crease_count);
         REQUIRE(all_in(with.crease_vertices, 2 * (size_t)with.crease_count, 0, with.vertex_count));
-        for (int v = 0; v < with.vertex_count && i == 0; v++)
-            REQUIRE(is_normal(with.normals + 3 * (size_t)v));
+        for (int n = 0; n < with.normal_count && i % 5 == 0; n++)
+            REQUIRE(is_normal(with.normals + 3 * (size_t)n));
     }
     subdiv_mesh_free(&with);
     REQUIRE(mesh_is_zero(&with));
+}
+
+// A curve through some vertices stays among them.
+static void bend(bytes *b)
+{
+    subdiv_curve_rule rule = (subdiv_curve_rule)below(b, 2 + wild);
+    subdiv_curve_ends ends = (subdiv_curve_ends)below(b, 3 + wild);
+    int levels = below(b, 5) - wild, count = below(b, c.vertices + 1), stride = 3 + below(b, 2);
+    int made = subdiv_curve_point_count(rule, ends, count, levels);
+    float *out = make_out(stride, made);
+    subdiv_options opt = options(0);
+    subdiv_result result = subdiv_curve(rule, ends, levels, 3, count, c.positions, 3, out, stride,
+                                        &opt);
+    REQUIRE(settled(result) == (made > 0));
+    for (int i = 0; i < made && reach() < 1e30f; i++)
+        REQUIRE(all_within(out + (size_t)i * (size_t)stride, 3, 1.001f * reach()));
+    free(out);
+}
+
+static void join(void)
+{
+    int firsts[VERTICES];
+    subdiv_options opt = options(0);
+    REQUIRE(settled(subdiv_join_values(firsts, 3, c.vertices, c.positions, &opt)));
+    for (int i = 0; i < c.vertices; i++)
+        REQUIRE(firsts[i] >= 0 && firsts[i] <= i && firsts[firsts[i]] == firsts[i]);
 }
 
 static void door_tools(bytes *b)
@@ -632,6 +688,8 @@ static void door_tools(bytes *b)
     look();
     explain(b);
     change(b);
+    bend(b);
+    join();
 }
 
 // ------------------------------------------------------------------------------------------- OBJ

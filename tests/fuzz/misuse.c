@@ -194,6 +194,15 @@ static void getters(void)
     spoiled += s->exact || size == 0;
     int *to = (int *)needed(vertices);
     end_call(subdiv_surface_faces(s->surface, to, below(b, 2) ? of : NULL, opt));
+    spoiled = !s->surface || s->exact || s->values;
+    subdiv_location *places = (subdiv_location *)need(sizeof *places * (size_t)s->points);
+    end_call(subdiv_surface_locations(s->surface, below(b, 2) ? places : NULL, NULL, opt));
+    free(places);
+    if (size) {                           // of level 0 there are others
+        spoiled = !s->limit;
+        to = (int *)needed(vertices);
+        end_call(subdiv_surface_face_normals(s->surface, to, opt));
+    }
     subdiv_surface_edges(s->surface, ends);
     REQUIRE(s->exact || all_in((int[]){ subdiv_first_inside(s->surface, any_int(b)) }, 1, 0,
                                s->points + 1));
@@ -271,7 +280,7 @@ static void evaluate_limit(void)
 static void anywhere(void)
 {
     const slot *s = a_slot();
-    int channels = 1 + below(b, CHANNELS), stride = a_stride(channels), stencils = below(b, 2);
+    int channels = 1 + below(b, CHANNELS), stride = a_stride(channels), kind = below(b, 3);
     int face = spoil(0, 0, s->faces), corner = spoil(0, 0, 1), count = spoil(2, 0, 3);
     subdiv_location at[2] = { { face, corner, 0.25f, 0.5f }, { face, corner, 0, 1e-6f } };
     const subdiv_location *from = at;
@@ -283,7 +292,7 @@ static void anywhere(void)
     if (count == 0) spoiled = stride && stride < channels;      // then there is no location
     if (count) from = (const subdiv_location *)needed(at);
     if (below(b, 2)) where.normals = n;
-    if (stencils) {
+    if (kind == 1) {
         spoiled -= stride && stride < channels;
         spoiled += !s->surface || !s->exact;
         memset(&made, 0x55, sizeof made);
@@ -291,6 +300,10 @@ static void anywhere(void)
         if (!good) REQUIRE(is_zero(&made, sizeof made));
         subdiv_stencils_free(&made);
         subdiv_stencils_free(&made);
+    } else if (kind == 2) {
+        spoiled -= stride && stride < channels;
+        spoiled += !s->surface || !s->exact || s->values || (stride && stride < 4);
+        end_call(subdiv_tangents_at(s->surface, needed(scratch), count, from, p, stride, opt));
     } else {
         void *lent = needed(scratch);
         subdiv_derivatives *to = (subdiv_derivatives *)needed(&where);
@@ -312,6 +325,69 @@ static void stencils(void)
     int good = end_call(subdiv_refined_stencils(to, s->surface, point, points, opt));
     if (to && !good) REQUIRE(is_zero(&made, sizeof made));
     if (to) subdiv_stencils_free(&made);
+}
+
+// Fills a buffer from the mesh that it was made of, or from any surface.
+static void fill_buffer(const subdiv_buffer *buffer, const subdiv_mesh *fine)
+{
+    const slot *s = a_slot();
+    int normals = s->limit ? subdiv_surface_normal_count(s->surface) : s->points;
+    float *p = floats(buffer->vertex_count), *n = floats(buffer->vertex_count);
+    begin_call();
+    subdiv_vertices out = { p, below(b, 2) ? n : NULL, NULL, NULL, a_stride(3) };
+    const subdiv_vertices *to = (const subdiv_vertices *)needed(&out);
+    const subdiv_buffer *of = (const subdiv_buffer *)needed((void *)(size_t)buffer);
+    int good;
+    if (below(b, 2)) {
+        const subdiv_mesh *from = (const subdiv_mesh *)needed((void *)(size_t)fine);
+        spoiled += out.normals && !fine->normals;
+        good = end_call(subdiv_fill_buffer(of, from, to, opt));
+    } else {
+        const float *positions = (const float *)needed(P);
+        spoiled += !s->surface || s->exact || s->values || (out.normals && !s->limit) ||
+                   s->points != buffer->point_count || normals != buffer->normal_count;
+        good = end_call(subdiv_evaluate_buffer(of, s->surface, positions, to, NULL, opt));
+    }
+    REQUIRE(good || (untouched(p, buffer->vertex_count) && untouched(n, buffer->vertex_count)));
+    free(p), free(n);
+}
+
+static void draw(void)
+{
+    const slot *s = a_slot();
+    subdiv_mesh fine, other = {0};
+    subdiv_buffer made, *to = (subdiv_buffer *)needed(&made);
+    int size = spoil(4, 4, 5);
+    if (size == 2) spoiled--;
+    if (!s->surface || s->exact || s->values) return;
+    REQUIRE(subdiv_surface_mesh(&fine, s->surface, P, NULL) == SUBDIV_OK);
+    const subdiv_mesh *of = (const subdiv_mesh *)needed(below(b, 16) ? &fine : &other);
+    spoiled += of == &other;
+    memset(&made, 0x55, sizeof made);
+    if (end_call(subdiv_make_buffer(to, of, size, opt))) {
+        fill_buffer(&made, &fine);
+        fill_buffer(&made, &fine);
+    } else if (to) REQUIRE(is_zero(&made, sizeof made));
+    if (to) subdiv_buffer_free(&made);
+    subdiv_mesh_free(&fine);
+}
+
+static void curve(void)
+{
+    int rule = spoil(1, 0, 2), ends = spoil(2, 0, 3), levels = spoil_levels(2, 0);
+    int count = spoil(VERTICES, 3, VERTICES + 1);
+    int channels = 1 + below(b, CHANNELS), in_stride = a_stride(channels);
+    int out_stride = a_stride(channels);
+    float *in = floats(VERTICES), *out = floats(8 * VERTICES);
+    if (count > VERTICES) count |= 1 << 30;                     // or it would be a lie
+    if (levels == 0 && count > VERTICES) levels = 2;
+    if (count == 1 || count == 2) spoiled -= ends != SUBDIV_ENDS_CUT;
+    const float *from = (const float *)needed(in);
+    int good = end_call(subdiv_curve((subdiv_curve_rule)rule, (subdiv_curve_ends)ends, levels,
+                                     channels, count, from, in_stride, (float *)needed(out),
+                                     out_stride, opt));
+    REQUIRE(untouched(in, VERTICES) && (good || untouched(out, 8 * VERTICES)));
+    free(in), free(out);
 }
 
 // ------------------------------------------------------------------------------------ other tools
@@ -367,6 +443,41 @@ static void tools(void)
     subdiv_mesh_free(NULL);
     subdiv_stencils_free(NULL);
     subdiv_surface_free(NULL);
+}
+
+static void chains(void)
+{
+    subdiv_mesh copy = cage, *of = (subdiv_mesh *)needed(&copy);
+    int size = spoil(2, 2, 3), count = spoil(1, 1, 2);
+    float sharpness = below(b, 4) ? 1 : any_float(b);
+    const int *ends = size > 2 ? NULL : (const int *)needed(E);     // or it would be a lie
+    if (count > 1) spoiled--, count = 1;
+    spoiled += sharpness != sharpness;
+    copy.memory = NULL;
+    end_call(subdiv_crease_chains(of, count, &size, ends, 1, &sharpness, opt));
+    if (spoiled) REQUIRE(memcmp(&copy, &cage, sizeof cage) == 0);
+    subdiv_mesh_free(&copy);
+}
+
+static void explain_points(void)
+{
+    subdiv_explanation points, *to = (subdiv_explanation *)needed(&points);
+    memset(&points, 0x55, sizeof points);
+    int good = end_call(subdiv_explain_points(to, (const subdiv_mesh *)needed(&cage), opt));
+    if (to && !good) REQUIRE(is_zero(&points, sizeof points));
+    if (to) subdiv_explanation_free(&points);
+}
+
+static void join(void)
+{
+    int firsts[4] = { 9, 9, 9, 9 }, channels = spoil(2, 1, 3), count = spoil(4, 0, 5);
+    int *to = (int *)needed(firsts);
+    const float *values = (const float *)needed(UV);
+    if (count > 4) count = -count;        // or it would be a lie
+    if (channels > 2) channels = -channels;
+    if (count == 0) spoiled = channels < 1;
+    end_call(subdiv_join_values(to, channels, count, values, opt));
+    if (spoiled) REQUIRE(firsts[0] == 9 && firsts[3] == 9);
 }
 
 // -------------------------------------------------------------------------------------------- OBJ
@@ -472,7 +583,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     void (*const calls[])(void) = { prepare, make_mesh, evaluate, evaluate_part, anywhere, stencils,
                                     tools, prepare, evaluate_limit, load, save, getters, prepare,
-                                    refine_itself };
+                                    refine_itself, draw, curve, chains,
+                                    explain_points, join };
     b->at = data;
     b->end = data + size;
     cage = new_cage();
