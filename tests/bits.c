@@ -12,9 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { READ, REFINED, EVALUATED, LIMIT, EXACT, TESSELLATED, STENCILS, CREASES, WRITTEN, KINDS };
+enum { READ, REFINED, EVALUATED, LIMIT, EXACT, TESSELLATED, STENCILS, CREASES, CURVES, WRITTEN,
+       KINDS };
 static const char *const names[KINDS] = { "read", "refined", "evaluated", "limit", "exact",
-                                          "tessellated", "stencils", "creases", "written" };
+                                          "tessellated", "stencils", "creases", "curves",
+                                          "written" };
 static unsigned long long sums[KINDS];
 
 static void add(int kind, unsigned bits)
@@ -169,8 +171,24 @@ static void add_creases(const subdiv_mesh *m, float degrees)
     subdiv_mesh_free(&creased);
 }
 
+// A closed curve through the vertices, refined and put on its limit.
+static void add_curve(const subdiv_mesh *m, subdiv_curve_rule rule)
+{
+    const subdiv_curve_ends ends = SUBDIV_ENDS_CLOSED;
+    const int count = subdiv_curve_point_count(rule, ends, m->vertex_count, 3);
+    float *out = (float *)malloc(3 * sizeof(float) * (size_t)count);
+    subdiv_options opt;
+    memset(&opt, 0, sizeof opt);
+    opt.limit = 1;
+    if (!out || subdiv_curve(rule, ends, 3, 3, m->vertex_count, m->positions, 0, out, 0, &opt))
+        abort();
+    add_floats(CURVES, out, 3 * (size_t)count);
+    free(out);
+}
+
 static void add_cage(const subdiv_mesh *m, int i)
 {
+    add_curve(m, i % 2 ? SUBDIV_CURVE_CHAIKIN : SUBDIV_CURVE_B_SPLINE);
     add_refined(m, 1 + i % 2, 0);
     add_refined(m, i % 3, 1);
     add_evaluated(m, 1 + i % 4, i % 4 ? 3 : 1 + i / 4 % 9, i % 11 == 0);
