@@ -202,21 +202,23 @@ endif
 	@sh tests/lib/sum.sh $(TEST_LOGS)
 
 # The sanitizers share the tests: those that take an implementation of their own go to the first
-# compiler, the others to the last, of which clang also finds unsigned numbers that overflow. The
-# sanitizers have a stack of their own.
+# compiler, the others to the last, of which clang also finds unsigned numbers that overflow and
+# arithmetic on NULL: so that of wrong arguments is one of them. The sanitizers have a stack of their
+# own.
 COMPILERS := $(foreach c,gcc clang,$(if $(shell command -v $c 2> /dev/null),$c))
 CHECK     = $(OUT)/check
 SANITIZE  = -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 INTEGER   = -fsanitize=integer -fsanitize-ignorelist=tests/lib/integer.txt
 SANITIZED_LOGS = $(MAKE) --no-print-directory logs
-PLAIN_TESTS = $(filter-out exact_oracle stack,$(PLAIN))
-SANITIZED = $(OWN:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
+OWN_TESTS   = $(filter-out memory,$(OWN))
+PLAIN_TESTS = memory $(filter-out exact_oracle stack,$(PLAIN))
+SANITIZED = $(OWN_TESTS:%=$(CHECK)/own/%.log) $(PLAIN_TESTS:%=$(CHECK)/plain/%.log)
 BITS      = $(COMPILERS) $(shell command -v tcc > /dev/null && echo tcc)
 CHECK_LOGS = $(BITS:%=$(CHECK)/bits_%.log) $(CHECK)/growth.log $(COMPILERS:%=$(CHECK)/%.log) \
              $(CHECK)/threads.log $(CHECK)/lint.log
 
 sanitize_own:
-	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN)" \
+	@+$(SANITIZED_LOGS) OUT=$(CHECK)/own CC=$(firstword $(COMPILERS)) TESTS="$(OWN_TESTS)" \
 		CFLAGS="$(SANITIZE)"
 
 sanitize_plain:

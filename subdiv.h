@@ -11302,7 +11302,8 @@ SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const
         context.result = subdiv_evaluate_at(surface, 3, scratch, some, locations, &of, opt);
         if (!context.result)
             context.result = subdiv_evaluate_at(uv, 2, uv_scratch, some, locations, &of_uv, opt);
-        for (int i = 0; i < some && !context.result; i++, tangents += stride)
+        if (context.result) break;
+        for (int i = 0; i < some; i++, tangents += stride)
             sdv_make_tangent(f + WIDTH * i, surface->rules.left_handed, tangents);
         left -= some;
         locations += some;
