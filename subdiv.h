@@ -11295,7 +11295,7 @@ SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const
     void *uv_scratch = SDV_NEW(&context, &arena, char, subdiv_scratch_size(uv, 2));
     if (!context.result)
         context.result = subdiv_evaluate_begin(uv, 2, surface->uvs, 2, uv_scratch, opt);
-    for (int left = count; left != 0 && !context.result; ) {
+    for (int left = count, more = 1; more && !context.result; ) {     // once at least, to check
         const subdiv_derivatives of = { NULL, f, f + 3, NULL, NULL, NULL, f + 6, WIDTH };
         const subdiv_derivatives of_uv = { NULL, f + 9, f + 11, NULL, NULL, NULL, NULL, WIDTH };
         int some = left < SDV_TANGENTS ? left : SDV_TANGENTS;
@@ -11306,7 +11306,8 @@ SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const
         for (int i = 0; i < some; i++, tangents += stride)
             sdv_make_tangent(f + WIDTH * i, surface->rules.left_handed, tangents);
         left -= some;
-        locations += some;
+        more = left > 0;
+        if (more) locations += some;
     }
     sdv_arena_free(&arena);
     return context.result;

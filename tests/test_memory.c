@@ -1172,6 +1172,7 @@ static void wrong_places(void)
     WRONG(ARGUMENT, subdiv_evaluate_at(exact, 2, work, 1, &at, &normals, opt));
     WRONG(ARGUMENT, subdiv_tangents_at(NULL, work, 1, &at, o.out, 0, opt));
     WRONG(ARGUMENT, subdiv_tangents_at(k.plain, work, 1, &at, o.out, 0, opt));
+    WRONG(ARGUMENT, subdiv_tangents_at(k.plain, work, 0, NULL, o.out, 0, opt));
     WRONG(ARGUMENT, subdiv_tangents_at(k.exact_values, work, 1, &at, o.out, 0, opt));
     WRONG(ARGUMENT, subdiv_tangents_at(exact, NULL, 1, &at, o.out, 0, opt));
     WRONG(ARGUMENT, subdiv_tangents_at(exact, work, -1, &at, o.out, 0, opt));
