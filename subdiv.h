@@ -538,7 +538,8 @@ SUBDIV_DEF subdiv_result subdiv_evaluate_limit_faces(const subdiv_surface *surfa
 // Gives any mesh normals: at each vertex the sum of its faces' normals, weighted by their areas and
 // scaled to length 1; or 0 if there is none. Each side of an infinitely sharp crease, and each fan
 // of faces at non-manifold places, has its own, as in a limit, unless opt->one_normal is set, which
-// is faster. Arrays that have the room are filled, else the mesh gets new ones.
+// is faster. Arrays that have the room are filled, else the mesh gets new ones. Error TOO_LARGE:
+// more than 2^30 face-vertices, without opt->one_normal.
 SUBDIV_DEF subdiv_result subdiv_normals(subdiv_mesh *mesh, const subdiv_options *opt);
 
 // Gives a mesh such normals, whatever opt->one_normal says. Splits them also where the normals of
@@ -2621,7 +2622,8 @@ static int sdv_counter_clockwise(const sdv_level *level, int h)
 // Every rule of refinement, once. A mask is a set of weights that sum to 1. Refinement multiplies
 // the points around by these weights and adds them up, whatever the points are. Change a weight
 // here, and every point, limit, stencil and explanation follows, as the weights are scaled to sum
-// to 1 again; SUBDIV_EXACT refuses a mask that makes no spline.
+// to 1 again (but the face point's, which has to stay 1/n); SUBDIV_EXACT refuses a mask that makes
+// no spline.
 //
 //     point = self v + edge (sum of neighbours) + face (sum of face points)
 //                    + crease (sum of the two neighbours along the crease)
@@ -6191,11 +6193,11 @@ SDV_INLINE void sdv_put_four(float *values, size_t stride, sdv_four *x, const in
 
 enum { SDV_WAITING = 8 };               // points that wait at most; a multiple of 4
 
-typedef struct sdv_tangents {           // goes with an sdv_window and has the same points
+typedef struct sdv_tangents {           // goes with an sdv_window, or with samples
     float *normals, *tangents;          // where they go, or NULL
     size_t stride, tangent_stride;      // floats from point to point
     int      count;                     // points that wait until there are enough;
-    int      at[SDV_WAITING];           // their places in the window
+    int      at[SDV_WAITING];           // their places in the window, or their numbers
     sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents,
     int      from[SDV_WAITING];         // and the work points that they are made from, or -1:
     const float *work;                  // rounding is in proportion to their size
@@ -10993,7 +10995,7 @@ typedef struct sdv_queue {
     uint32_t    *keys;                  // [room] from the highest bit: nest, level, face, quarter
     int         *order[2];              // [room] sorted, and while they are
     double      *w;                     // [4 * most_work] for a nest
-    sdv_tangents normals;               // of other samples, which wait until there are four
+    sdv_tangents normals;               // of other samples, which wait as those of limits do
 } sdv_queue;
 
 // Makes an empty queue for a job's share of the locations.
