@@ -276,10 +276,10 @@ typedef enum subdiv_vertex_rule {
 } subdiv_vertex_rule;
 
 // A rule of your own: sets the weights of v, R and Q (Loop: of v and R) for a valence, 1 or more.
-// They come in as 0. Weights that are not finite, or do not sum to 1, are an error that names the
-// valence. The library calls your function only while it prepares (1 level or more, a limit or
-// SUBDIV_EXACT) or explains: for the regular valence, for those of all vertices that may be smooth
-// on some level and, under Catmull-Clark, for the sizes of faces.
+// All weights are 0 before the call. Weights that are not finite after it, or do not sum to 1, are
+// an error that names the valence. The library calls your function only while it prepares (1 level
+// or more, a limit or SUBDIV_EXACT) or explains: for the regular valence, for those of all vertices
+// that may be smooth on some level and, under Catmull-Clark, for the sizes of faces.
 typedef void (*subdiv_vertex_weights)(void *user, int valence, double weights[3]);
 
 // A mesh: the cage that goes in and the result that comes out. Zero it, then fill what you have.
@@ -494,10 +494,10 @@ SUBDIV_DEF int subdiv_first_inside(const subdiv_surface *surface, int cage_face)
 // face_normals: normals 0 to vertex_count - 1 are those of the points, the others follow. (On a
 // linear surface each edge of the cage is a crease.)
 //
-// Some vertices have no tangent plane. For shading, their normal lies between those around
-// * at a corner with more than 2 faces (Loop: 3) between two creases, or without creases;
-// * at a crease with more than 4 faces (Loop: 6) on that side; and between two quads back to back.
-// It is 0 without faces, between two triangles back to back, where a tangent is 0 or both are
+// Some vertices have no tangent plane. For shading, the normal of some of these lies between those
+// around: at a corner with more than 2 faces (Loop: 3) between two creases, or without creases; at
+// a crease with more than 4 faces (Loop: 6) on that side; and between two quads back to back. The
+// normal is 0 without faces, between two triangles back to back, where a tangent is 0 or both are
 // parallel (to within rounding), and where the vertex rule makes a spike, as "five-eighths" does at
 // valence 3. Error ARGUMENT: the vertex_weights of some valence lead to no limit.
 
@@ -11297,7 +11297,7 @@ SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const
     void *uv_scratch = SDV_NEW(&context, &arena, char, subdiv_scratch_size(uv, 2));
     if (!context.result)
         context.result = subdiv_evaluate_begin(uv, 2, surface->uvs, 2, uv_scratch, opt);
-    for (int left = count, more = 1; more && !context.result; ) {     // once at least, to check
+    for (int left = count; !context.result; left -= SDV_TANGENTS, locations += SDV_TANGENTS) {
         const subdiv_derivatives of = { NULL, f, f + 3, NULL, NULL, NULL, f + 6, WIDTH };
         const subdiv_derivatives of_uv = { NULL, f + 9, f + 11, NULL, NULL, NULL, NULL, WIDTH };
         int some = left < SDV_TANGENTS ? left : SDV_TANGENTS;
@@ -11307,9 +11307,7 @@ SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const
         if (context.result) break;
         for (int i = 0; i < some; i++, tangents += stride)
             sdv_make_tangent(f + WIDTH * i, surface->rules.left_handed, tangents);
-        left -= some;
-        more = left > 0;
-        if (more) locations += some;
+        if (some == left) break;                        // after one call at least, which checks
     }
     sdv_arena_free(&arena);
     return context.result;

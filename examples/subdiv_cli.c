@@ -486,9 +486,11 @@ static int refine(work *w, const command *cmd, const subdiv_options *opt)
     if (subdiv_prepare(&w->surface, &w->cage, levels, opt)) return report(cmd->input, opt);
     int vertex_count = subdiv_surface_vertex_count(w->surface);
     end_step(levels == SUBDIV_EXACT ? w->cage.vertex_count : vertex_count);
+    // A point and its normal take 24 bytes of a page, a corner of a face 4.
+    double corners = (double)subdiv_surface_face_count(w->surface) *
+                     (w->cage.scheme == SUBDIV_LOOP ? 3 : 4);
     if (cmd->given[HTML] == 1 && levels != SUBDIV_EXACT &&
-        check_page(cmd, w->surface, w->cage.scheme == SUBDIV_LOOP ? 3 : 4, opt))
-        return report(cmd->input, opt);
+        check_page(cmd, 24.0 * vertex_count + 4 * corners, opt)) return report(cmd->input, opt);
     if (cmd->given[STREAM] == 1 || (vertex_count > LARGE && !is_mesh))
         return stream(w, cmd, opt);
     return refine_then_save(w, cmd, opt);

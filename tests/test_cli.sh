@@ -1091,6 +1091,8 @@ ends 2 --html page.png box.obj
 ends 2 --html page.html --stream box.obj
 ends 1 --html page.html --curve chaikin box.obj
 says "no polylines"
+ends 1 --curve chaikin -l 22 --html page.html lines.obj
+says "the page would have at least 671 MB, 100 are allowed: take fewer levels"
 ends 0 --curve chaikin -l 2 --html page.html lines.obj
 for level in 0 1 2; do
     ends 0 --curve chaikin -l $level lines.obj level.obj

@@ -142,8 +142,7 @@ void   end_threads(void);
 int    inspect(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt);
 int    explain_all(const subdiv_mesh *cage, const command *cmd, const subdiv_options *opt);
 int    draw_picture(work *w, const command *cmd, const subdiv_options *opt);
-subdiv_result check_page(const command *cmd, const subdiv_surface *surface, int corners,
-                         const subdiv_options *opt);         // corners: of each face
+subdiv_result check_page(const command *cmd, double bytes, const subdiv_options *opt);  // at least
 int    write_page(const work *w, const command *cmd, const subdiv_options *opt);
 extern const char *const viewer_page[], *const viewer_script[], *const viewer_draw[];   // to NULL
 subdiv_result refine_curves(work *w, const command *cmd, const subdiv_options *opt);

@@ -66,7 +66,10 @@ subdiv_result refine_curves(work *w, const command *cmd, const subdiv_options *o
         points += line.count ? (size_t)line.count : (size_t)INT_MAX + 1;
         vertices += (size_t)line.count + (line.ends == SUBDIV_ENDS_CLOSED);
     }
-    subdiv_result result = make_room_for_curves(w, points, vertices, opt);
+    // A point takes 12 bytes of a page, a piece of a line 8.
+    subdiv_result result = cmd->given[HTML] != 1 ? SUBDIV_OK
+                         : check_page(cmd, 12 * (double)points + 8 * (double)vertices, opt);
+    if (!result) result = make_room_for_curves(w, points, vertices, opt);
     int *to = w->fine.line_vertices, first = 0;
     v = cage->line_vertices;
     for (int i = 0; i < cage->line_count && !result; v += cage->line_sizes[i++]) {
