@@ -11307,7 +11307,7 @@ SUBDIV_DEF subdiv_result subdiv_tangents_at(const subdiv_surface *surface, const
         if (context.result) break;
         for (int i = 0; i < some; i++, tangents += stride)
             sdv_make_tangent(f + WIDTH * i, surface->rules.left_handed, tangents);
-        if (some == left) break;                        // after one call at least, which checks
+        if (left <= SDV_TANGENTS) break;                // after one call at least, which checks
     }
     sdv_arena_free(&arena);
     return context.result;
