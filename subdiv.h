@@ -1886,6 +1886,8 @@ static void sdv_check_mesh(sdv_context *context, const subdiv_mesh *mesh)
     if (mesh->vertex_count == 0) sdv_fail(context, SUBDIV_ERROR_EMPTY, "the mesh has no vertices");
     if (mesh->vertex_count < 0)
         sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "vertex_count is %d", mesh->vertex_count);
+    if (mesh->face_count == 0 && mesh->face_size && mesh->face_size < 3)
+        sdv_fail(context, SUBDIV_ERROR_ARGUMENT, "face_size is %d", mesh->face_size);
     sdv_check_arrays(context, mesh);
     sdv_check_rules(context, mesh);
     uint64_t size = mesh->face_size > 0 ? (uint64_t)mesh->face_size : 0;

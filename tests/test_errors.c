@@ -66,6 +66,8 @@ static void fewer_creases(subdiv_mesh *m)   { m->crease_count = -1; }
 static void fewer_corners(subdiv_mesh *m)   { m->corner_count = INT_MIN; }
 static void fewer_holes(subdiv_mesh *m)     { m->hole_count = -2; }
 static void negative_size(subdiv_mesh *m)   { m->face_size = -4; }
+static void no_faces(subdiv_mesh *m)        { m->face_count = 0;  m->face_size = -4; }
+static void no_pairs(subdiv_mesh *m)        { m->face_count = 0;  m->face_size = 2; }
 static void null_sizes(subdiv_mesh *m)      { m->face_sizes = NULL; }
 static void null_faces(subdiv_mesh *m)      { m->face_vertices = NULL; }
 static void null_creases(subdiv_mesh *m)    { m->crease_vertices = NULL; }
@@ -142,6 +144,8 @@ static const broken broken_meshes[] = {
     BROKEN(fewer_creases,   ARGUMENT,  -1, -1, "-1"),
     BROKEN(fewer_corners,   ARGUMENT,  -1, -1, "-2147483648"),
     BROKEN(fewer_holes,     ARGUMENT,  -1, -1, "-2"),
+    BROKEN(no_faces,        ARGUMENT,  -1, -1, "face_size is -4"),
+    BROKEN(no_pairs,        ARGUMENT,  -1, -1, "face_size is 2"),
     BROKEN(null_sizes,      ARGUMENT,  -1, -1, "face_size"),
     BROKEN(null_faces,      ARGUMENT,  -1, -1, "face_vertices"),
     BROKEN(null_creases,    ARGUMENT,  -1, -1, "crease_vertices"),
