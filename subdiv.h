@@ -6132,6 +6132,7 @@ typedef struct sdv_window {             // the points to write, up to four chann
     int    first, count;                // points first to first + count - 1 are written
     int    clip;                        // points outside this range come, too, and are left out
     struct sdv_tangents *tangents;      // of a limit: where normals and tangents go, or NULL
+    int    all;                         // of a limit: all points and normals go, but no tangents
     sdv_four origin;                    // from where points are seen: see sdv_find_origin
     sdv_four unmoved;                   // 1 in channels where that is 0, else 0
 } sdv_window;
@@ -6139,7 +6140,8 @@ typedef struct sdv_window {             // the points to write, up to four chann
 static sdv_window sdv_window_of(float *values, size_t stride, int lanes, int first, int count,
                                 int clip)
 {
-    sdv_window window = { values, stride, lanes, first, count, clip, NULL, sdv_all(0), sdv_all(1) };
+    sdv_window window = { values, stride, lanes, first, count, clip, NULL, 0,
+                          sdv_all(0), sdv_all(1) };
     return window;
 }
 
@@ -6180,28 +6182,24 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     sdv_put_whole(out, index, sdv_plus(out->origin, a));
 }
 
-// Writes four vectors to places at in the window, if not below 0. Lane i of x[k] is channel k of
-// vector i.
+// Writes four vectors to places at in the window. Lane i of x[k] is channel k of vector i.
 SDV_INLINE void sdv_put_four(float *values, size_t stride, sdv_four *x, const int *at)
 {
     sdv_transpose(x);
-    for (int i = 0; i < 4; i++)
-        if (at[i] >= 0) sdv_store_three(values + stride * (size_t)at[i], x[i]);
+    for (int i = 0; i < 4; i++) sdv_store_three(values + stride * (size_t)at[i], x[i]);
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
 // Writes the normals and tangents of the limit's points. Rows and grids make the tangents; normals
 // are made from these, four at a time.
 
-enum { SDV_WAITING = 8 };               // points that wait at most; a multiple of 4
-
 typedef struct sdv_tangents {           // goes with an sdv_window, or with samples
     float *normals, *tangents;          // where they go, or NULL
     size_t stride, tangent_stride;      // floats from point to point
-    int      count;                     // points that wait until there are enough;
-    int      at[SDV_WAITING];           // their places in the window, or their numbers
-    sdv_four along[SDV_WAITING], across[SDV_WAITING];   // their tangents,
-    int      from[SDV_WAITING];         // and the work points that they are made from, or -1:
+    int      count;                     // points that wait until there are four;
+    int      at[4];                     // their places in the window, or their numbers
+    sdv_four along[4], across[4];       // their tangents,
+    int      from[4];                   // and the work points that they are made from, or -1:
     const float *work;                  // rounding is in proportion to their size
     int      left_handed;               // normals are turned round
 } sdv_tangents;
@@ -6259,9 +6257,9 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
 
 // Makes the unit normals of four pairs of tangents, channel by channel. Floats suffice unless their
 // products are too small or too large, a or b may be a fold's, or they are almost parallel: n n =
-// a a b b sin^2, and a small sine costs digits. from: of each, as sdv_unit_normal has it.
-SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const float *const *from,
-                                 sdv_four *n)
+// a a b b sin^2, and a small sine costs digits. from: the work point of each, or -1; or NULL.
+SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const int *from,
+                                 const float *work, sdv_four *n)
 {
     const float least_sin2 = 1.0f / 64, thin = 1e-6f;
     for (int i = 0; i < 3; i++) {
@@ -6282,44 +6280,38 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const flo
     for (int i = 0; i < 9; i++) sdv_store(vectors[i / 3][i % 3], of[i / 3][i % 3]);
     for (int k = 0; k < 4; k++) {
         if (squares[0][k] < squares[1][k] && least_sin2 * squares[1][k] < squares[2][k]) continue;
+        const float *point = from && from[k] >= 0 ? work + 4 * (size_t)from[k] : NULL;
         for (int i = 0; i < 9; i++) lane[i / 3][i % 3] = vectors[i / 3][i % 3][k];
-        sdv_unit_normal(lane[1], lane[2], from[k], lane[0]);
+        sdv_unit_normal(lane[1], lane[2], point, lane[0]);
         for (int i = 0; i < 3; i++) vectors[0][i][k] = lane[0][i];
     }
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// Writes the normals and tangents of four points, given channel by channel, to places at, if not
-// below 0.
-static void sdv_put_four_tangents(const sdv_tangents *tangents, const int *at, sdv_four *along,
-                                  sdv_four *across, const int *from)
+// Writes the normals and tangents of the points that wait: of fewer than four, the last again.
+static void sdv_flush_tangents(sdv_tangents *tangents)
 {
-    const float *points[4];
-    sdv_four normal[4];
-    for (int k = 0; k < 4; k++)
-        points[k] = at[k] < 0 || from[k] < 0 ? NULL : tangents->work + 4 * (size_t)from[k];
+    sdv_four *along = tangents->along, *across = tangents->across, normal[4];
+    int left = tangents->left_handed, *at = tangents->at, *from = tangents->from;
+    for (int i = tangents->count; i % 4 > 0; i++) {
+        at[i] = at[i - 1];
+        from[i] = from[i - 1];
+        along[i] = along[i - 1];
+        across[i] = across[i - 1];
+    }
+    if (tangents->count == 0) return;
+    tangents->count = 0;
+    sdv_transpose(along);
+    sdv_transpose(across);
     if (tangents->normals) {
-        int left = tangents->left_handed;
-        sdv_unit_normals(left ? across : along, left ? along : across, points, normal);
+        sdv_unit_normals(left ? across : along, left ? along : across, from, tangents->work,
+                         normal);
         normal[3] = normal[2];
         sdv_put_four(tangents->normals, tangents->stride, normal, at);
     }
     if (!tangents->tangents) return;
     sdv_put_four(tangents->tangents, tangents->tangent_stride, along, at);
     sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, across, at);
-}
-
-// Writes the normals and tangents of the points that wait.
-static void sdv_flush_tangents(sdv_tangents *tangents)
-{
-    for (int i = tangents->count; i % 4 > 0; i++) tangents->at[i] = -1;
-    for (int i = 0; i < tangents->count; i += 4) {
-        sdv_transpose(tangents->along + i);
-        sdv_transpose(tangents->across + i);
-        sdv_put_four_tangents(tangents, tangents->at + i, tangents->along + i,
-                              tangents->across + i, tangents->from + i);
-    }
-    tangents->count = 0;
 }
 
 // Makes a point wait with its tangents. from: its work point, or -1.
@@ -6331,15 +6323,7 @@ SDV_INLINE void sdv_add_tangents(sdv_tangents *tangents, int at, sdv_four along,
     tangents->along[i] = along;
     tangents->across[i] = across;
     tangents->from[i] = from;
-    if (i + 1 == SDV_WAITING) sdv_flush_tangents(tangents);
-}
-
-// Makes a point wait if the window has it.
-static void sdv_put_tangents(const sdv_window *out, int index, sdv_four along, sdv_four across,
-                             int from)
-{
-    int at = index - out->first;
-    if (at >= 0 && at < out->count) sdv_add_tangents(out->tangents, at, along, across, from);
+    if (i == 3) sdv_flush_tangents(tangents);
 }
 
 // Writes the normals of four points that stand one behind the other.
@@ -6349,13 +6333,33 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     sdv_four normal[4];
     sdv_transpose(along);
     sdv_transpose(across);
-    const float *const none[4] = { NULL, NULL, NULL, NULL };
     int left = tangents->left_handed;
-    sdv_unit_normals(left ? across : along, left ? along : across, none, normal);
+    sdv_unit_normals(left ? across : along, left ? along : across, NULL, NULL, normal);
     normal[3] = normal[2];
     sdv_transpose(normal);
     float *p = tangents->normals + tangents->stride * (size_t)at;
     for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
+}
+
+// Makes a point wait if the window has it.
+SDV_INLINE void sdv_put_tangents(const sdv_window *out, int index, sdv_four along,
+                                 sdv_four across, int from)
+{
+    int at = index - out->first;
+    if (at >= 0 && at < out->count) sdv_add_tangents(out->tangents, at, along, across, from);
+}
+
+// Writes a point of the limit, and makes it wait for its normal. all: as the window says.
+SDV_INLINE void sdv_put_limit(const sdv_window *out, int all, int index, sdv_four p,
+                              sdv_four along, sdv_four across, int from)
+{
+    if (all) {
+        sdv_store_three(out->values + out->stride * (size_t)index, p);
+        sdv_add_tangents(out->tangents, index, along, across, from);
+        return;
+    }
+    sdv_put_whole(out, index, p);
+    if (out->tangents) sdv_put_tangents(out, index, along, across, from);
 }
 
 // --------------------------------------------------------------------------------- >>grids
@@ -6521,11 +6525,11 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
     if (regular) ring = sdv_ring_of(weights, width == 7);
     if (out->tangents) out->tangents->work = work;
     sdv_four p, t0, t1;
+    int all = out->all;
     for (int i = first; i < end; i++, row += stride) {
         if (own) weights = sdv_limit_weights_of(batch, row);
         sdv_limit_row_sums(weights, row + 1, width, regular ? &ring : NULL, work, &p, &t0, &t1);
-        sdv_put_point(out, row[0], p);
-        if (out->tangents) sdv_put_tangents(out, row[0], t0, t1, row[1]);
+        sdv_put_limit(out, all, row[0], sdv_plus(out->origin, p), t0, t1, row[1]);
     }
 }
 
@@ -6618,11 +6622,11 @@ static const sdv_four *sdv_region_at(const sdv_region *region, int row, int colu
 static void sdv_load_side(const sdv_grid *grid, int side, int from, int to, int first, int last,
                           const float *work, sdv_four origin, sdv_four *p)
 {
-    for (int t = first; t <= last; t++) {
-        int index = t == 0 ? grid->corner[from] : t == grid->columns ? grid->corner[to]
-                                                : sdv_side_index(grid, side, t);
-        *p++ = sdv_minus(sdv_load(work + 4 * (size_t)index), origin);
-    }
+    int n = grid->columns, t = first ? first : 1, step = 4 * grid->side[side].step;
+    const float *point = work + 4 * (ptrdiff_t)sdv_side_index(grid, side, t);
+    if (first == 0) *p++ = sdv_minus(sdv_load(work + 4 * (size_t)grid->corner[from]), origin);
+    for (; t <= last && t < n; t++, point += step) *p++ = sdv_minus(sdv_load(point), origin);
+    if (last == n) *p = sdv_minus(sdv_load(work + 4 * (size_t)grid->corner[to]), origin);
 }
 
 // Writes count points from index on, as far as the window has them.
@@ -6964,29 +6968,28 @@ SDV_INLINE void sdv_limit_point(const sdv_ring_weights *w, int loop, int linear,
     sums[2] = sdv_minus(c[0], b[0]);
 }
 
-// Makes the limit of count points of row b, which stand from index on: four at a time for normals
-// without tangents; points that are left over wait for more.
+// Makes the limit of count points of row b, which stand from index on: four at a time if all are
+// wanted.
 SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, const sdv_four *a,
                                      const sdv_four *b, const sdv_four *c, int count, int index,
                                      sdv_four origin, const sdv_window *out)
 {
     const sdv_ring_weights w = sdv_ring_of(limit->w, loop);
-    sdv_four sums[3], t0[4], t1[4];
-    int fours = out->tangents && !out->tangents->tangents && !out->clip && out->values, k = 0;
-    float *to = fours ? out->values + out->stride * (size_t)index : NULL;
-    for (; fours && k + 4 <= count; k += 4, index += 4) {
+    sdv_four sums[3], along[4], across[4];
+    int all = out->all;
+    for (; all && count >= 4; count -= 4, index += 4) {
+        float *to = out->values + out->stride * (size_t)index;
         for (int i = 0; i < 4; i++, a++, b++, c++, to += out->stride) {
             sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
             sdv_store_three(to, sdv_plus(origin, sums[0]));
-            t0[i] = sums[1];
-            t1[i] = sums[2];
+            along[i] = sums[1];
+            across[i] = sums[2];
         }
-        sdv_put_normals(out->tangents, index, t0, t1);
+        sdv_put_normals(out->tangents, index, along, across);
     }
-    for (; k < count; k++, index++, a++, b++, c++) {
+    for (; count > 0; count--, index++, a++, b++, c++) {
         sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
-        sdv_put_whole(out, index, sdv_plus(origin, sums[0]));
-        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], -1);
+        sdv_put_limit(out, all, index, sdv_plus(origin, sums[0]), sums[1], sums[2], -1);
     }
 }
 
@@ -6995,14 +6998,13 @@ static void sdv_limit_region(const sdv_region *region, int n, const sdv_grid_lim
                              const sdv_region_out *to)
 {
     const sdv_cells *cells = &region->cells;
-    int first = cells->left ? cells->left : 1;
-    for (int r = cells->bottom ? cells->bottom : 1; r < cells->top; r++) {
-        int end = to->triangle && n - r < cells->right ? n - r : cells->right;
-        int index = sdv_inside_point(to->first, to->columns, to->triangle, r, first);
-        if (end <= first) continue;
-        const sdv_four *a = sdv_region_at(region, r - 1, first);
-        const sdv_four *b = sdv_region_at(region, r, first);
-        const sdv_four *c = sdv_region_at(region, r + 1, first);
+    int first = cells->left ? cells->left : 1, row = cells->bottom ? cells->bottom : 1;
+    const sdv_four *b = sdv_region_at(region, row, first);
+    for (; row < cells->top; row++, b += region->width) {
+        const sdv_four *a = b - region->width, *c = b + region->width;
+        int end = to->triangle && n - row < cells->right ? n - row : cells->right;
+        if (end <= first) return;
+        int index = sdv_inside_point(to->first, to->columns, to->triangle, row, first);
         if (to->triangle)
             sdv_limit_row_points(limit, 1, a, b, c, end - first, index, to->origin, to->out);
         else sdv_limit_row_points(limit, 0, a, b, c, end - first, index, to->origin, to->out);
@@ -7015,6 +7017,7 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
 {
     const float *on_edges = points + 4 * (size_t)order->first_edge_point;
     const sdv_ring_weights w = sdv_ring_of(limit->w, 0);
+    int all = out->all;
     for (int f = face; f < end; f++) {
         if (sdv_is_ngon(order, f)) continue;
         const int *v = order->cage.face_vertices + sdv_face_start(&order->cage, f);
@@ -7032,8 +7035,8 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
             sums[1] = p[1];
             sums[2] = p[2];
         }
-        sdv_put_point(out, index, sdv_plus(p0, sums[0]));
-        if (out->tangents) sdv_put_tangents(out, index, sums[1], sums[2], -1);
+        sdv_put_limit(out, all, index, sdv_plus(out->origin, sdv_plus(p0, sums[0])), sums[1],
+                      sums[2], -1);
     }
 }
 
@@ -7071,36 +7074,35 @@ static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four o
     sdv_four *p = region->points;
     if (r == 0) sdv_load_side(grid, 0, 0, 1, first, last_column, points, origin, p);
     if (r == 0) p += region->width;
-    for (r += r == 0; r <= last_row && r < n; r++, p += region->width) {
-        int right = grid->triangle ? n - r : n;
-        const float *left_side = points + 4 * (size_t)sdv_side_index(grid, 3, r);
-        const float *right_side = points + 4 * (size_t)sdv_side_index(grid, 1, r);
-        if (first == 0) *p = sdv_minus(sdv_load(left_side), origin);
-        if (first <= right && right <= last_column)
-            p[right - first] = sdv_minus(sdv_load(right_side), origin);
+    if (r == 0) r = 1;
+    const float *left = points + 4 * (ptrdiff_t)sdv_side_index(grid, 3, r);
+    const float *right = points + 4 * (ptrdiff_t)sdv_side_index(grid, 1, r);
+    for (; r <= last_row && r < n; r++, p += region->width) {
+        int column = grid->triangle ? n - r : n;
+        if (first == 0) *p = sdv_minus(sdv_load(left), origin);
+        if (first <= column && column <= last_column)
+            p[column - first] = sdv_minus(sdv_load(right), origin);
+        left += 4 * grid->side[3].step;
+        right += 4 * grid->side[1].step;
     }
     if (last_row < n) return;
     if (!grid->triangle) sdv_load_side(grid, 2, 3, 2, first, last_column, points, origin, p);
     else if (first == 0) *p = sdv_minus(sdv_load(points + 4 * (size_t)grid->corner[2]), origin);
 }
 
-// Loads the points of a region of a whole grid.
-static void sdv_load_region(const sdv_grid *grid, const float *points, sdv_four origin,
-                            sdv_region *region)
+// Loads the points of a whole grid, a region that has more than its cells.
+static void sdv_load_grid(const sdv_grid *grid, const float *points, sdv_four origin,
+                          sdv_region *region)
 {
-    sdv_cells cells = region->cells;
-    int n = grid->columns, first = cells.left > 1 ? cells.left - 1 : 1;
-    region->row = cells.bottom ? cells.bottom - 1 : 0;
-    region->column = cells.left ? cells.left - 1 : 0;
-    region->width = cells.right - region->column + 1;
-    for (int r = region->row ? region->row : 1; r <= cells.top && r < n; r++) {
-        int end = grid->triangle ? n - r : n;
-        const float *from = points + 4 * (size_t)sdv_inside_index(grid, r, first);
-        sdv_four *p = region->points + (r - region->row) * region->width + first - region->column;
-        if (end > cells.right + 1) end = cells.right + 1;
-        for (int c = first; c < end; c++, from += 4) *p++ = sdv_minus(sdv_load(from), origin);
-    }
-    sdv_load_sides(grid, points, origin, region, cells.top, cells.right);
+    int n = grid->columns;
+    const float *from = points + 4 * (size_t)grid->inside;
+    sdv_four *p = region->points + n + 2;
+    region->row = region->column = 0;
+    region->width = n + 1;
+    sdv_load_sides(grid, points, origin, region, n, n);
+    for (int r = 1; r < n; r++, p += n + 1)
+        for (int c = 1; c < (grid->triangle ? n - r : n); c++, from += 4)
+            p[c - 1] = sdv_minus(sdv_load(from), origin);
 }
 
 // Makes the points of a region inside a grid from a region of the level before, of n segments.
@@ -7131,7 +7133,7 @@ static void sdv_make_region(const sdv_interior *in, sdv_cells cells, sdv_region_
     to->origin = sdv_times(to->out->unmoved, sdv_load(points + 4 * (size_t)in->grids[0].corner[0]));
     region.cells = needed[0];
     region.points = last % 2 ? other : room;
-    sdv_load_region(&in->grids[0], points, to->origin, &region);
+    sdv_load_grid(&in->grids[0], points, to->origin, &region);
     for (int i = 1; i <= last; i++) {
         const sdv_grid *grid = &in->grids[i];
         before = region;
@@ -7419,6 +7421,7 @@ static void sdv_make_limit_faces(const sdv_evaluation *e, int face, int end)
     tangents.left_handed = surface->rules.left_handed;
     sdv_see_from(&out, e->work + 4 * (size_t)surface->work_count);
     if (limit->normals || limit->tangents) out.tangents = &tangents;
+    out.all = limit->positions && limit->normals && !limit->tangents && !out.clip;
     sdv_make_faces(surface, e->work, face, end, &out);
     sdv_flush_tangents(&tangents);
     if (!limit->sides || !e->sides) return;
