@@ -16340,15 +16340,21 @@ static void sdv_say_blend(sdv_explainer *x, const char *name, double weight, con
             sdv_fraction(1 - weight, less), smooth);
 }
 
-// Writes the weights of a vertex mask.
+// Writes the weights of a vertex mask, in two lines where one would be too long.
 static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
 {
     const char *const names[] = { "v", "(a + b)", "(e1 + ... + en)", "(f1 + ... + fn)" };
     double weights[] = { mask.self, mask.crease, mask.edge, mask.face };
-    char text[32];
-    for (int i = 0; i < 4; i++)
-        if (fabs(weights[i]) > 0)
-            sdv_say(x->out, "%s%s %s", i ? " + " : "", sdv_fraction(weights[i], text), names[i]);
+    size_t column = strlen("    V = ");
+    char number[32], text[64];
+    for (int i = 0; i < 4; i++) {
+        sdv_text term = { text, 0, sizeof text };
+        if (fabs(weights[i]) <= 0) continue;
+        sdv_say(&term, "%s%s %s", i ? " + " : "", sdv_fraction(weights[i], number), names[i]);
+        if (column + term.size > 80) sdv_say(x->out, "\n       ");
+        sdv_put(x->out, text, term.size);
+        column += term.size;
+    }
     sdv_say(x->out, "\n");
 }
 

@@ -768,6 +768,35 @@ static void test_errors(void)
     }
 }
 
+// Formulas of weights that no paper has may be long: no line of an explanation is.
+static void awkward(void *user, int n, double w[3])
+{
+    (void)user;
+    w[1] = 0.1 + 1.0 / (7 + n);
+    w[2] = 0.1 + 1.0 / (9 + n);
+    w[0] = 1 - w[1] - w[2];
+}
+
+static void test_lines(void)
+{
+    static test_cage c;
+    char text[32768];
+    for (int n = 3; n <= 60; n++)
+        for (int sharp = 0; sharp < 4; sharp++) {
+            build_fan(&c, SUBDIV_CATMULL_CLARK, n, 1);
+            c.mesh.vertex_weights = awkward;
+            for (int i = 0; i < 2 && sharp; i++)
+                cage_crease(&c, 0, 1 + 2 * i, 0.123f + 0.25f * (float)sharp);
+            CHECK_EQUAL(subdiv_explain(text, sizeof text, &c.mesh, 0, NULL), SUBDIV_OK);
+            CHECK(strstr(text, "(f1 + ... + fn)") != NULL);
+            for (const char *line = text; *line; line++) {
+                size_t length = strcspn(line, "\n");
+                CHECK(length <= 80);
+                line += length;
+            }
+        }
+}
+
 // Weights far from the mean throw the vertex to and fro, further each time: it has points on every
 // level, but no limit.
 static void test_no_limit(void)
@@ -813,5 +842,6 @@ int main(void)
     RUN(test_when_called);
     RUN(test_errors);
     RUN(test_no_limit);
+    RUN(test_lines);
     return test_end("vertex_rules");
 }
