@@ -6186,7 +6186,10 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
 SDV_INLINE void sdv_put_four(float *values, size_t stride, sdv_four *x, const int *at)
 {
     sdv_transpose(x);
-    for (int i = 0; i < 4; i++) sdv_store_three(values + stride * (size_t)at[i], x[i]);
+    sdv_store_three(values + stride * (size_t)at[0], x[0]);
+    sdv_store_three(values + stride * (size_t)at[1], x[1]);
+    sdv_store_three(values + stride * (size_t)at[2], x[2]);
+    sdv_store_three(values + stride * (size_t)at[3], x[3]);
 }
 
 // ------------------------------------------------------------------------- >>limit-surface
@@ -6255,6 +6258,13 @@ SDV_INLINE sdv_four sdv_dot(const sdv_four *a, const sdv_four *b)
     return sdv_plus(sdv_plus(sdv_times(a[0], b[0]), sdv_times(a[1], b[1])), sdv_times(a[2], b[2]));
 }
 
+SDV_INLINE void sdv_cross_four(const sdv_four *a, const sdv_four *b, sdv_four *n)
+{
+    n[0] = sdv_minus(sdv_times(a[1], b[2]), sdv_times(a[2], b[1]));
+    n[1] = sdv_minus(sdv_times(a[2], b[0]), sdv_times(a[0], b[2]));
+    n[2] = sdv_minus(sdv_times(a[0], b[1]), sdv_times(a[1], b[0]));
+}
+
 // Makes the unit normals of four pairs of tangents, channel by channel. Floats suffice unless their
 // products are too small or too large, a or b may be a fold's, or they are almost parallel: n n =
 // a a b b sin^2, and a small sine costs digits. from: the work point of each, or -1; or NULL.
@@ -6262,15 +6272,14 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const int
                                  const float *work, sdv_four *n)
 {
     const float least_sin2 = 1.0f / 64, thin = 1e-6f;
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        n[i] = sdv_minus(sdv_times(a[j], b[k]), sdv_times(a[k], b[j]));
-    }
+    sdv_cross_four(a, b, n);
     sdv_four nn = sdv_dot(n, n), aa = sdv_dot(a, a), bb = sdv_dot(b, b), aabb = sdv_times(aa, bb);
     sdv_four sum = sdv_plus(aa, bb), thins = sdv_times(sdv_all(thin), sdv_times(sum, sum));
     sdv_four least = sdv_plus(sdv_all(1e-30f), thins);
     sdv_four scale = sdv_over(sdv_all(1), sdv_sqrt(nn));
-    for (int i = 0; i < 3; i++) n[i] = sdv_times(n[i], scale);
+    n[0] = sdv_times(n[0], scale);
+    n[1] = sdv_times(n[1], scale);
+    n[2] = sdv_times(n[2], scale);
     if (sdv_less(least, aabb) && sdv_less(sdv_times(sdv_all(least_sin2), aabb), nn)) return;
     float squares[3][4], vectors[3][3][4], lane[3][3];
     const sdv_four *of[3] = { n, a, b };
@@ -6336,9 +6345,8 @@ static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *alon
     int left = tangents->left_handed;
     sdv_unit_normals(left ? across : along, left ? along : across, NULL, NULL, normal);
     normal[3] = normal[2];
-    sdv_transpose(normal);
-    float *p = tangents->normals + tangents->stride * (size_t)at;
-    for (int k = 0; k < 4; k++, p += tangents->stride) sdv_store_three(p, normal[k]);
+    const int places[4] = { at, at + 1, at + 2, at + 3 };
+    sdv_put_four(tangents->normals, tangents->stride, normal, places);
 }
 
 // Makes a point wait if the window has it.
