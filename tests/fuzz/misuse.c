@@ -287,7 +287,7 @@ static void anywhere(void)
     float *p = floats(2), *n = floats(2);
     subdiv_derivatives where = { p, p, p, p, p, p, NULL, stride };
     subdiv_stencils made;
-    void *scratch = scratch_for(s, channels);
+    void *scratch = scratch_for(s, kind == 2 ? 3 : channels);
     if (count > 2) count = -count;        // or it would be a lie
     if (count == 0) spoiled = stride && stride < channels;      // then there is no location
     if (count) from = (const subdiv_location *)needed(at);
