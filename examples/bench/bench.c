@@ -332,6 +332,8 @@ static int open_bench(bench *b, char *text)
         fprintf(stderr, "bench: %s\n", error.message);
         return 0;
     }
+    b->cage.uv_count = 0;                     // OpenSubdiv refines positions alone
+    b->cage.colors = NULL;
     b->cage.scheme = scheme;
     int fits = take_levels(b, level ? level : 1, INT_MAX);
     while (fits && level == 0 && take_levels(b, b->levels + 1, MOST_VERTICES)) continue;
