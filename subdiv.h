@@ -5306,13 +5306,13 @@ static size_t sdv_surviving_creases(subdiv_surface *surface, const sdv_level *ca
     subdiv_mesh *fine = &surface->fine;
     size_t count = 0;
     for (int e = 0; e < cage->edge_count; e++) {
-        int n = surface->order.n, number = pieces->count ? pieces->number[e] : -1;
-        int h = cage->edge_first[e], from = cage->face_vertices[h];
-        int end = cage->face_vertices[sdv_next(cage, h)];
+        int number = pieces->count ? pieces->number[e] : -1, h = cage->edge_first[e];
+        if (number < 0 && !sdv_survives(cage->sharpness[h])) continue;
+        if (!sdv_edge_is_seen(surface, cage, e)) continue;
+        int from = cage->face_vertices[h], end = cage->face_vertices[sdv_next(cage, h)];
+        int n = surface->order.n;
         const float *of_edge = number < 0 ? NULL : pieces->next + (size_t)number * (size_t)n;
         sdv_side side = sdv_seen_edge(&surface->order, e, from > end);
-        if (!of_edge && !sdv_survives(cage->sharpness[h])) continue;
-        if (!sdv_edge_is_seen(surface, cage, e)) continue;
         for (int j = 0, to; j < n; j++, from = to) {
             float s = of_edge ? of_edge[j] : cage->sharpness[h];
             to = j + 1 == n ? end : side.first + side.step * (j + 1);
