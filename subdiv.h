@@ -6497,6 +6497,13 @@ static const float *sdv_limit_weights_of(const sdv_batch *batch, const int *row)
     return batch->shape.own ? (const float *)own : batch->limit;
 }
 
+// Loads two points as seen from p0.
+SDV_INLINE void sdv_load_two(const int *points, const float *work, sdv_four p0, sdv_four *p)
+{
+    p[0] = sdv_minus(sdv_load(work + 4 * (size_t)points[0]), p0);
+    p[1] = sdv_minus(sdv_load(work + 4 * (size_t)points[1]), p0);
+}
+
 // Makes a limit row: a point and two tangents.
 SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int width,
                                    const sdv_ring_weights *ring, const float *work, sdv_four *p,
@@ -6507,8 +6514,10 @@ SDV_INLINE void sdv_limit_row_sums(const float *weights, const int *points, int 
     sdv_four sums[3] = { sdv_all(0), sdv_all(0), sdv_all(0) };
     if (ring) {
         sdv_four d[9];
-        for (int k = 1; k < width; k++)
-            d[k] = sdv_minus(sdv_load(work + 4 * (size_t)points[k]), p0);
+        sdv_load_two(points + 1, work, p0, d + 1);
+        sdv_load_two(points + 3, work, p0, d + 3);
+        sdv_load_two(points + 5, work, p0, d + 5);
+        if (width == 9) sdv_load_two(points + 7, work, p0, d + 7);
         sdv_limit_ring(ring, width == 7, d, sums);
     }
     for (int k = 1; k < width && !ring; k++) {
