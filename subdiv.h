@@ -7089,9 +7089,11 @@ static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four o
 {
     int n = grid->columns, first = region->column, r = region->row;
     sdv_four *p = region->points;
-    if (r == 0) sdv_load_side(grid, 0, 0, 1, first, last_column, points, origin, p);
-    if (r == 0) p += region->width;
-    if (r == 0) r = 1;
+    if (r == 0) {
+        sdv_load_side(grid, 0, 0, 1, first, last_column, points, origin, p);
+        p += region->width;
+        r = 1;
+    }
     const float *left = points + 4 * (ptrdiff_t)sdv_side_index(grid, 3, r);
     const float *right = points + 4 * (ptrdiff_t)sdv_side_index(grid, 1, r);
     for (; r <= last_row && r < n; r++, p += region->width) {
