@@ -6182,16 +6182,6 @@ SDV_INLINE void sdv_put_point(const sdv_window *out, int index, sdv_four a)
     sdv_put_whole(out, index, sdv_plus(out->origin, a));
 }
 
-// Writes four vectors to places at in the window. Lane i of x[k] is channel k of vector i.
-SDV_INLINE void sdv_put_four(float *values, size_t stride, sdv_four *x, const int *at)
-{
-    sdv_transpose(x);
-    sdv_store_three(values + stride * (size_t)at[0], x[0]);
-    sdv_store_three(values + stride * (size_t)at[1], x[1]);
-    sdv_store_three(values + stride * (size_t)at[2], x[2]);
-    sdv_store_three(values + stride * (size_t)at[3], x[3]);
-}
-
 // ------------------------------------------------------------------------- >>limit-surface
 // Writes the normals and tangents of the limit's points. Rows and grids make the tangents; normals
 // are made from these, four at a time.
@@ -6297,30 +6287,45 @@ SDV_INLINE void sdv_unit_normals(const sdv_four *a, const sdv_four *b, const int
     for (int i = 0; i < 3; i++) n[i] = sdv_load(vectors[0][i]);
 }
 
-// Writes the normals and tangents of the points that wait: of fewer than four, the last again.
-static void sdv_flush_tangents(sdv_tangents *tangents)
+// Writes the normals of four points to places at in the window, from their tangents. from: see
+// sdv_unit_normals.
+static void sdv_put_normals(const sdv_tangents *tangents, const int *at, sdv_four *along,
+                            sdv_four *across, const int *from)
 {
-    sdv_four *along = tangents->along, *across = tangents->across, normal[4];
-    int left = tangents->left_handed, *at = tangents->at, *from = tangents->from;
-    for (int i = tangents->count; i % 4 > 0; i++) {
-        at[i] = at[i - 1];
-        from[i] = from[i - 1];
-        along[i] = along[i - 1];
-        across[i] = across[i - 1];
-    }
-    if (tangents->count == 0) return;
-    tangents->count = 0;
+    sdv_four n[4];
+    int left = tangents->left_handed;
+    float *normals = tangents->normals;
     sdv_transpose(along);
     sdv_transpose(across);
-    if (tangents->normals) {
-        sdv_unit_normals(left ? across : along, left ? along : across, from, tangents->work,
-                         normal);
-        normal[3] = normal[2];
-        sdv_put_four(tangents->normals, tangents->stride, normal, at);
+    sdv_unit_normals(left ? across : along, left ? along : across, from, tangents->work, n);
+    n[3] = n[2];
+    sdv_transpose(n);
+    sdv_store_three(normals + tangents->stride * (size_t)at[0], n[0]);
+    sdv_store_three(normals + tangents->stride * (size_t)at[1], n[1]);
+    sdv_store_three(normals + tangents->stride * (size_t)at[2], n[2]);
+    sdv_store_three(normals + tangents->stride * (size_t)at[3], n[3]);
+}
+
+// Writes the tangents and normals of the points that wait. If they are fewer than four, the last
+// one's normal is made again.
+static void sdv_flush_tangents(sdv_tangents *tangents)
+{
+    int count = tangents->count;
+    if (count == 0) return;
+    tangents->count = 0;
+    for (int i = 0; i < count && tangents->tangents; i++) {
+        float *to = tangents->tangents + tangents->tangent_stride * (size_t)tangents->at[i];
+        sdv_store_three(to, tangents->along[i]);
+        sdv_store_three(to + 3, tangents->across[i]);
     }
-    if (!tangents->tangents) return;
-    sdv_put_four(tangents->tangents, tangents->tangent_stride, along, at);
-    sdv_put_four(tangents->tangents + 3, tangents->tangent_stride, across, at);
+    if (!tangents->normals) return;
+    for (int i = count; i % 4 > 0; i++) {
+        tangents->at[i] = tangents->at[i - 1];
+        tangents->from[i] = tangents->from[i - 1];
+        tangents->along[i] = tangents->along[i - 1];
+        tangents->across[i] = tangents->across[i - 1];
+    }
+    sdv_put_normals(tangents, tangents->at, tangents->along, tangents->across, tangents->from);
 }
 
 // Makes a point wait with its tangents. from: its work point, or -1.
@@ -6335,20 +6340,6 @@ SDV_INLINE void sdv_add_tangents(sdv_tangents *tangents, int at, sdv_four along,
     if (i == 3) sdv_flush_tangents(tangents);
 }
 
-// Writes the normals of four points that stand one behind the other.
-static void sdv_put_normals(const sdv_tangents *tangents, int at, sdv_four *along,
-                            sdv_four *across)
-{
-    sdv_four normal[4];
-    sdv_transpose(along);
-    sdv_transpose(across);
-    int left = tangents->left_handed;
-    sdv_unit_normals(left ? across : along, left ? along : across, NULL, NULL, normal);
-    normal[3] = normal[2];
-    const int places[4] = { at, at + 1, at + 2, at + 3 };
-    sdv_put_four(tangents->normals, tangents->stride, normal, places);
-}
-
 // Makes a point wait if the window has it.
 SDV_INLINE void sdv_put_tangents(const sdv_window *out, int index, sdv_four along,
                                  sdv_four across, int from)
@@ -6357,11 +6348,11 @@ SDV_INLINE void sdv_put_tangents(const sdv_window *out, int index, sdv_four alon
     if (at >= 0 && at < out->count) sdv_add_tangents(out->tangents, at, along, across, from);
 }
 
-// Writes a point of the limit, and makes it wait for its normal. all: as the window says.
-SDV_INLINE void sdv_put_limit(const sdv_window *out, int all, int index, sdv_four p,
-                              sdv_four along, sdv_four across, int from)
+// Writes a point of the limit, and makes it wait for its normal, if the window wants them.
+SDV_INLINE void sdv_put_limit(const sdv_window *out, int index, sdv_four p, sdv_four along,
+                              sdv_four across, int from)
 {
-    if (all) {
+    if (out->all) {
         sdv_store_three(out->values + out->stride * (size_t)index, p);
         sdv_add_tangents(out->tangents, index, along, across, from);
         return;
@@ -6542,11 +6533,10 @@ SDV_INLINE void sdv_limit_rows_of(const sdv_batch *batch, int first, int end, in
     if (regular) ring = sdv_ring_of(weights, width == 7);
     if (out->tangents) out->tangents->work = work;
     sdv_four p, t0, t1;
-    int all = out->all;
     for (int i = first; i < end; i++, row += stride) {
         if (own) weights = sdv_limit_weights_of(batch, row);
         sdv_limit_row_sums(weights, row + 1, width, regular ? &ring : NULL, work, &p, &t0, &t1);
-        sdv_put_limit(out, all, row[0], sdv_plus(out->origin, p), t0, t1, row[1]);
+        sdv_put_limit(out, row[0], sdv_plus(out->origin, p), t0, t1, row[1]);
     }
 }
 
@@ -6993,8 +6983,7 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
 {
     const sdv_ring_weights w = sdv_ring_of(limit->w, loop);
     sdv_four sums[3], along[4], across[4];
-    int all = out->all;
-    for (; all && count >= 4; count -= 4, index += 4) {
+    for (; out->all && count >= 4; count -= 4, index += 4) {
         float *to = out->values + out->stride * (size_t)index;
         for (int i = 0; i < 4; i++, a++, b++, c++, to += out->stride) {
             sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
@@ -7002,11 +6991,12 @@ SDV_INLINE void sdv_limit_row_points(const sdv_grid_limit *limit, int loop, cons
             along[i] = sums[1];
             across[i] = sums[2];
         }
-        sdv_put_normals(out->tangents, index, along, across);
+        const int at[4] = { index, index + 1, index + 2, index + 3 };
+        sdv_put_normals(out->tangents, at, along, across, NULL);
     }
     for (; count > 0; count--, index++, a++, b++, c++) {
         sdv_limit_point(&w, loop, limit->linear, a, b, c, sums);
-        sdv_put_limit(out, all, index, sdv_plus(origin, sums[0]), sums[1], sums[2], -1);
+        sdv_put_limit(out, index, sdv_plus(origin, sums[0]), sums[1], sums[2], -1);
     }
 }
 
@@ -7034,7 +7024,6 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
 {
     const float *on_edges = points + 4 * (size_t)order->first_edge_point;
     const sdv_ring_weights w = sdv_ring_of(limit->w, 0);
-    int all = out->all;
     for (int f = face; f < end; f++) {
         if (sdv_is_ngon(order, f)) continue;
         const int *v = order->cage.face_vertices + sdv_face_start(&order->cage, f);
@@ -7052,8 +7041,8 @@ static void sdv_limit_centres(const sdv_grid_limit *limit, const sdv_order *orde
             sums[1] = p[1];
             sums[2] = p[2];
         }
-        sdv_put_limit(out, all, index, sdv_plus(out->origin, sdv_plus(p0, sums[0])), sums[1],
-                      sums[2], -1);
+        sdv_put_limit(out, index, sdv_plus(out->origin, sdv_plus(p0, sums[0])), sums[1], sums[2],
+                      -1);
     }
 }
 
@@ -7109,7 +7098,7 @@ static void sdv_load_sides(const sdv_grid *grid, const float *points, sdv_four o
     else if (first == 0) *p = sdv_minus(sdv_load(points + 4 * (size_t)grid->corner[2]), origin);
 }
 
-// Loads the points of a whole grid, a region that has more than its cells.
+// Loads all points of a whole grid as a region, which may have more of them than its cells need.
 static void sdv_load_grid(const sdv_grid *grid, const float *points, sdv_four origin,
                           sdv_region *region)
 {
@@ -16370,7 +16359,10 @@ static void sdv_say_weights(sdv_explainer *x, sdv_mask mask)
         sdv_text term = { text, 0, sizeof text };
         if (fabs(weights[i]) <= 0) continue;
         sdv_say(&term, "%s%s %s", i ? " + " : "", sdv_fraction(weights[i], number), names[i]);
-        if (column + term.size > 80) sdv_say(x->out, "\n       ");
+        if (column + term.size > 80) {
+            sdv_say(x->out, "\n       ");
+            column = strlen("       ");
+        }
         sdv_put(x->out, text, term.size);
         column += term.size;
     }
